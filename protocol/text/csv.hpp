@@ -1,0 +1,59 @@
+#pragma once
+/// @file
+/// Comma-separated tables with a header line.  No quoting: a comma always separates.
+/// Each error is an InputError `file:line: column = value: trouble; allowed: ...`.
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace a351::text {
+
+class CsvTable {
+public:
+    /// Line ends LF or CRLF; blank lines and a byte-order mark are skipped.
+    /// @throws InputError  no header, a repeated column, a row of another width.
+    [[nodiscard]] static CsvTable parse(std::string_view text, std::filesystem::path origin);
+
+    [[nodiscard]] std::size_t row_count() const noexcept { return rows_.size(); }
+    [[nodiscard]] bool has_column(std::string_view name) const;
+
+    /// The cell without surrounding blanks.
+    /// @throws InputError  no such column; names those that are there.
+    [[nodiscard]] const std::string& cell(std::size_t row, std::string_view column) const;
+
+    /// A finite number with a dot as decimal point, within [low, high].
+    [[nodiscard]] double number(std::size_t row, std::string_view column,
+                                double low = std::numeric_limits<double>::lowest(),
+                                double high = std::numeric_limits<double>::max()) const;
+
+    /// The same, or std::nullopt for an empty cell.
+    [[nodiscard]] std::optional<double> number_if_given(std::size_t row,
+                                                        std::string_view column) const;
+
+    [[noreturn]] void refuse(std::size_t row, std::string_view column, std::string_view trouble,
+                             std::string_view allowed) const;
+
+private:
+    struct Row {
+        std::size_t line = 0;
+        std::vector<std::string> cells;
+    };
+
+    [[nodiscard]] std::size_t index_of(std::string_view column) const;
+
+    std::filesystem::path origin_;
+    std::vector<std::string> columns_;
+    std::vector<Row> rows_;
+};
+
+/// @throws InputError  also when the file cannot be read.
+[[nodiscard]] CsvTable read_csv(const std::filesystem::path& file);
+
+/// The shortest decimal text that reads back as the same double (at most 17 digits).
+[[nodiscard]] std::string shortest(double value);
+
+}  // namespace a351::text

@@ -1,0 +1,200 @@
+#include "protocol/text/strict_toml.hpp"
+
+#include <toml++/toml.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "protocol/core/input_error.hpp"
+#include "protocol/text/text_file.hpp"
+
+namespace a351::text {
+
+struct TomlTable::Document {
+    std::filesystem::path origin;
+    toml::table root;
+};
+
+namespace {
+
+std::string position(const std::filesystem::path& origin, const toml::source_region& source) {
+    return origin.string() + ":" + std::to_string(source.begin.line);
+}
+
+std::string as_written(const toml::node& node) {
+    std::ostringstream out;
+    node.visit([&out](const auto& value) { out << value; });
+    std::string text = out.str();
+    for (char& c : text) {
+        if (c == '\n') c = ' ';
+    }
+    return text;
+}
+
+std::string range_text(std::string_view kind, double low, double high) {
+    std::ostringstream out;
+    out << kind << " from " << low << " to " << high;
+    return out.str();
+}
+
+}  // namespace
+
+TomlTable::TomlTable(std::shared_ptr<const Document> document, const toml::table* table,
+                     std::string name)
+    : document_(std::move(document)), table_(table), name_(std::move(name)) {}
+
+const toml::node* TomlTable::find(std::string_view key) {
+    asked_.emplace(key);
+    return table_ == nullptr ? nullptr : table_->get(key);
+}
+
+bool TomlTable::has(std::string_view key) const {
+    return table_ != nullptr && table_->contains(key);
+}
+
+void TomlTable::refuse(std::string_view key, std::string_view trouble,
+                       std::string_view allowed) const {
+    const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
+    const toml::source_region nowhere{};
+    const auto& source = node != nullptr     ? node->source()
+                         : table_ != nullptr ? table_->source()
+                                             : nowhere;
+    std::string message = position(document_->origin, source) + ": ";
+    if (!name_.empty()) message += name_ + ".";
+    message += key;
+    if (node != nullptr && !node->is_table() && !node->is_array_of_tables()) {
+        message += " = " + as_written(*node);
+    }
+    throw InputError(message + ": " + std::string(trouble) + "; allowed: " + std::string(allowed));
+}
+
+std::string TomlTable::string_or(std::string_view key, std::string fallback) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return fallback;
+    if (!node->is_string()) refuse(key, "wrong type", "a string");
+    return **node->as_string();
+}
+
+bool TomlTable::boolean_or(std::string_view key, bool fallback) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return fallback;
+    if (!node->is_boolean()) refuse(key, "wrong type", "true or false");
+    return **node->as_boolean();
+}
+
+std::int64_t TomlTable::integer_or(std::string_view key, std::int64_t fallback, std::int64_t low,
+                                   std::int64_t high) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return fallback;
+    const std::string allowed =
+        "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+    if (!node->is_integer()) refuse(key, "wrong type", allowed);
+    const std::int64_t value = **node->as_integer();
+    if (value < low || value > high) refuse(key, "out of range", allowed);
+    return value;
+}
+
+std::optional<double> TomlTable::number(std::string_view key, double low, double high) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return std::nullopt;
+    const std::string allowed = range_text("a number", low, high);
+    if (!node->is_number()) refuse(key, "wrong type", allowed);
+    const double value = *node->value<double>();
+    if (!(value >= low && value <= high)) refuse(key, "out of range", allowed);
+    return value;
+}
+
+double TomlTable::number_or(std::string_view key, double fallback, double low, double high) {
+    return number(key, low, high).value_or(fallback);
+}
+
+std::vector<std::string> TomlTable::strings(std::string_view key) {
+    std::vector<std::string> values;
+    const toml::node* node = find(key);
+    if (node == nullptr) return values;
+    if (!node->is_array()) refuse(key, "wrong type", "an array of strings");
+    for (const toml::node& item : *node->as_array()) {
+        if (!item.is_string()) refuse(key, "wrong type", "an array of strings");
+        values.push_back(**item.as_string());
+    }
+    return values;
+}
+
+std::vector<double> TomlTable::numbers(std::string_view key, double low, double high) {
+    std::vector<double> values;
+    const toml::node* node = find(key);
+    if (node == nullptr) return values;
+    const std::string allowed = range_text("an array of numbers", low, high);
+    if (!node->is_array()) refuse(key, "wrong type", allowed);
+    for (const toml::node& item : *node->as_array()) {
+        if (!item.is_number()) refuse(key, "wrong type", allowed);
+        const double value = *item.value<double>();
+        if (!(value >= low && value <= high)) refuse(key, "out of range", allowed);
+        values.push_back(value);
+    }
+    return values;
+}
+
+std::string TomlTable::choice_or(std::string_view key, std::string fallback,
+                                 const std::vector<std::string>& allowed) {
+    std::string value = string_or(key, std::move(fallback));
+    std::string list;
+    for (const std::string& choice : allowed) {
+        if (choice == value) return value;
+        list += (list.empty() ? "" : ", ") + choice;
+    }
+    refuse(key, "not a known value", list);
+}
+
+std::filesystem::path TomlTable::path_or_empty(std::string_view key) {
+    const std::string value = string_or(key, "");
+    if (value.empty()) return {};
+    return (document_->origin.parent_path() / value).lexically_normal();
+}
+
+TomlTable TomlTable::table(std::string_view key) {
+    const toml::node* node = find(key);
+    if (node != nullptr && !node->is_table()) refuse(key, "wrong type", "a table");
+    const std::string name = name_.empty() ? std::string(key) : name_ + "." + std::string(key);
+    return TomlTable(document_, node == nullptr ? nullptr : node->as_table(), name);
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key) {
+    std::vector<TomlTable> tables;
+    const toml::node* node = find(key);
+    if (node == nullptr) return tables;
+    if (!node->is_array_of_tables()) refuse(key, "wrong type", "an array of tables");
+    for (const toml::node& item : *node->as_array()) {
+        tables.push_back(TomlTable(document_, item.as_table(), std::string(key)));
+    }
+    return tables;
+}
+
+void TomlTable::require_all_read() const {
+    if (table_ == nullptr) return;
+    for (const auto& [key, node] : *table_) {
+        if (asked_.contains(key.str())) continue;
+        std::string known;
+        for (const std::string& name : asked_) known += (known.empty() ? "" : ", ") + name;
+        refuse(key.str(), "unknown key", known);
+    }
+}
+
+TomlTable parse_toml(std::string text, std::filesystem::path origin) {
+    auto document = std::make_shared<TomlTable::Document>();
+    document->origin = std::move(origin);
+    try {
+        document->root = toml::parse(text);
+    } catch (const toml::parse_error& error) {
+        throw InputError(position(document->origin, error.source()) +
+                         ": not TOML: " + std::string(error.description()));
+    }
+    const toml::table* const root = &document->root;
+    return TomlTable(std::move(document), root, "");
+}
+
+TomlTable read_toml(const std::filesystem::path& file) {
+    return parse_toml(read_text_file(file), file);
+}
+
+}  // namespace a351::text

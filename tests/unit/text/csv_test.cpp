@@ -1,0 +1,50 @@
+#include "protocol/text/csv.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "protocol/core/input_error.hpp"
+
+using namespace a351;
+using namespace a351::text;
+using Catch::Message;
+
+TEST_CASE("a table is read by column name, whatever the line ends", "[text][csv]") {
+    const auto table = CsvTable::parse(
+        "\xEF\xBB\xBF"
+        "a,b\r\n1, x \r\n\r\n2.5,\n",
+        "t.csv");
+    REQUIRE(table.row_count() == 2);
+    CHECK(table.number(0, "a") == 1.0);
+    CHECK(table.cell(0, "b") == "x");
+    CHECK(table.number(1, "a") == 2.5);
+    CHECK_FALSE(table.has_column("c"));
+}
+
+TEST_CASE("an empty cell is no number, and may be asked for as such", "[text][csv]") {
+    const auto table = CsvTable::parse("a,b\n,1\n", "t.csv");
+    CHECK(table.number_if_given(0, "a") == std::nullopt);
+    CHECK(table.number_if_given(0, "b") == 1.0);
+    CHECK_THROWS_AS(table.number(0, "a"), InputError);
+}
+
+TEST_CASE("trouble names file, line, column, value and what is allowed", "[text][csv]") {
+    const auto table = CsvTable::parse("a,b\n1,2\n\nnan,3\n400,3\n", "t.csv");
+    CHECK_THROWS_WITH(
+        (void)table.number(1, "a"),
+        "t.csv:4: a = nan: not a number; allowed: a finite number with a decimal point");
+    CHECK_THROWS_WITH((void)table.number(2, "a", -180, 360),
+                      "t.csv:5: a = 400: out of range; allowed: -180 to 360");
+    CHECK_THROWS_WITH((void)table.cell(0, "c"), "t.csv:1: column c is missing; there are: a,b");
+    CHECK_THROWS_WITH(CsvTable::parse("a,b\n1\n", "t.csv"),
+                      "t.csv:2: 1 cells; allowed: 2 as in the header");
+    CHECK_THROWS_WITH(CsvTable::parse("a,a\n", "t.csv"),
+                      "t.csv:1: column a stands twice; allowed: once");
+    CHECK_THROWS_AS(CsvTable::parse("", "t.csv"), InputError);
+    CHECK_THROWS_AS(read_csv("/nowhere/t.csv"), InputError);
+}
+
+TEST_CASE("the shortest text of a number reads back as the same number", "[text][csv]") {
+    CHECK(shortest(0.1) == "0.1");
+    CHECK(shortest(-981705.102) == "-981705.102");
+    CHECK(shortest(1.0 / 3.0) == "0.3333333333333333");
+}

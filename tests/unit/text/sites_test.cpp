@@ -1,0 +1,52 @@
+#include "protocol/text/sites.hpp"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "protocol/core/input_error.hpp"
+
+using namespace a351;
+using namespace a351::text;
+
+namespace {
+
+std::filesystem::path written(const std::string& text) {
+    const auto file =
+        std::filesystem::temp_directory_path() /
+        ("a351-sites-test-" + std::to_string(std::hash<std::string>{}(text)) + ".csv");
+    std::ofstream(file) << text;
+    return file;
+}
+
+const std::string kHeader = "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\n";
+
+}  // namespace
+
+TEST_CASE("the calibration line has 14 sites over 192.941 mGal", "[text][sites]") {
+    const auto sites = read_sites(A351_GOLDEN "/tsukuba/sites.csv");
+    REQUIRE(sites.size() == 14);
+    const Site* base = find_site(sites, "No.0");
+    REQUIRE(base != nullptr);
+    CHECK(base->gravity == MilliGal(979860.210));
+    CHECK(base->altitude == Metres(532.442));
+    CHECK(find_site(sites, "No.99") == nullptr);
+}
+
+TEST_CASE("an unknown station has no reference value", "[text][sites]") {
+    const auto sites = read_sites(written(kHeader + "X,140,36,0,\n"));
+    REQUIRE(sites.size() == 1);
+    CHECK_FALSE(sites[0].gravity.has_value());
+}
+
+TEST_CASE("a bad sites file is refused with its line", "[text][sites]") {
+    CHECK_THROWS_WITH(read_sites(written("site,longitude_deg\nX,1\n")),
+                      Catch::Contains(":1: column latitude_deg is missing"));
+    CHECK_THROWS_WITH(read_sites(written(kHeader + "X,nan,36,0,\n")),
+                      Catch::Contains(":2: longitude_deg = nan: not a number"));
+    CHECK_THROWS_WITH(read_sites(written(kHeader + "X,1,36,0,\nX,1,36,0,\n")),
+                      Catch::Contains(":3: site = X: stands twice"));
+    CHECK_THROWS_WITH(read_sites(written(kHeader + ",1,36,0,\n")),
+                      Catch::Contains(":2: site = : empty"));
+}

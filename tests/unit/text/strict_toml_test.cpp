@@ -1,0 +1,45 @@
+#include "protocol/text/strict_toml.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "protocol/core/input_error.hpp"
+
+using namespace a351;
+using namespace a351::text;
+
+TEST_CASE("every key that is read is allowed, and defaults fill the rest", "[text][strict_toml]") {
+    auto root = parse_toml(
+        "name = \"x\"\nflag = true\ncount = 3\nlist = [1, 2.5]\nnames = [\"a\"]\npath = \"d/f\"\n"
+        "[sub]\nrate = 50\n[[item]]\nn = 1\n[[item]]\nn = 2\n",
+        "dir/c.toml");
+    CHECK(root.string_or("name", "y") == "x");
+    CHECK(root.string_or("other", "y") == "y");
+    CHECK(root.boolean_or("flag", false));
+    CHECK(root.integer_or("count", 0, 1, 9) == 3);
+    CHECK(root.numbers("list", 0, 10) == std::vector<double>{1.0, 2.5});
+    CHECK(root.strings("names") == std::vector<std::string>{"a"});
+    CHECK(root.path_or_empty("path") == "dir/d/f");
+    CHECK(root.path_or_empty("no_path").empty());
+    auto sub = root.table("sub");
+    CHECK(sub.number_or("rate", 0, 0, 100) == 50.0);
+    sub.require_all_read();
+    auto items = root.tables("item");
+    REQUIRE(items.size() == 2);
+    CHECK(items[1].integer_or("n", 0, 0, 9) == 2);
+    CHECK_NOTHROW(root.require_all_read());
+    CHECK(root.table("absent").number("x", 0, 1) == std::nullopt);
+}
+
+TEST_CASE("trouble names file, line, key, value and what is allowed", "[text][strict_toml]") {
+    auto root = parse_toml("a = 1\n[s]\nb = \"x\"\nc = 70\n", "c.toml");
+    auto sub = root.table("s");
+    CHECK_THROWS_WITH(sub.integer_or("b", 0, 0, 9),
+                      "c.toml:3: s.b = 'x': wrong type; allowed: a whole number from 0 to 9");
+    CHECK_THROWS_WITH(sub.number_or("c", 0, 0, 60),
+                      "c.toml:4: s.c = 70: out of range; allowed: a number from 0 to 60");
+    CHECK_THROWS_WITH(sub.choice_or("b", "y", {"y", "z"}),
+                      "c.toml:3: s.b = 'x': not a known value; allowed: y, z");
+    CHECK_THROWS_WITH(root.require_all_read(), "c.toml:1: a = 1: unknown key; allowed: s");
+    CHECK_THROWS_WITH(parse_toml("a = \n", "c.toml"), Catch::StartsWith("c.toml:1: not TOML: "));
+    CHECK_THROWS_AS(read_toml("/nowhere/c.toml"), InputError);
+}
