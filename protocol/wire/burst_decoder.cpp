@@ -1,0 +1,193 @@
+#include "protocol/wire/burst_decoder.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace a351::wire {
+namespace {
+
+using Bytes = std::span<const std::byte>;
+using Reason = Discarded::Reason;
+
+constexpr std::uint16_t kHalfWrap = 0x8000;
+constexpr std::size_t kFramesInARow = 3;
+
+std::uint16_t read_u16(Bytes bytes, std::size_t at) noexcept {
+    return static_cast<std::uint16_t>((std::to_integer<unsigned>(bytes[at]) << 8U) |
+                                      std::to_integer<unsigned>(bytes[at + 1]));
+}
+
+std::int32_t read_i32(Bytes bytes, std::size_t at) noexcept {
+    return static_cast<std::int32_t>((std::uint32_t{read_u16(bytes, at)} << 16U) |
+                                     read_u16(bytes, at + 2));
+}
+
+std::size_t tail_size(const BurstLayout& layout) noexcept {
+    return layout.has_checksum() ? 3 : 1;  // checksum and end byte
+}
+
+std::uint16_t count_of(const BurstLayout& layout, Bytes frame) noexcept {
+    return read_u16(frame, frame.size() - tail_size(layout) - 2);
+}
+
+/// What is wrong with `frame` taken by itself, if anything.
+std::optional<Reason> find_fault(const BurstLayout& layout, Bytes frame) noexcept {
+    if (frame.front() != kStartByte) return Reason::no_start_byte;
+    if (frame.back() != kEndByte) return Reason::bad_end_byte;
+    if (layout.has_checksum()) {
+        const std::size_t at = frame.size() - tail_size(layout);
+        if (read_u16(frame, at) != burst_checksum(frame.subspan(1, at - 1))) {
+            return Reason::bad_checksum;
+        }
+    }
+    return std::nullopt;
+}
+
+BurstValues read_values(const BurstLayout& layout, Bytes frame) noexcept {
+    BurstValues values;
+    std::size_t at = 1;
+    if (layout.has_flag()) {
+        values.flag = read_u16(frame, at);
+        at += 2;
+    }
+    if (layout.has_temperature()) {
+        values.temperature = read_i32(frame, at);
+        at += 4;
+    }
+    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+        if (layout.has_axis(axis)) {
+            values.axes[static_cast<std::size_t>(axis)] = read_i32(frame, at);
+            at += 4;
+        }
+    }
+    if (layout.has_count()) values.count = read_u16(frame, at);
+    return values;
+}
+
+}  // namespace
+
+BurstDecoder::BurstDecoder(BurstLayout layout, std::uint16_t count_step) noexcept
+    : layout_(layout), count_step_(count_step), frame_size_(layout.frame_size()) {
+    assert(count_step > 0);
+}
+
+std::optional<DecoderEvent> BurstDecoder::next(Bytes& input) noexcept {
+    if (pending_size_ == 0 && is_behind_frame_ && input.size() >= frame_size_) {
+        const Bytes frame = input.first(frame_size_);
+        if (!find_fault(layout_, frame)) {
+            input = input.subspan(frame_size_);
+            return accept(frame);
+        }
+    }
+    for (;;) {
+        const Verdict verdict = judge(Bytes(pending_).first(pending_size_));
+        switch (verdict.kind) {
+            case Verdict::Kind::undecided: {
+                if (input.empty()) return std::nullopt;
+                const std::size_t taken =
+                    std::min(verdict.bytes_needed - pending_size_, input.size());
+                std::copy_n(input.begin(), taken, pending_.begin() + pending_size_);
+                pending_size_ += taken;
+                input = input.subspan(taken);
+                break;
+            }
+            case Verdict::Kind::accept: {
+                if (run_.byte_count > 0) return take_run();  // The next call judges the same.
+                const BurstFrame frame = accept(Bytes(pending_).first(frame_size_));
+                drop_front(frame_size_);
+                return frame;
+            }
+            case Verdict::Kind::reject: {
+                if (run_.byte_count == 0) run_.reason = verdict.reason;
+                ++run_.byte_count;
+                is_behind_frame_ = false;
+                drop_front(1);
+                if (run_.byte_count == frame_size_) return take_run();
+                break;
+            }
+        }
+    }
+}
+
+std::size_t BurstDecoder::pending_bytes() const noexcept { return run_.byte_count + pending_size_; }
+
+/// Whether a frame starts at the front of `bytes`.  More bytes may decide what was undecided but
+/// never change a decision: that is what makes the events indifferent to cutting.
+BurstDecoder::Verdict BurstDecoder::judge(Bytes bytes) const noexcept {
+    if (!bytes.empty() && bytes.front() != kStartByte) {
+        return {.kind = Verdict::Kind::reject, .reason = Reason::no_start_byte};
+    }
+    if (bytes.size() < frame_size_) {
+        return {.kind = Verdict::Kind::undecided, .bytes_needed = frame_size_};
+    }
+    const Bytes frame = bytes.first(frame_size_);
+    if (const auto fault = find_fault(layout_, frame)) {
+        return {.kind = Verdict::Kind::reject, .reason = *fault};
+    }
+    if (is_behind_frame_) return {.kind = Verdict::Kind::accept};
+    if (!layout_.has_checksum()) return confirm_in_a_row(bytes);
+    if (has_accepted_ &&
+        (!layout_.has_count() || is_count_ahead(count_of(layout_, frame), last_count_))) {
+        return {.kind = Verdict::Kind::accept};
+    }
+    return confirm_with_checksum(bytes);
+}
+
+BurstDecoder::Verdict BurstDecoder::confirm_with_checksum(Bytes bytes) const noexcept {
+    const Bytes held = bytes.first(frame_size_);
+    for (std::size_t at = frame_size_; at + frame_size_ <= bytes.size(); ++at) {
+        const Bytes frame = bytes.subspan(at, frame_size_);
+        if (find_fault(layout_, frame)) continue;
+        if (!layout_.has_count() ||
+            is_count_ahead(count_of(layout_, frame), count_of(layout_, held))) {
+            return {.kind = Verdict::Kind::accept};
+        }
+    }
+    const std::size_t look_ahead = kLookAheadFrames * frame_size_;
+    if (bytes.size() < look_ahead) {
+        return {.kind = Verdict::Kind::undecided, .bytes_needed = look_ahead};
+    }
+    return {.kind = Verdict::Kind::reject, .reason = Reason::unconfirmed};
+}
+
+BurstDecoder::Verdict BurstDecoder::confirm_in_a_row(Bytes bytes) const noexcept {
+    for (std::size_t at = frame_size_; at < kFramesInARow * frame_size_; at += frame_size_) {
+        if (bytes.size() < at + frame_size_) {
+            return {.kind = Verdict::Kind::undecided, .bytes_needed = at + frame_size_};
+        }
+        const Bytes before = bytes.subspan(at - frame_size_, frame_size_);
+        const Bytes frame = bytes.subspan(at, frame_size_);
+        if (find_fault(layout_, frame) ||
+            (layout_.has_count() &&
+             !is_count_ahead(count_of(layout_, frame), count_of(layout_, before)))) {
+            return {.kind = Verdict::Kind::reject, .reason = Reason::unconfirmed};
+        }
+    }
+    return {.kind = Verdict::Kind::accept};
+}
+
+bool BurstDecoder::is_count_ahead(std::uint16_t count, std::uint16_t previous) const noexcept {
+    const auto ahead = static_cast<std::uint16_t>(count - previous);
+    return ahead > 0 && ahead <= kHalfWrap && ahead % count_step_ == 0;
+}
+
+BurstFrame BurstDecoder::accept(Bytes frame) noexcept {
+    const BurstValues values = read_values(layout_, frame);
+    is_behind_frame_ = true;
+    has_accepted_ = true;
+    last_count_ = values.count;
+    return BurstFrame(values);
+}
+
+DecoderEvent BurstDecoder::take_run() noexcept {
+    const Discarded run = run_;
+    run_ = {};
+    return run;
+}
+
+void BurstDecoder::drop_front(std::size_t byte_count) noexcept {
+    std::copy(pending_.begin() + byte_count, pending_.begin() + pending_size_, pending_.begin());
+    pending_size_ -= byte_count;
+}
+
+}  // namespace a351::wire

@@ -1,0 +1,262 @@
+#include "protocol/wire/handshake.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdio>
+#include <stdexcept>
+
+#include "protocol/wire/burst_frame.hpp"
+
+namespace a351::wire {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr int kTries = 3;
+constexpr int kWrites = 2;  // the write and one retry
+
+// A device just powered is ready after 0.9 s, one just reset after 0.97 s (data sheet table 2.2).
+constexpr milliseconds kStartUpPoll{50};
+constexpr milliseconds kStartUpLimit{3000};
+
+// Taking over a filter lasts 4 ms for a built-in one, 100 ms for the user's (data sheet table 2.2).
+constexpr milliseconds kFilterPoll{5};
+constexpr milliseconds kFilterLimit{500};
+
+constexpr milliseconds kModeChangePause{20};
+constexpr DrainUntilSilent kShortDrain{.quiet = milliseconds(20), .limit = milliseconds(200)};
+
+constexpr std::uint8_t kFirstIdentityAddress = 0x6A;  // PROD_ID1-4, VERSION, SERIAL_NUM1-4
+constexpr std::size_t kIdentityRegisters = 9;
+constexpr std::size_t kVersionIndex = 4;
+
+std::string hex(std::uint16_t value) {
+    std::array<char, sizeof "0x0000"> text{};
+    std::snprintf(text.data(), text.size(), "0x%04X", static_cast<unsigned>(value));
+    return text.data();
+}
+
+std::string mismatch(const Register& reg, std::uint16_t expected, std::uint16_t found,
+                     std::uint16_t mask) {
+    return std::string(reg.name) + ": expected " + hex(expected) + ", found " + hex(found) +
+           " (bits compared: " + hex(mask) + ")";
+}
+
+void append_characters(std::uint16_t word, std::string& text) {
+    text.push_back(static_cast<char>(word & 0xFF));  // the low byte is the first character
+    text.push_back(static_cast<char>(word >> 8));
+}
+
+std::uint16_t rate_code(const DeviceProfile& profile, int output_rate_hz) {
+    const auto found = std::ranges::find(profile.output_rates_hz, output_rate_hz, &Coded::value);
+    if (found == profile.output_rates_hz.end()) {
+        throw std::invalid_argument("Handshake: profile " + std::string(profile.name) +
+                                    " has no output rate of " + std::to_string(output_rate_hz) +
+                                    " Hz");
+    }
+    return static_cast<std::uint16_t>(found->code << 8U);
+}
+
+}  // namespace
+
+Handshake::Handshake(const DeviceProfile& profile, SensorSettings settings)
+    : profile_(&profile), settings_(settings) {
+    if (profile.filter_coded(settings.filter_code) == nullptr) {
+        throw std::invalid_argument("Handshake: profile " + std::string(profile.name) +
+                                    " has no filter coded " + hex(settings.filter_code));
+    }
+    // SIG_CTRL: TEMP_STABIL and MESMOD_SEL stay as found, and so does the unused EXT_POL of
+    // MSC_CTRL, whose high byte would start self tests.
+    targets_ = {
+        {&kSigCtrl, kSigNewDataEnables, kSigNewDataEnables | kSigTiltSelects},
+        {&kMscCtrl, kMscDataReady, kMscExternalTrigger | kMscDataReady},
+        {&kSmplCtrl, rate_code(profile, settings.output_rate_hz), kSmplCtrl.defined_bits},
+        {&kFilterCtrl, settings.filter_code, kFilterSelect | kFilterBusy},
+        {&kUartCtrl, kUartAuto, kUartAutoStart | kUartAuto},
+        {&kBurstCtrl, settings.layout.burst_ctrl(), kBurstCtrl.defined_bits},
+    };
+    silence();
+    queue_.push_back(Transmit{{kEndByte}});  // completes a command that was cut short
+    silence();
+    ask(Stage::mode, kModeCtrl);
+}
+
+HandshakeStep Handshake::next(std::span<const std::byte> answer) {
+    if (is_waiting_for_answer_) {
+        is_waiting_for_answer_ = false;
+        take_answer(answer);
+    }
+    assert(!queue_.empty());
+    HandshakeStep step = queue_.front();
+    if (std::holds_alternative<Sampling>(step) || std::holds_alternative<HandshakeFailure>(step)) {
+        return step;
+    }
+    queue_.pop_front();
+    is_waiting_for_answer_ = std::holds_alternative<Receive>(step);
+    return step;
+}
+
+void Handshake::silence() {
+    send(stop_sampling());
+    std::get<Transmit>(queue_.back()).pause_after = kModeChangePause;
+    queue_.push_back(DrainUntilSilent{});
+}
+
+void Handshake::send(const CommandSequence& commands) {
+    for (const Command& command : commands) {
+        queue_.push_back(Transmit{{command.begin(), command.end()}, kCommandSpacing});
+    }
+}
+
+void Handshake::wait(milliseconds time) {
+    queue_.push_back(DrainUntilSilent{.quiet = time, .limit = time});
+}
+
+void Handshake::ask(Stage stage, const Register& reg) {
+    stage_ = stage;
+    asked_ = &reg;
+    tries_left_ = kTries;
+    queue_read();
+}
+
+void Handshake::queue_read() {
+    send(config_ ? config_->read(*asked_) : read_mode());
+    queue_.push_back(Receive{.byte_count = kAnswerSize});
+}
+
+void Handshake::retry(std::string reason) {
+    if (--tries_left_ == 0) return fail(std::move(reason));
+    queue_.push_back(Transmit{{kEndByte}});
+    if (config_) {
+        queue_.push_back(kShortDrain);
+    } else {
+        silence();
+    }
+    queue_read();
+}
+
+void Handshake::fail(std::string reason) { queue_.push_back(HandshakeFailure{std::move(reason)}); }
+
+void Handshake::take_answer(std::span<const std::byte> answer) {
+    const auto value = parse_answer(*asked_, answer);
+    if (stage_ == Stage::id) {  // for information: Epson's other devices say 0x5345 here
+        if (!value) queue_.push_back(kShortDrain);
+        return ask_target();
+    }
+    if (!value) {
+        return retry(std::string(asked_->name) + ": expected an answer of 4 bytes, found none in " +
+                     std::to_string(kTries) + " tries");
+    }
+    switch (stage_) {
+        case Stage::mode:
+            return take_mode(*value);
+        case Stage::start_up:
+            return take_start_up(*value);
+        case Stage::diagnosis:
+            return take_diagnosis(*value);
+        case Stage::identity:
+            return take_identity(*value);
+        case Stage::configuration:
+            return take_configuration(*value);
+        case Stage::aliasing:
+            return take_aliasing(*value);
+        case Stage::window:
+            return take_window(*value);
+        case Stage::id:
+            break;
+    }
+}
+
+void Handshake::take_mode(std::uint16_t value) {
+    config_ = ConfigMode::from_mode_ctrl(value);
+    if (!config_) return retry(mismatch(kModeCtrl, kModeStatConfig, value, kModeStat));
+    polls_left_ = static_cast<int>(kStartUpLimit / kStartUpPoll);
+    ask(Stage::start_up, kGlobCmd);
+}
+
+void Handshake::take_start_up(std::uint16_t value) {
+    if ((value & kGlobNotReady) == 0) return ask(Stage::diagnosis, kDiagStat);
+    if (--polls_left_ == 0) {
+        return fail(mismatch(kGlobCmd, 0, value, kGlobNotReady) + ": not ready after " +
+                    std::to_string(kStartUpLimit.count()) + " ms");
+    }
+    wait(kStartUpPoll);
+    ask(Stage::start_up, kGlobCmd);
+}
+
+void Handshake::take_diagnosis(std::uint16_t value) {
+    identity_.diag_stat = value;
+    const std::string found = mismatch(kDiagStat, 0, value, kDiagHardError | kDiagFlashError);
+    if ((value & kDiagHardError) != 0) return fail(found + ": HARD_ERR, the sensor is faulty");
+    if ((value & kDiagFlashError) != 0) {
+        return fail(found + ": FLASH_ERR, the sensor could not read its calibration");
+    }
+    ask(Stage::identity, *register_at(Window::w1, kFirstIdentityAddress));
+}
+
+void Handshake::take_identity(std::uint16_t value) {
+    if (identity_index_ < kVersionIndex) {
+        append_characters(value, identity_.product_id);
+    } else if (identity_index_ == kVersionIndex) {
+        identity_.firmware = value;
+    } else {
+        append_characters(value, identity_.serial_number);
+    }
+    if (++identity_index_ < kIdentityRegisters) {
+        const auto address = static_cast<std::uint8_t>(kFirstIdentityAddress + 2 * identity_index_);
+        return ask(Stage::identity, *register_at(Window::w1, address));
+    }
+    identity_.has_expected_product_id =
+        identity_.product_id.starts_with(profile_->product_id_prefix);
+    ask(Stage::id, kId);
+}
+
+void Handshake::ask_target() {
+    if (target_index_ == targets_.size()) return ask(Stage::aliasing, kFlag);
+    writes_left_ = kWrites;
+    polls_left_ = static_cast<int>(kFilterLimit / kFilterPoll);
+    ask(Stage::configuration, *targets_[target_index_].reg);
+}
+
+void Handshake::take_configuration(std::uint16_t value) {
+    const auto& [reg, wanted, mask] = targets_[target_index_];
+    if (reg == &kFilterCtrl && (value & kFilterBusy) != 0 && --polls_left_ > 0) {
+        wait(kFilterPoll);
+        return ask(Stage::configuration, *reg);
+    }
+    if ((value & mask) == wanted) {
+        ++target_index_;
+        return ask_target();
+    }
+    if (writes_left_-- == 0) return fail(mismatch(*reg, wanted, value, mask));
+    send(config_->write(*reg, static_cast<std::uint16_t>((value & ~mask) | wanted), mask));
+    ask(Stage::configuration, *reg);
+}
+
+void Handshake::take_aliasing(std::uint16_t value) {
+    if ((value & kFlagAliasing) != 0) {
+        return fail(mismatch(kFlag, 0, value, kFlagAliasing) + ": ALIASI_ERR, filter " +
+                    std::string(profile_->filter_coded(settings_.filter_code)->name) +
+                    " is not allowed at " + std::to_string(settings_.output_rate_hz) + " Hz");
+    }
+    ask(Stage::window, kWinCtrl);
+}
+
+void Handshake::take_window(std::uint16_t value) {
+    if ((value & kWinCtrl.defined_bits) != 0) {
+        return retry(mismatch(kWinCtrl, 0, value, kWinCtrl.defined_bits));
+    }
+    send((*std::move(config_)).start_sampling().second);
+    config_.reset();
+    queue_.push_back(Sampling{identity_});
+}
+
+std::vector<std::byte> stop_sampling_commands() {
+    std::vector<std::byte> bytes;
+    for (const Command& command : stop_sampling()) {
+        bytes.insert(bytes.end(), command.begin(), command.end());
+    }
+    return bytes;
+}
+
+}  // namespace a351::wire

@@ -1,0 +1,120 @@
+#pragma once
+/// @file
+/// Bringing the sensor from any state into sampling, as a state machine without I/O: it says what
+/// to do next, a driver does it and hands back what the device answered.  Sequence and time-outs:
+/// M-A352AD10 data sheet 8.2; every register written is read back under a mask of its defined bits.
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "protocol/wire/burst_layout.hpp"
+#include "protocol/wire/commands.hpp"
+#include "protocol/wire/device_profile.hpp"
+
+namespace a351::wire {
+
+struct SensorSettings {
+    int output_rate_hz = 50;
+    std::uint8_t filter_code = 6;  ///< k512_fc9, the only built-in filter allowed at 50 Hz.
+    BurstLayout layout = BurstLayout::recommended();
+};
+
+struct DeviceIdentity {
+    std::string product_id;                ///< Eight characters, as read.
+    std::string serial_number;             ///< Eight characters, as read.
+    std::uint16_t firmware = 0;            ///< VERSION.
+    std::uint16_t diag_stat = 0;           ///< As found before configuration; reading cleared it.
+    bool has_expected_product_id = false;  ///< Starts with the profile's prefix.
+};
+
+/// What the driver has to do next.  Times are real time.
+struct Transmit {
+    std::vector<std::byte> bytes;
+    std::chrono::milliseconds pause_after{1};  ///< Device needs 0.2-0.66 ms between commands.
+};
+struct Receive {
+    std::size_t byte_count = 0;
+    std::chrono::milliseconds timeout{100};
+};
+struct DrainUntilSilent {  ///< Discard input until none came for `quiet`, at most `limit`.
+    std::chrono::milliseconds quiet{50};
+    std::chrono::milliseconds limit{2000};
+};
+struct Sampling {  ///< Done: frames follow.
+    DeviceIdentity identity;
+};
+struct HandshakeFailure {
+    std::string reason;  ///< One line naming the register, expected and found.
+};
+using HandshakeStep = std::variant<Transmit, Receive, DrainUntilSilent, Sampling, HandshakeFailure>;
+
+/// Sequence: stop and drain twice, prove configuration mode, wait for start-up, diagnosis, identity,
+/// registers (only those that differ are written), rate and filter, window, start.  A read without
+/// a valid answer is repeated; flash is never touched, the baud rate never changed.
+class Handshake {
+public:
+    /// @param profile  outlives this object.
+    /// @throws std::invalid_argument  the profile lacks the rate or the filter.
+    Handshake(const DeviceProfile& profile, SensorSettings settings);
+
+    /// @param answer  bytes that came for the last Receive, fewer than asked after a time-out;
+    ///                empty for every other step.
+    /// After Sampling or HandshakeFailure the same step comes again.
+    [[nodiscard]] HandshakeStep next(std::span<const std::byte> answer);
+
+private:
+    enum class Stage { mode, start_up, diagnosis, identity, id, configuration, aliasing, window };
+
+    /// Bits of a register that sampling depends on.
+    struct Target {
+        const Register* reg;
+        std::uint16_t wanted;
+        std::uint16_t mask;
+    };
+
+    void silence();
+    void send(const CommandSequence& commands);
+    void wait(std::chrono::milliseconds time);
+    void ask(Stage stage, const Register& reg);
+    void queue_read();
+    void retry(std::string reason);
+    void fail(std::string reason);
+
+    void take_answer(std::span<const std::byte> answer);
+    void take_mode(std::uint16_t value);
+    void take_start_up(std::uint16_t value);
+    void take_diagnosis(std::uint16_t value);
+    void take_identity(std::uint16_t value);
+    void take_configuration(std::uint16_t value);
+    void take_aliasing(std::uint16_t value);
+    void take_window(std::uint16_t value);
+    void ask_target();
+
+    const DeviceProfile* profile_;
+    SensorSettings settings_;
+    std::vector<Target> targets_;
+    std::deque<HandshakeStep> queue_;
+    Stage stage_ = Stage::mode;
+    const Register* asked_ = &kModeCtrl;
+    bool is_waiting_for_answer_ = false;
+    int tries_left_ = 0;
+    int polls_left_ = 0;
+    int writes_left_ = 0;
+    std::size_t identity_index_ = 0;
+    std::size_t target_index_ = 0;
+    std::optional<ConfigMode> config_;
+    DeviceIdentity identity_;
+};
+
+/// Commands that stop sampling, from any window; the answer is silence.  Three bytes each: where
+/// the mode is not checked afterwards, send them kCommandSpacing apart.
+[[nodiscard]] std::vector<std::byte> stop_sampling_commands();
+
+}  // namespace a351::wire

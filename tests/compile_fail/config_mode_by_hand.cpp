@@ -1,0 +1,11 @@
+// A ConfigMode comes only from what the device said.
+#include "protocol/wire/commands.hpp"
+
+a351::wire::CommandSequence read_flag() {
+#ifdef A351_LEGAL
+    const auto config = a351::wire::ConfigMode::from_mode_ctrl(0x0400).value();
+#else
+    const auto config = a351::wire::ConfigMode();
+#endif
+    return config.read(a351::wire::kFlag);
+}

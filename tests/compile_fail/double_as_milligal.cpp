@@ -1,0 +1,10 @@
+// A bare number is no gravity.
+#include "protocol/core/units.hpp"
+
+a351::MilliGal drift() {
+#ifdef A351_LEGAL
+    return a351::MilliGal(1.5);
+#else
+    return 1.5;
+#endif
+}

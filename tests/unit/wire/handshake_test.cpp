@@ -1,0 +1,305 @@
+#include "protocol/wire/handshake.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/unit/wire/scripted_registers.hpp"
+
+namespace a351::wire {
+namespace {
+
+const DeviceProfile& kProfile = *find_profile("A352AD10");
+constexpr const Register& kProductId1 = require_register(Window::w1, 0x6A);
+
+HandshakeRun run_with(ScriptedRegisters& device, SensorSettings settings = {}) {
+    Handshake handshake(kProfile, settings);
+    return run_handshake(handshake, device);
+}
+
+bool has_written(const ScriptedRegisters& device, int address, int value) {
+    return std::ranges::count(device.received, to_bytes({address, value, 0x0D})) > 0;
+}
+
+void check_sampling_as_asked(const HandshakeRun& run, const ScriptedRegisters& device) {
+    REQUIRE(run.has_succeeded());
+    CHECK(device.is_sampling);
+    CHECK(device.get(kSmplCtrl) == 0x0600);
+    CHECK((device.get(kFilterCtrl) & 0x0F) == 6);
+    CHECK(device.get(kUartCtrl) == 0x0101);
+    CHECK(device.get(kBurstCtrl) == 0xC703);
+    CHECK((device.get(kSigCtrl) & 0x8EE0) == 0x8E00);
+    CHECK((device.get(kMscCtrl) & 0xFF46) == 0x0006);
+}
+
+}  // namespace
+
+TEST_CASE("a device with factory settings ends up sampling as asked", "[wire][handshake]") {
+    ScriptedRegisters device;
+    check_sampling_as_asked(run_with(device), device);
+    CHECK(device.received.back() == to_bytes({0x83, 0x01, 0x0D}));
+    CHECK(device.received[device.received.size() - 2] == to_bytes({0xFE, 0x00, 0x0D}));
+}
+
+TEST_CASE("each command but a window selection follows one, so no window is left to chance",
+          "[wire][handshake]") {
+    ScriptedRegisters device;
+    device.not_ready_reads = 2;
+    run_with(device);
+    bool is_selected = false;
+    for (const Bytes& command : device.received) {
+        if (command[0] == std::byte{0xFE}) {
+            is_selected = true;
+        } else {
+            REQUIRE(is_selected);
+            // Only the two bytes of one register share a selection.
+            if ((command[0] & std::byte{0x80}) == std::byte{}) is_selected = false;
+        }
+    }
+}
+
+TEST_CASE("before the first question the line is stopped and drained twice, around a lone CR",
+          "[wire][handshake]") {
+    Handshake handshake(kProfile, {});
+    const std::vector<Bytes> expected{to_bytes({0xFE, 0x00, 0x0D}),
+                                      to_bytes({0x83, 0x02, 0x0D}),
+                                      Bytes{},
+                                      to_bytes({0x0D}),
+                                      to_bytes({0xFE, 0x00, 0x0D}),
+                                      to_bytes({0x83, 0x02, 0x0D}),
+                                      Bytes{},
+                                      to_bytes({0xFE, 0x00, 0x0D}),
+                                      to_bytes({0x02, 0x00, 0x0D})};
+    for (const Bytes& bytes : expected) {
+        const HandshakeStep step = handshake.next({});
+        if (bytes.empty()) {
+            CHECK(std::holds_alternative<DrainUntilSilent>(step));
+        } else {
+            REQUIRE(std::holds_alternative<Transmit>(step));
+            CHECK(std::get<Transmit>(step).bytes == bytes);
+        }
+    }
+    CHECK(std::holds_alternative<Receive>(handshake.next({})));
+}
+
+TEST_CASE("the handshake names what it found", "[wire][handshake]") {
+    ScriptedRegisters device;
+    const std::vector<std::pair<int, int>> words{{0x6A, 0x3341}, {0x6C, 0x3235}, {0x6E, 0x4441},
+                                                 {0x70, 0x3031}, {0x72, 0x000D}, {0x74, 0x3057},
+                                                 {0x76, 0x3030}, {0x78, 0x3530}, {0x7A, 0x3130}};
+    for (const auto& [address, word] : words) {
+        device.values[{Window::w1, static_cast<std::uint8_t>(address)}] =
+            static_cast<std::uint16_t>(word);
+    }
+    device.set(kDiagStat, kDiagUartOverflow);
+    const auto run = run_with(device);
+    REQUIRE(run.has_succeeded());
+    // Product: data sheet 7.27.  Serial: a real unit, README of Epson's ess_accl_ros2_driver.
+    CHECK(run.identity().product_id == "A352AD10");
+    CHECK(run.identity().serial_number == "W0000501");
+    CHECK(run.identity().firmware == 0x000D);
+    CHECK(run.identity().diag_stat == kDiagUartOverflow);
+    CHECK(run.identity().has_expected_product_id);
+}
+
+TEST_CASE("another product is told, not refused", "[wire][handshake]") {
+    ScriptedRegisters device;
+    device.set(kProductId1, 0x3342);
+    const auto run = run_with(device);
+    REQUIRE(run.has_succeeded());
+    CHECK(run.identity().product_id == "B352AD10");
+    CHECK_FALSE(run.identity().has_expected_product_id);
+}
+
+TEST_CASE("a register that is right already is not written", "[wire][handshake]") {
+    ScriptedRegisters device;
+    run_with(device);
+    device.received.clear();
+    check_sampling_as_asked(run_with(device), device);
+    for (const Bytes& command : device.received) {
+        const bool is_write = (command[0] & std::byte{0x80}) != std::byte{};
+        CHECK((!is_write || command[0] == std::byte{0xFE} || command[0] == std::byte{0x83}));
+    }
+}
+
+TEST_CASE("a device left streaming is stopped first", "[wire][handshake]") {
+    ScriptedRegisters device;
+    device.is_sampling = true;
+    device.set(kModeCtrl, 0x0000);
+    device.set(kUartCtrl, 0x0103);  // AUTO_START
+    check_sampling_as_asked(run_with(device), device);
+}
+
+TEST_CASE("a command left half-sent by a former host does no harm", "[wire][handshake]") {
+    for (const Bytes& rest : {to_bytes({0x83}), to_bytes({0x83, 0x01}), to_bytes({0xFE, 0x01})}) {
+        ScriptedRegisters device;
+        device.half_sent = rest;
+        check_sampling_as_asked(run_with(device), device);
+    }
+}
+
+TEST_CASE("a silent line ends in a failure that names MODE_CTRL", "[wire][handshake]") {
+    ScriptedRegisters device;
+    device.unanswered[ScriptedRegisters::key(kModeCtrl)] = 1000;
+    const auto run = run_with(device);
+    REQUIRE_FALSE(run.has_succeeded());
+    CHECK(run.reason() == "MODE_CTRL: expected an answer of 4 bytes, found none in 3 tries");
+    CHECK(run.waited < std::chrono::seconds(1));
+}
+
+TEST_CASE("two unanswered reads are repeated, whatever the register", "[wire][handshake]") {
+    for (const Register& reg : {kModeCtrl, kGlobCmd, kDiagStat, kProductId1, kSigCtrl, kMscCtrl,
+                                kSmplCtrl, kFilterCtrl, kUartCtrl, kBurstCtrl, kFlag}) {
+        CAPTURE(reg.name);
+        ScriptedRegisters device;
+        device.unanswered[ScriptedRegisters::key(reg)] = 2;
+        check_sampling_as_asked(run_with(device), device);
+    }
+}
+
+TEST_CASE("a register that stays silent is named", "[wire][handshake]") {
+    ScriptedRegisters device;
+    device.unanswered[ScriptedRegisters::key(kBurstCtrl)] = 3;
+    CHECK(run_with(device).reason() ==
+          "BURST_CTRL: expected an answer of 4 bytes, found none in 3 tries");
+    CHECK_FALSE(device.is_sampling);
+}
+
+TEST_CASE("a device without register W0:4C, or with another value there, is taken",
+          "[wire][handshake]") {
+    ScriptedRegisters silent;
+    silent.unanswered[ScriptedRegisters::key(kId)] = 1000;
+    check_sampling_as_asked(run_with(silent), silent);
+    ScriptedRegisters other;
+    other.set(kId, 0x0D0D);
+    check_sampling_as_asked(run_with(other), other);
+}
+
+TEST_CASE("a device still starting up is waited for", "[wire][handshake]") {
+    ScriptedRegisters device;
+    device.not_ready_reads = 20;
+    const auto run = run_with(device);
+    check_sampling_as_asked(run, device);
+    CHECK(run.waited > std::chrono::seconds(1));
+}
+
+TEST_CASE("a device that never gets ready fails after three seconds", "[wire][handshake]") {
+    ScriptedRegisters device;
+    device.not_ready_reads = 100'000;
+    const auto run = run_with(device);
+    CHECK(run.reason() ==
+          "GLOB_CMD: expected 0x0000, found 0x0400 (bits compared: 0x0400): not ready after 3000 "
+          "ms");
+    CHECK(run.waited > std::chrono::milliseconds(2900));
+    CHECK(run.waited < std::chrono::milliseconds(3600));
+}
+
+TEST_CASE("a faulty device is refused with its reason", "[wire][handshake]") {
+    ScriptedRegisters hard;
+    hard.set(kDiagStat, 0x0020);
+    CHECK(run_with(hard).reason() ==
+          "DIAG_STAT: expected 0x0000, found 0x0020 (bits compared: 0x00E4): HARD_ERR, the sensor "
+          "is faulty");
+    ScriptedRegisters flash;
+    flash.set(kDiagStat, 0x0004);
+    CHECK_THAT(run_with(flash).reason(), Catch::Contains("FLASH_ERR"));
+}
+
+TEST_CASE("a write that is lost once is repeated", "[wire][handshake]") {
+    for (const Register& reg : {kSmplCtrl, kFilterCtrl, kUartCtrl, kMscCtrl}) {
+        CAPTURE(reg.name);
+        ScriptedRegisters device;
+        device.set(kMscCtrl, 0x0000);
+        device.lost_writes[ScriptedRegisters::key(reg)] = 1;
+        check_sampling_as_asked(run_with(device), device);
+    }
+}
+
+TEST_CASE("a register that will not take its value is named with expected and found",
+          "[wire][handshake]") {
+    ScriptedRegisters device;
+    device.lost_writes[ScriptedRegisters::key(kBurstCtrl)] = 1000;
+    CHECK(run_with(device).reason() ==
+          "BURST_CTRL: expected 0xC703, found 0x4702 (bits compared: 0xC703)");
+    CHECK_FALSE(device.is_sampling);
+}
+
+TEST_CASE("reserved bits that read as 1 are no mismatch", "[wire][handshake]") {
+    ScriptedRegisters device;
+    device.forced[ScriptedRegisters::key(kBurstCtrl)] = 0xE77F;
+    device.forced[ScriptedRegisters::key(kSmplCtrl)] = 0xF6FF;
+    CHECK(run_with(device).has_succeeded());
+}
+
+TEST_CASE("the filter is waited for", "[wire][handshake]") {
+    ScriptedRegisters device;
+    device.filter_busy_reads = 20;
+    check_sampling_as_asked(run_with(device), device);
+    ScriptedRegisters stuck;
+    stuck.forced[ScriptedRegisters::key(kFilterCtrl)] = 0x0026;
+    CHECK(run_with(stuck).reason() ==
+          "FILTER_CTRL: expected 0x0006, found 0x0026 (bits compared: 0x002F)");
+}
+
+TEST_CASE("answers full of CR are taken by length", "[wire][handshake]") {
+    ScriptedRegisters device;
+    for (std::uint8_t address = 0x6A; address <= 0x7A; address += 2) {
+        device.values[{Window::w1, address}] = 0x0D0D;
+    }
+    const auto run = run_with(device);
+    check_sampling_as_asked(run, device);
+    CHECK(run.identity().serial_number == "\r\r\r\r\r\r\r\r");
+    CHECK(run.identity().firmware == 0x0D0D);
+}
+
+TEST_CASE("a pair of rate and filter that the device rejects is named", "[wire][handshake]") {
+    ScriptedRegisters device;
+    device.forced[ScriptedRegisters::key(kFlag)] = 0x0002;
+    const auto run = run_with(device, {.output_rate_hz = 50, .filter_code = 8});
+    CHECK(run.reason() ==
+          "FLAG: expected 0x0000, found 0x0002 (bits compared: 0x0002): ALIASI_ERR, filter "
+          "k512_fc60 is not allowed at 50 Hz");
+    CHECK_FALSE(device.is_sampling);
+}
+
+TEST_CASE("baud rate, flash, self tests and the thermal compensation are left alone",
+          "[wire][handshake]") {
+    ScriptedRegisters device;
+    device.set(kUartCtrl, 0x0302);
+    device.set(kSigCtrl, 0x00F0);
+    device.set(kMscCtrl, 0x0060);
+    REQUIRE(run_with(device).has_succeeded());
+    CHECK(device.get(kUartCtrl) == 0x0301);
+    CHECK(device.get(kSigCtrl) == 0x8E10);
+    CHECK(device.get(kMscCtrl) == 0x0026);
+    for (const Bytes& command : device.received) {
+        CHECK(command[0] != std::byte{0x89});
+        CHECK(command[0] != std::byte{0x8A});
+    }
+}
+
+TEST_CASE("sampling is not started in an unproven window", "[wire][handshake]") {
+    ScriptedRegisters device;
+    device.forced[ScriptedRegisters::key(kWinCtrl)] = 0x0001;
+    CHECK(run_with(device).reason() ==
+          "WIN_CTRL: expected 0x0000, found 0x0001 (bits compared: 0x00FF)");
+    CHECK_FALSE(device.is_sampling);
+    CHECK_FALSE(has_written(device, 0x83, 0x01));
+}
+
+TEST_CASE("after the end the same step comes again", "[wire][handshake]") {
+    ScriptedRegisters device;
+    Handshake handshake(kProfile, {});
+    REQUIRE(run_handshake(handshake, device).has_succeeded());
+    CHECK(std::holds_alternative<Sampling>(handshake.next({})));
+    CHECK(std::holds_alternative<Sampling>(handshake.next({})));
+}
+
+TEST_CASE("settings that the profile does not know are a broken promise", "[wire][handshake]") {
+    CHECK_THROWS_AS(Handshake(kProfile, {.output_rate_hz = 60}), std::invalid_argument);
+    CHECK_THROWS_AS(Handshake(kProfile, {.filter_code = 0}), std::invalid_argument);
+}
+
+TEST_CASE("the commands that stop sampling are right in any window", "[wire][handshake]") {
+    CHECK(stop_sampling_commands() == to_bytes({0xFE, 0x00, 0x0D, 0x83, 0x02, 0x0D}));
+}
+
+}  // namespace a351::wire
