@@ -1,0 +1,145 @@
+#include "corrector/eemd/eemd.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "corrector/eemd/ensemble.hpp"
+
+namespace a351::corrector {
+namespace {
+
+void require(bool holds, const std::string& message) {
+    if (!holds) throw std::invalid_argument("eemd: " + message);
+}
+
+void validate(const EemdOptions& options) {
+    const auto number = [](auto value) { return std::to_string(value); };
+    require(options.ensemble_size >= 1,
+            "ensemble_size = " + number(options.ensemble_size) + ", must be >= 1");
+    require(options.noise_ratio >= 0.0 && std::isfinite(options.noise_ratio),
+            "noise_ratio = " + number(options.noise_ratio) + ", must be finite and >= 0");
+    require(options.mode_count.value_or(0) >= 0,
+            "mode_count = " + number(options.mode_count.value_or(0)) + ", must be >= 0");
+    require(options.threads >= 1, "threads = " + number(options.threads) + ", must be >= 1");
+    const auto require_sifts = [&](const std::string& name, int sifts) {
+        require(sifts >= 1 && sifts <= kMaxSifts,
+                name + " = " + number(sifts) + ", must be 1 to " + number(kMaxSifts));
+    };
+    if (const auto* fixed = std::get_if<FixedSifts>(&options.stopping)) {
+        require_sifts("stopping.count", fixed->count);
+    } else if (const auto* s_number = std::get_if<SNumber>(&options.stopping)) {
+        require_sifts("stopping.max_sifts", s_number->max_sifts);
+        require(s_number->repeats >= 1,
+                "stopping.repeats = " + number(s_number->repeats) + ", must be >= 1");
+    }
+}
+
+double mean_of(std::span<const double> values) {
+    double sum = 0.0;
+    for (const double value : values) sum += value;
+    return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
+}
+
+/// Standard deviation with divisor n - 1; 0 for n < 2.
+double standard_deviation(std::span<const double> values) {
+    if (values.size() < 2) return 0.0;
+    // About the first sample, so that a constant gives exactly zero.
+    double mean = 0.0;
+    for (const double value : values) mean += value - values[0];
+    mean /= static_cast<double>(values.size());
+    double squares = 0.0;
+    for (const double value : values) {
+        const double deviation = value - values[0] - mean;
+        squares += deviation * deviation;
+    }
+    return std::sqrt(squares / static_cast<double>(values.size() - 1));
+}
+
+/// Binary exponent that brings `signal` below 1: nothing then overflows or underflows on the way.
+int common_exponent(std::span<const double> signal) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < signal.size(); ++i) {
+        require(std::isfinite(signal[i]), "signal[" + std::to_string(i) + "] = " +
+                                              std::to_string(signal[i]) + ", must be finite");
+        largest = std::max(largest, std::abs(signal[i]));
+    }
+    int exponent = 0;
+    static_cast<void>(std::frexp(largest, &exponent));
+    return exponent;
+}
+
+/// Standard error of the mean of one component, rms over its samples.
+std::optional<double> standard_error(std::span<const double> sum, std::span<const double> squares,
+                                     double origin, int members) {
+    if (members < 2) return std::nullopt;
+    const double count = members;
+    double variance = 0.0;
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        const double shifted = sum[i] - count * origin;
+        variance += std::max(0.0, (squares[i] - shifted * shifted / count) / (count - 1.0));
+    }
+    return std::sqrt(variance / static_cast<double>(sum.size()) / count);
+}
+
+}  // namespace
+
+int default_mode_count(std::size_t n) noexcept {
+    return std::max(0, static_cast<int>(std::bit_width(n)) - 2);
+}
+
+EemdResult eemd(std::span<const double> signal, const EemdOptions& options) {
+    validate(options);
+    const int exponent = common_exponent(signal);
+    std::vector<double> scaled(signal.size());
+    std::transform(signal.begin(), signal.end(), scaled.begin(),
+                   [exponent](double value) { return std::ldexp(value, -exponent); });
+
+    EnsemblePlan plan;
+    plan.signal = scaled;
+    plan.noise_level = options.noise_ratio * standard_deviation(scaled);
+    plan.members = plan.noise_level > 0.0 ? options.ensemble_size : 1;
+    plan.mode_count =
+        static_cast<std::size_t>(options.mode_count.value_or(default_mode_count(signal.size())));
+    plan.stopping = options.stopping;
+    plan.finish = options.finish;
+    plan.seed = options.seed;
+    plan.residue_origin = mean_of(scaled);
+    const EnsembleSums sums = sum_ensemble(plan, options.threads);
+
+    const std::size_t n = signal.size();
+    const auto component = [&](std::size_t k, double origin) {
+        const auto sum = std::span(sums.values).subspan(k * n, n);
+        const auto squares = std::span(sums.squares).subspan(k * n, n);
+        Component out;
+        out.values.resize(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            out.values[i] = std::ldexp(sum[i] / plan.members, exponent);
+        }
+        out.extrema_count = count_extrema(out.values);
+        out.mean_period_samples =
+            out.extrema_count == 0
+                ? std::numeric_limits<double>::infinity()
+                : 2.0 * static_cast<double>(n) / static_cast<double>(out.extrema_count);
+        if (n > 0) out.standard_error = standard_error(sum, squares, origin, plan.members);
+        if (out.standard_error) *out.standard_error = std::ldexp(*out.standard_error, exponent);
+        return out;
+    };
+    EemdResult result;
+    for (std::size_t k = 0; k < plan.mode_count; ++k) result.modes.push_back(component(k, 0.0));
+    result.residue = component(plan.mode_count, plan.residue_origin);
+    result.members = plan.members;
+    result.noise_level = std::ldexp(plan.noise_level, exponent);
+    for (std::size_t i = 0; i < n; ++i) {
+        double total = 0.0;
+        for (const Component& mode : result.modes) total += mode.values[i];
+        total += result.residue.values[i];
+        result.closure_error = std::max(result.closure_error, std::abs(signal[i] - total));
+    }
+    return result;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,60 @@
+#pragma once
+/// @file
+/// Ensemble empirical mode decomposition (EEMD) of one regularly sampled series.
+/// Z. Wu and N. E. Huang, Adv. Adapt. Data Anal. 1(1), 1-41, 2009, doi:10.1142/S1793536909000047.
+/// What the paper leaves open (spline ends, stopping, mode count): corrector/eemd/eemd.md.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "corrector/eemd/emd.hpp"
+
+namespace a351::corrector {
+
+struct EemdOptions {
+    int ensemble_size = 80;    ///< Noise realisations averaged, >= 1.
+    double noise_ratio = 0.1;  ///< Std. deviation of added noise / of signal, >= 0; 0 is plain EMD.
+    StoppingRule stopping = FixedSifts{};
+    std::optional<int> mode_count =
+        std::nullopt;  ///< Without the residue, >= 0; absent: default_mode_count().
+    FinishRule finish = FinishRule::at_most_two_extrema;
+    std::uint64_t seed = 0;  ///< Same seed, same bits, on any thread count.
+    int threads = 1;         ///< >= 1
+};
+
+/// One mode, or the residue, averaged over the ensemble.
+struct Component {
+    std::vector<double> values;        ///< (n), unit of the signal.
+    std::size_t extrema_count = 0;     ///< Interior maxima and minima of `values`.
+    double mean_period_samples = 0.0;  ///< 2 n / extrema_count; infinite without extrema.
+    /// Standard error of the ensemble mean, rms over the samples, unit of the signal.  Absent for
+    /// one member: there is nothing to estimate it from.
+    std::optional<double> standard_error;
+};
+
+struct EemdResult {
+    std::vector<Component> modes;  ///< The fastest first; zero where no member had one left.
+    Component residue;             ///< What no mode carries.
+    int members = 0;               ///< Averaged: the ensemble size, or 1 when no noise was added.
+    double noise_level = 0.0;      ///< Std. deviation of the added noise, unit of the signal.
+    double closure_error = 0.0;    ///< max |signal - sum of modes - residue|, unit of the signal.
+};
+
+/// floor(log2(n)) - 1, and 0 for n < 4 (Wu and Huang 2009; without the residue).
+[[nodiscard]] int default_mode_count(std::size_t n) noexcept;
+
+/// Averages the EMD of `signal` with `ensemble_size` different noises added.
+///
+/// The noise does not average out completely: the sum of all components differs from the signal
+/// by about noise_level / sqrt(members).  Every member has the same number of modes; those it does
+/// not have are zero.  Half a period of every mode next to either end is extrapolation.
+///
+/// @param signal  (n) samples at constant rate, any unit, finite and gap-free, |signal| < 1e300;
+///                any n, also 0.
+/// @throws std::invalid_argument  naming the argument, its value and its limit.
+[[nodiscard]] EemdResult eemd(std::span<const double> signal, const EemdOptions& options = {});
+
+}  // namespace a351::corrector

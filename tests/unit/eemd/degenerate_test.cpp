@@ -1,0 +1,106 @@
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "tests/unit/eemd/series.hpp"
+
+namespace a351::corrector {
+namespace {
+
+const double kNan = std::numeric_limits<double>::quiet_NaN();
+const double kInfinity = std::numeric_limits<double>::infinity();
+
+std::vector<EemdOptions> every_kind() {
+    std::vector<EemdOptions> kinds;
+    for (const double noise_ratio : {0.0, 0.1}) {
+        for (const StoppingRule& stopping :
+             {StoppingRule(FixedSifts{10}), StoppingRule(SNumber{4, 50})}) {
+            for (const FinishRule finish : {FinishRule::at_most_two_extrema, FinishRule::always}) {
+                for (const int members : {1, 9}) {
+                    EemdOptions options;
+                    options.ensemble_size = members;
+                    options.noise_ratio = noise_ratio;
+                    options.stopping = stopping;
+                    options.finish = finish;
+                    options.mode_count = 6;
+                    kinds.push_back(options);
+                }
+            }
+        }
+    }
+    return kinds;
+}
+
+/// Every component finite and of the right length, their sum the signal but for the mean noise.
+void check_sane(const std::vector<double>& signal) {
+    for (const EemdOptions& options : every_kind()) {
+        const EemdResult result = eemd(signal, options);
+        CHECK(result.modes.size() == 6);
+        for (const auto& component : components_of(result)) {
+            CHECK(component.size() == signal.size());
+            for (const double value : component) REQUIRE(std::isfinite(value));
+        }
+        CHECK(result.closure_error <= 9.0 * result.noise_level + 1e-13 * largest_magnitude(signal));
+    }
+}
+
+}  // namespace
+
+TEST_CASE("series of 0 to 8 samples decompose") {
+    for (std::size_t n = 0; n <= 8; ++n) check_sane(white_noise(n, n));
+}
+
+TEST_CASE("a constant has zero modes and is its own residue, with noise asked for or not") {
+    for (const double value : {0.0, 9.80665, -1e-300}) {
+        const std::vector<double> signal(64, value);
+        for (const EemdOptions& options : every_kind()) {
+            const EemdResult result = eemd(signal, options);
+            for (const Component& mode : result.modes) CHECK(largest_magnitude(mode.values) == 0.0);
+            CHECK(result.residue.values == signal);
+            CHECK(result.noise_level == 0.0);
+        }
+    }
+}
+
+TEST_CASE("hard shapes decompose") {
+    std::vector<double> signal(64);
+    const auto fill = [&](auto shape) {
+        for (std::size_t i = 0; i < signal.size(); ++i) signal[i] = shape(i);
+        check_sane(signal);
+    };
+    SECTION("constant but for rounding") {
+        fill([](std::size_t i) { return 980'000.0 + (i % 3 == 0 ? 1.2e-10 : 0.0); });
+    }
+    SECTION("monotone") {
+        fill([](std::size_t i) { return static_cast<double>(i * i); });
+    }
+    SECTION("step") {
+        fill([](std::size_t i) { return i < 20 ? 0.0 : 1.0; });
+    }
+    SECTION("single spike") {
+        fill([](std::size_t i) { return i == 20 ? 1.0 : 0.0; });
+    }
+    SECTION("alternating") {
+        fill([](std::size_t i) { return i % 2 == 0 ? 1.0 : -1.0; });
+    }
+    SECTION("plateaus at the ends") {
+        fill(
+            [](std::size_t i) { return i < 8 || i > 50 ? 0.0 : std::sin(static_cast<double>(i)); });
+    }
+    SECTION("near overflow") {
+        fill([](std::size_t i) { return 1e300 * std::sin(static_cast<double>(i)); });
+    }
+    SECTION("subnormal") {
+        fill([](std::size_t i) { return 1e-310 * std::sin(static_cast<double>(i)); });
+    }
+}
+
+TEST_CASE("a sample that is no number is refused with its index") {
+    for (const double bad : {kNan, kInfinity, -kInfinity}) {
+        std::vector<double> signal = white_noise(32, 1);
+        signal[17] = bad;
+        CHECK_THROWS_AS(eemd(signal), std::invalid_argument);
+        CHECK_THROWS_WITH(eemd(signal), Catch::Contains("signal[17]"));
+    }
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,182 @@
+#include "corrector/eemd/eemd.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/unit/eemd/series.hpp"
+
+namespace a351::corrector {
+namespace {
+
+EemdOptions small_ensemble(int members = 20) {
+    EemdOptions options;
+    options.ensemble_size = members;
+    options.seed = 11;
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("results are the same bits on any number of threads and in every run") {
+    const std::vector<double> signal = mixed_series(450);
+    EemdOptions options = small_ensemble(37);
+    const EemdResult one = eemd(signal, options);
+    for (const int threads : {1, 2, 3, 8, 100}) {
+        options.threads = threads;
+        const EemdResult many = eemd(signal, options);
+        CHECK(components_of(many) == components_of(one));
+        CHECK(many.closure_error == one.closure_error);
+        for (std::size_t k = 0; k < one.modes.size(); ++k) {
+            CHECK(many.modes[k].standard_error == one.modes[k].standard_error);
+        }
+    }
+}
+
+TEST_CASE("what the components leave over is the mean of the added noise") {
+    const std::vector<double> signal = mixed_series(450);
+    const EemdOptions options = small_ensemble(20);
+    const EemdResult result = eemd(signal, options);
+    std::vector<double> mean_noise(signal.size());
+    std::vector<double> noise(signal.size());
+    for (std::uint64_t member = 0; member < 20; ++member) {
+        fill_white_noise(options.seed, member, noise);
+        for (std::size_t i = 0; i < noise.size(); ++i) mean_noise[i] += noise[i] / 20.0;
+    }
+    const auto left_over = closure(signal, result);
+    for (std::size_t i = 0; i < signal.size(); ++i) {
+        REQUIRE(left_over[i] == Approx(-result.noise_level * mean_noise[i]).margin(1e-13));
+    }
+}
+
+TEST_CASE("the noise left over falls with the root of the ensemble size") {
+    const std::vector<double> signal = mixed_series(128);
+    const EemdResult result = eemd(signal, small_ensemble(1000));
+    // 128 samples determine an rms to 1 in sqrt(2 x 128): three times that is allowed.
+    CHECK(rms(closure(signal, result)) * std::sqrt(1000.0) / result.noise_level ==
+          Approx(1.0).margin(3.0 / 16.0));
+}
+
+TEST_CASE("the noise level is the ratio times the standard deviation of the signal") {
+    EemdOptions options = small_ensemble(1);
+    options.noise_ratio = 0.5;
+    const std::vector<double> signal = {1.0, 2.0, 3.0, 4.0};
+    CHECK(eemd(signal, options).noise_level == Approx(0.5 * std::sqrt(5.0 / 3.0)));
+}
+
+TEST_CASE("neighbouring seeds give unrelated noise") {
+    const std::vector<double> signal = mixed_series(1000);
+    EemdOptions options = small_ensemble(16);
+    const auto first = closure(signal, eemd(signal, options));
+    ++options.seed;
+    const auto second = closure(signal, eemd(signal, options));
+    double product = 0.0;
+    for (std::size_t i = 0; i < first.size(); ++i) product += first[i] * second[i];
+    const double correlation =
+        product / (rms(first) * rms(second) * static_cast<double>(first.size()));
+    CHECK(std::abs(correlation) < 4.0 / std::sqrt(1000.0));
+}
+
+TEST_CASE("a signal in another unit has components in that unit, powers of two bit for bit") {
+    const std::vector<double> signal = mixed_series(300);
+    const auto unit = components_of(eemd(signal, small_ensemble()));
+    for (const double factor : {0x1p-40, 0x1p40, 0x1p-900, 0x1p900}) {
+        std::vector<double> scaled = signal;
+        for (double& value : scaled) value *= factor;
+        auto components = components_of(eemd(scaled, small_ensemble()));
+        for (auto& component : components) {
+            for (double& value : component) value /= factor;
+        }
+        CHECK(components == unit);
+    }
+    for (const double factor : {1e-12, 1e12}) {
+        std::vector<double> scaled = signal;
+        for (double& value : scaled) value *= factor;
+        const auto components = components_of(eemd(scaled, small_ensemble()));
+        for (std::size_t k = 0; k < unit.size(); ++k) {
+            for (std::size_t i = 0; i < signal.size(); ++i) {
+                REQUIRE(components[k][i] / factor == Approx(unit[k][i]).margin(1e-8));
+            }
+        }
+    }
+}
+
+TEST_CASE("the standard error is the scatter of repeated ensembles") {
+    const std::vector<double> signal = mixed_series(300);
+    const int runs = 40;
+    std::vector<std::vector<double>> sum, squares;
+    double stated = 0.0;
+    EemdOptions options = small_ensemble(16);
+    for (int run = 0; run < runs; ++run) {
+        options.seed = 100 + static_cast<std::uint64_t>(run);
+        const EemdResult result = eemd(signal, options);
+        const auto components = components_of(result);
+        sum.resize(components.size(), std::vector<double>(300));
+        squares.resize(components.size(), std::vector<double>(300));
+        for (std::size_t k = 0; k < components.size(); ++k) {
+            for (std::size_t i = 0; i < 300; ++i) {
+                sum[k][i] += components[k][i];
+                squares[k][i] += components[k][i] * components[k][i];
+            }
+        }
+        for (const Component& mode : result.modes) {
+            stated += *mode.standard_error * *mode.standard_error / runs;
+        }
+        stated += *result.residue.standard_error * *result.residue.standard_error / runs;
+    }
+    double found = 0.0;
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+        for (std::size_t i = 0; i < 300; ++i) {
+            found += (squares[k][i] - sum[k][i] * sum[k][i] / runs) / (runs - 1) / 300.0;
+        }
+    }
+    // The scatter of 40 runs of correlated samples is itself known to about a tenth.
+    CHECK(std::sqrt(stated / found) == Approx(1.0).margin(0.2));
+}
+
+TEST_CASE("white noise comes out as a ladder of octaves") {
+    // P. Flandrin, G. Rilling and P. Goncalves, IEEE Signal Process. Lett. 11, 112-114, 2004; Z. Wu
+    // and N. E. Huang, Proc. R. Soc. A 460, 1597-1611, 2004.  Limits for ten sifts.
+    EemdOptions options;
+    options.noise_ratio = 0.0;
+    std::vector<double> log_period(9);
+    const int records = 12;
+    for (int record = 0; record < records; ++record) {
+        const auto result =
+            eemd(white_noise(8192, 50 + static_cast<std::uint64_t>(record)), options);
+        for (std::size_t k = 0; k < log_period.size(); ++k) {
+            log_period[k] += std::log(result.modes[k].mean_period_samples) / records;
+        }
+    }
+    CHECK(std::exp(log_period[0]) == Approx(2.87).margin(0.03));
+    for (std::size_t k = 1; k < 7; ++k) {
+        CHECK(std::exp(log_period[k] - log_period[k - 1]) == Approx(2.03).margin(0.10));
+    }
+}
+
+TEST_CASE("an option outside its range is refused by name") {
+    const std::vector<double> signal(16, 1.0);
+    const auto refused = [&](EemdOptions options, const std::string& name) {
+        CHECK_THROWS_WITH(eemd(signal, options), Catch::Contains(name));
+        CHECK_THROWS_AS(eemd(signal, options), std::invalid_argument);
+    };
+    EemdOptions options;
+    options.ensemble_size = 0;
+    refused(options, "ensemble_size = 0");
+    options = {};
+    options.noise_ratio = -0.1;
+    refused(options, "noise_ratio");
+    options = {};
+    options.mode_count = -1;
+    refused(options, "mode_count = -1");
+    options = {};
+    options.threads = 0;
+    refused(options, "threads = 0");
+    options = {};
+    options.stopping = FixedSifts{0};
+    refused(options, "stopping.count = 0");
+    options.stopping = SNumber{0, 50};
+    refused(options, "stopping.repeats = 0");
+    options.stopping = SNumber{4, 10001};
+    refused(options, "stopping.max_sifts = 10001");
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,119 @@
+#include <catch2/catch.hpp>
+
+#include "tests/unit/eemd/series.hpp"
+
+namespace a351::corrector {
+namespace {
+
+EemdOptions plain() {
+    EemdOptions options;
+    options.noise_ratio = 0.0;
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("modes and residue of plain EMD add up to the signal") {
+    for (const std::size_t n : {16U, 450U, 5400U}) {
+        std::vector<double> signal = mixed_series(n);
+        for (double& value : signal) value += 980'000.0;
+        const EemdResult result = eemd(signal, plain());
+        const double ulp =
+            std::nextafter(largest_magnitude(signal), HUGE_VAL) - largest_magnitude(signal);
+        CHECK(result.closure_error <= 8.0 * ulp * static_cast<double>(result.modes.size() + 1));
+        CHECK(result.noise_level == 0.0);
+        CHECK(result.members == 1);
+        CHECK_FALSE(result.residue.standard_error);
+    }
+}
+
+TEST_CASE("a signal upside down has its components upside down, bit for bit") {
+    std::vector<double> signal = mixed_series(450);
+    const auto upright = components_of(eemd(signal, plain()));
+    for (double& value : signal) value = -value;
+    auto flipped = components_of(eemd(signal, plain()));
+    for (auto& component : flipped) {
+        for (double& value : component) value = 0.0 - value;
+    }
+    CHECK(flipped == upright);
+}
+
+TEST_CASE("a signal run backwards has its components backwards") {
+    std::vector<double> signal = mixed_series(450);
+    const auto forward = components_of(eemd(signal, plain()));
+    std::reverse(signal.begin(), signal.end());
+    auto backward = components_of(eemd(signal, plain()));
+    for (std::size_t k = 0; k < forward.size(); ++k) {
+        std::reverse(backward[k].begin(), backward[k].end());
+        for (std::size_t i = 0; i < signal.size(); ++i) {
+            REQUIRE(backward[k][i] == Approx(forward[k][i]).margin(1e-9));
+        }
+    }
+}
+
+TEST_CASE("a constant added to the signal appears in the residue alone") {
+    std::vector<double> signal = mixed_series(450);
+    const auto before = components_of(eemd(signal, plain()));
+    for (double& value : signal) value += 1024.0;
+    const auto after = components_of(eemd(signal, plain()));
+    REQUIRE(after.size() == before.size());
+    for (std::size_t k = 0; k < before.size(); ++k) {
+        const double offset = k + 1 == before.size() ? 1024.0 : 0.0;
+        for (std::size_t i = 0; i < signal.size(); ++i) {
+            REQUIRE(after[k][i] - offset == Approx(before[k][i]).margin(1e-9));
+        }
+    }
+}
+
+TEST_CASE("the finish rule keeps a clean trend whole, and takes a bow off it on request") {
+    std::vector<double> signal(256);
+    for (std::size_t i = 0; i < signal.size(); ++i)
+        signal[i] = std::exp(0.01 * static_cast<double>(i));
+    EemdOptions options = plain();
+    const EemdResult whole = eemd(signal, options);
+    CHECK(whole.residue.values == signal);
+    for (const Component& mode : whole.modes) CHECK(largest_magnitude(mode.values) == 0.0);
+    options.finish = FinishRule::always;
+    CHECK(rms(eemd(signal, options).modes[0].values) > 0.05 * rms(signal));
+}
+
+TEST_CASE("every decomposition has the number of modes asked for") {
+    EemdOptions options = plain();
+    for (const int count : {0, 1, 5, 30}) {
+        options.mode_count = count;
+        const EemdResult result = eemd(mixed_series(100), options);
+        CHECK(result.modes.size() == static_cast<std::size_t>(count));
+        CHECK(result.closure_error < 1e-13);
+    }
+    CHECK(eemd(mixed_series(64), plain()).modes.size() == 5);
+    CHECK(eemd(mixed_series(63), plain()).modes.size() == 4);
+}
+
+TEST_CASE("extrema and mean period of a mode describe it") {
+    std::vector<double> signal(400);
+    for (std::size_t i = 0; i < 400; ++i) {
+        signal[i] = std::sin(2.0 * std::numbers::pi * (static_cast<double>(i) + 0.3) / 20.0);
+    }
+    const EemdResult result = eemd(signal, plain());
+    CHECK(result.modes[0].extrema_count == 40);
+    CHECK(result.modes[0].mean_period_samples == 20.0);
+    CHECK(std::isinf(eemd(std::vector<double>(64, 1.0), plain()).residue.mean_period_samples));
+}
+
+TEST_CASE("two tones an octave and a half apart come out as two modes") {
+    // G. Rilling and P. Flandrin, IEEE Trans. Signal Process. 56, 85-95, 2008: ratio < 0.5 separates.
+    const std::size_t n = 1024;
+    std::vector<double> fast(n), slow(n), signal(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        fast[i] = std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / 16.0);
+        slow[i] = std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / 45.0);
+        signal[i] = fast[i] + slow[i];
+    }
+    const EemdResult result = eemd(signal, plain());
+    for (std::size_t i = n / 10; i < n - n / 10; ++i) {
+        REQUIRE(result.modes[0].values[i] == Approx(fast[i]).margin(0.05));
+        REQUIRE(result.modes[1].values[i] == Approx(slow[i]).margin(0.05));
+    }
+}
+
+}  // namespace a351::corrector

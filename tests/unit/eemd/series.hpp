@@ -1,0 +1,63 @@
+#pragma once
+/// @file
+/// Series that several tests decompose.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "corrector/eemd/eemd.hpp"
+#include "corrector/eemd/noise.hpp"
+
+namespace a351::corrector {
+
+inline std::vector<double> white_noise(std::size_t n, std::uint64_t seed) {
+    std::vector<double> noise(n);
+    fill_white_noise(seed, 0, noise);
+    return noise;
+}
+
+/// A drift, a slow and a fast wave, and some noise; of order 1.
+inline std::vector<double> mixed_series(std::size_t n) {
+    std::vector<double> series = white_noise(n, 7);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double t = static_cast<double>(i);
+        series[i] = 0.3 * series[i] + 1e-3 * t + std::sin(2.0 * std::numbers::pi * t / 97.0) +
+                    0.5 * std::cos(2.0 * std::numbers::pi * t / 11.0);
+    }
+    return series;
+}
+
+/// Every component, the residue last.
+inline std::vector<std::vector<double>> components_of(const EemdResult& result) {
+    std::vector<std::vector<double>> all;
+    for (const Component& mode : result.modes) all.push_back(mode.values);
+    all.push_back(result.residue.values);
+    return all;
+}
+
+inline double rms(std::span<const double> values) {
+    double squares = 0.0;
+    for (const double value : values) squares += value * value;
+    return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+inline double largest_magnitude(std::span<const double> values) {
+    double largest = 0.0;
+    for (const double value : values) largest = std::max(largest, std::abs(value));
+    return largest;
+}
+
+/// signal - sum of components.
+inline std::vector<double> closure(std::span<const double> signal, const EemdResult& result) {
+    std::vector<double> rest(signal.begin(), signal.end());
+    for (const auto& component : components_of(result)) {
+        for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= component[i];
+    }
+    return rest;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,78 @@
+#include "corrector/signal/trend_curve.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "corrector/eemd/noise.hpp"
+
+namespace a351::corrector {
+namespace {
+
+Component component(std::vector<double> values, std::size_t extrema) {
+    Component out;
+    out.mean_period_samples =
+        2.0 * static_cast<double>(values.size()) / static_cast<double>(extrema);
+    out.values = std::move(values);
+    out.extrema_count = extrema;
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("the paper's curve is the residue and the slowest mode that is not zero") {
+    EemdResult result;
+    result.modes = {component({1, 1}, 90), component({2, 2}, 5), component({4, 4}, 8),
+                    component({0, 0}, 0)};
+    result.residue = component({100, 100}, 0);
+    CHECK(trend_curve(result, TrendCurve::paper) == std::vector<double>{102, 102});
+}
+
+TEST_CASE("the slow curve is the residue and every mode with at most seven extrema") {
+    EemdResult result;
+    result.modes = {component({1, 1}, 90), component({2, 2}, 8), component({4, 4}, 7),
+                    component({8, 8}, 2)};
+    result.residue = component({100, 100}, 0);
+    CHECK(trend_curve(result, TrendCurve::slow) == std::vector<double>{112, 112});
+}
+
+TEST_CASE("without modes both curves are the residue") {
+    EemdResult result;
+    result.residue = component({3, 4}, 0);
+    for (const TrendCurve choice : {TrendCurve::paper, TrendCurve::slow}) {
+        CHECK(trend_curve(result, choice) == std::vector<double>{3, 4});
+    }
+}
+
+TEST_CASE("on records of a quarter of an hour the slow curve has the smaller error") {
+    // Why TrendCurve::slow is the default: 16 records of 2 s samples, drift and a wave of about 15
+    // minutes, white noise half as large; root mean square error over all of them.
+    double squares[2] = {0.0, 0.0};
+    for (std::uint64_t record = 0; record < 16; ++record) {
+        std::vector<double> noise(450);
+        fill_white_noise(99, record, noise);
+        std::vector<double> truth(450), signal(450);
+        const double phase = 0.4 * static_cast<double>(record);
+        const double period = 350.0 + 15.0 * static_cast<double>(record);
+        for (std::size_t i = 0; i < 450; ++i) {
+            const double t = static_cast<double>(i);
+            truth[i] = 0.003 * t + std::sin(2.0 * std::numbers::pi * t / period + phase);
+            signal[i] = truth[i] + 0.5 * noise[i];
+        }
+        EemdOptions options;
+        options.seed = record;
+        const EemdResult result = eemd(signal, options);
+        for (const TrendCurve choice : {TrendCurve::paper, TrendCurve::slow}) {
+            const auto curve = trend_curve(result, choice);
+            double& sum = squares[choice == TrendCurve::paper ? 0 : 1];
+            for (std::size_t i = 0; i < 450; ++i) {
+                sum += (curve[i] - truth[i]) * (curve[i] - truth[i]) / (16.0 * 450.0);
+            }
+        }
+    }
+    INFO("paper " << std::sqrt(squares[0]) << ", slow " << std::sqrt(squares[1]));
+    CHECK(squares[1] < squares[0]);
+    CHECK(std::sqrt(squares[1]) < 0.2);
+}
+
+}  // namespace a351::corrector
