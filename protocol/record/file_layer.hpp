@@ -1,0 +1,45 @@
+#pragma once
+/// @file
+/// The few file operations that durability rests on, behind an interface so that a test can fail
+/// the n-th of them.  Every failure is a std::system_error whose text names operation and path.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+namespace a351::record {
+
+/// A file open for appending.  Closing does not sync.
+class AppendFile {
+public:
+    virtual ~AppendFile() = default;
+    /// All of them; or throws, and takes back what the disk would still hold of them.
+    virtual void append(std::span<const std::byte> bytes) = 0;
+    virtual void sync() = 0;  ///< fdatasync.  A failure is final: do not call it again.
+    [[nodiscard]] virtual std::uint64_t size() const = 0;
+};
+
+class FileLayer {
+public:
+    virtual ~FileLayer() = default;
+    [[nodiscard]] virtual std::unique_ptr<AppendFile> open_append(
+        const std::filesystem::path& file) = 0;  ///< Creates it when absent.
+    /// Those that are missing, each synced into its parent.
+    virtual void create_directories(const std::filesystem::path& directory) = 0;
+    virtual void sync_directory(const std::filesystem::path& directory) = 0;
+    virtual void truncate(const std::filesystem::path& file, std::uint64_t size) = 0;  ///< Synced.
+    virtual void rename(const std::filesystem::path& from, const std::filesystem::path& to) = 0;
+    virtual void remove(const std::filesystem::path& file) = 0;
+};
+
+/// The operating system's files.
+[[nodiscard]] FileLayer& posix_files();
+
+/// Replaces a small file so that a reader, or a crash, sees the old or the new content: temporary
+/// name, sync, rename, directory sync.
+void replace_file(FileLayer& files, const std::filesystem::path& file,
+                  std::span<const std::byte> content);
+
+}  // namespace a351::record

@@ -1,0 +1,32 @@
+#include "protocol/record/journal.hpp"
+
+namespace a351::record {
+
+namespace {
+
+constexpr std::string_view kHexDigits = "0123456789abcdef";
+
+}  // namespace
+
+std::string SessionId::to_hex() const {
+    std::string text;
+    text.reserve(2 * bytes.size());
+    for (const std::uint8_t byte : bytes) {
+        text += kHexDigits[byte >> 4];
+        text += kHexDigits[byte & 0xF];
+    }
+    return text;
+}
+
+std::optional<SessionId> SessionId::from_hex(std::string_view text) {
+    SessionId id;
+    if (text.size() != 2 * id.bytes.size()) return std::nullopt;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto digit = kHexDigits.find(text[i]);
+        if (digit == std::string_view::npos) return std::nullopt;
+        id.bytes[i / 2] = static_cast<std::uint8_t>(id.bytes[i / 2] << 4 | digit);
+    }
+    return id;
+}
+
+}  // namespace a351::record

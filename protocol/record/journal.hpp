@@ -1,0 +1,98 @@
+#pragma once
+/// @file
+/// What the journal holds: the raw received bytes with their arrival times, and all that is needed
+/// to read them later.  Bytes on disk: protocol/record/journal-format.md.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "protocol/core/utc_time.hpp"
+#include "protocol/timing/clock_reading.hpp"
+#include "protocol/timing/sample_clock.hpp"
+
+namespace a351::record {
+
+/// Names one run of sampling in which the counter is continuous.  Random.
+struct SessionId {
+    std::array<std::uint8_t, 16> bytes{};
+
+    [[nodiscard]] std::string to_hex() const;
+    [[nodiscard]] static std::optional<SessionId> from_hex(std::string_view text);
+    auto operator<=>(const SessionId&) const = default;
+};
+
+/// Codes that name a sensor in SEED, and the channel suffix of each axis.
+struct StationCodes {
+    std::string network = "XX";                      ///< 1-2 characters A-Z 0-9.
+    std::string station = "A351";                    ///< 1-5 characters A-Z 0-9.
+    std::string location = "00";                     ///< 2 characters, or empty.
+    std::array<std::string, 3> axes{"1", "2", "Z"};  ///< Last letter of x, y, z.
+
+    bool operator==(const StationCodes&) const = default;
+};
+
+/// Heads every segment: a reader needs nothing but the file.
+struct JournalHeader {
+    SessionId session;
+    std::string boot_id;  ///< Of the kernel: names the raw clock's zero.
+    std::string program_version;
+    StationCodes codes;
+    std::string profile;  ///< wire::DeviceProfile by name.
+    std::string product_id;
+    std::string serial_number;
+    std::uint16_t firmware = 0;
+    int output_rate_hz = 0;
+    std::string filter;
+    std::uint16_t burst_ctrl = 0;
+    int baud = 0;
+    std::optional<double> declared_rate_hz;  ///< For blockette 100; absent until commissioned.
+    timing::ClockReading clock;
+};
+
+/// One read() of the port: its bytes end at `end` within the chunk.
+struct ReadStamp {
+    std::uint32_t end = 0;
+    RawTime time;  ///< Taken right after read() returned.
+
+    bool operator==(const ReadStamp&) const = default;
+};
+
+/// A chunk on disk holds at most this, so that one write() stays small and a reader's memory bounded.
+inline constexpr std::size_t kMostPayloadBytes = 64 * 1024;
+
+/// Holds 1 byte or more; 12 + 12 x reads + bytes must stay within kMostPayloadBytes.
+struct RxChunk {
+    std::vector<std::byte> bytes;
+    std::vector<ReadStamp> reads;  ///< Rising `end`; the last one is bytes.size().
+};
+struct TxChunk {
+    RawTime time;
+    std::vector<std::byte> bytes;
+};
+struct ModelChunk {
+    std::int64_t index = 0;  ///< Sample that `time` belongs to.
+    timing::SampleTime time;
+};
+struct EventChunk {
+    std::string json;  ///< One object, as in the event log.
+};
+struct ChannelMark {
+    std::string channel;
+    std::int64_t index = 0;  ///< Last sample that is archived and synced.
+    UtcTime utc;
+};
+struct MarkChunk {
+    SessionId session;
+    std::vector<ChannelMark> channels;
+};
+
+using JournalChunk = std::variant<JournalHeader, RxChunk, TxChunk, timing::ClockReading, ModelChunk,
+                                  EventChunk, MarkChunk>;
+
+}  // namespace a351::record

@@ -1,0 +1,128 @@
+#include "protocol/record/journal_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <system_error>
+#include <utility>
+
+#include "protocol/record/journal_codec.hpp"
+
+namespace a351::record {
+
+namespace {
+
+std::vector<std::byte> read_from(const std::filesystem::path& file, std::uint64_t offset,
+                                 std::uint64_t count) {
+    std::ifstream in(file, std::ios::binary);
+    std::vector<std::byte> bytes(count);
+    in.seekg(static_cast<std::streamoff>(offset));
+    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
+    if (!in) throw std::system_error(EIO, std::generic_category(), "read " + file.string());
+    return bytes;
+}
+
+}  // namespace
+
+JournalReader::JournalReader(std::filesystem::path segment)
+    : path_(std::move(segment)), in_(path_, std::ios::binary) {
+    if (!in_) throw std::system_error(errno, std::generic_category(), "open " + path_.string());
+    size_ = std::filesystem::file_size(path_);
+}
+
+bool JournalReader::read(std::span<std::byte> bytes) {
+    in_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    return in_.good();
+}
+
+std::optional<JournalChunk> JournalReader::stop(std::string reason) {
+    damage_ = JournalDamage{path_, offset_, size_ - offset_, std::move(reason)};
+    return std::nullopt;
+}
+
+std::optional<JournalChunk> JournalReader::next() {
+    if (damage_) return std::nullopt;
+    if (offset_ == 0) {
+        std::array<std::byte, kPreambleSize> preamble{};
+        if (size_ < kPreambleSize || !read(preamble)) return stop("shorter than its preamble");
+        if (!is_preamble(preamble)) return stop("not a journal of this version");
+        // offset_ stays 0 until the header is found good: without it nothing in the file is.
+    }
+    for (std::uint64_t at = std::max<std::uint64_t>(offset_, kPreambleSize); at < size_;
+         at = offset_) {
+        std::array<std::byte, kChunkHeaderSize> head{};
+        if (size_ - at < head.size() || !read(head)) return stop("torn chunk header");
+        const ChunkHeader chunk = decode_chunk_header(head);
+        if (chunk.length > kMostPayloadBytes) return stop("impossible length");
+        if (size_ - at - head.size() < chunk.length) return stop("torn chunk");
+        payload_.resize(chunk.length);
+        if (!read(payload_)) return stop("torn chunk");
+        if (chunk_crc(chunk, payload_) != chunk.crc) return stop("wrong checksum");
+        if (chunk.sequence != next_sequence_) return stop("wrong sequence number");
+        const bool is_head = chunk.type == static_cast<std::uint8_t>(ChunkType::head);
+        if (is_head != (chunk.sequence == 0)) {
+            return stop(is_head ? "header inside the segment" : "no header");
+        }
+        std::optional<JournalChunk> decoded;
+        if (is_known(chunk.type)) {
+            decoded = decode_payload(static_cast<ChunkType>(chunk.type), payload_);
+            if (!decoded) return stop("payload does not fit its type");
+        }
+        offset_ = at + head.size() + chunk.length;
+        ++next_sequence_;
+        if (decoded) return decoded;
+    }
+    if (next_sequence_ == 0) return stop("no header");
+    return std::nullopt;
+}
+
+std::optional<std::uint64_t> segment_number(const std::filesystem::path& file) {
+    const std::string name = file.filename().string();
+    const auto bar = name.find('_');
+    if (bar == std::string::npos || bar < 8 || bar > 18) return std::nullopt;
+    if (name.find(".a351j") == std::string::npos) return std::nullopt;
+    std::uint64_t number = 0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + bar, number);
+    if (error != std::errc() || end != name.data() + bar) return std::nullopt;
+    return number;
+}
+
+std::vector<std::filesystem::path> journal_segments(const std::filesystem::path& directory) {
+    std::vector<std::pair<std::uint64_t, std::filesystem::path>> numbered;
+    if (std::filesystem::exists(directory)) {
+        for (const auto& entry : std::filesystem::directory_iterator(directory)) {
+            const auto number = segment_number(entry.path());
+            if (number && entry.path().extension() == ".a351j") {
+                numbered.emplace_back(*number, entry.path());
+            }
+        }
+    }
+    std::sort(numbered.begin(), numbered.end());
+    std::vector<std::filesystem::path> segments;
+    for (auto& [number, path] : numbered) segments.push_back(std::move(path));
+    return segments;
+}
+
+std::optional<JournalDamage> repair_newest_segment(FileLayer& files,
+                                                   const std::filesystem::path& directory) {
+    const auto segments = journal_segments(directory);
+    if (segments.empty()) return std::nullopt;
+    JournalReader reader(segments.back());
+    while (reader.next()) {
+    }
+    const auto& damage = reader.damage();
+    if (!damage) return std::nullopt;
+    auto side = damage->file;
+    side += ".torn";
+    if (damage->offset == 0) {
+        files.rename(damage->file, side);
+        files.sync_directory(directory);
+    } else {
+        replace_file(files, side, read_from(damage->file, damage->offset, damage->byte_count));
+        files.truncate(damage->file, damage->offset);
+    }
+    return damage;
+}
+
+}  // namespace a351::record

@@ -1,0 +1,87 @@
+#include "protocol/record/recovery.hpp"
+
+#include <algorithm>
+
+#include "protocol/record/archive_writer.hpp"
+
+namespace a351::record {
+namespace {
+
+// Records may be older than the header's clock by the filter's delay, and the day file is read
+// whole anyway.
+constexpr auto kMargin = std::chrono::hours(1);
+
+struct Replay {
+    std::vector<std::filesystem::path> segments;
+    std::optional<JournalHeader> first;  // header of the first of them
+    StationCodes codes;                  // of the last
+};
+
+std::optional<JournalHeader> header_of(JournalReader& reader) {
+    const auto chunk = reader.next();
+    const auto* header = chunk ? std::get_if<JournalHeader>(&*chunk) : nullptr;
+    return header ? std::optional(*header) : std::nullopt;
+}
+
+std::optional<SessionId> newest_marked_session(JournalReader& reader) {
+    std::optional<SessionId> session;
+    while (const auto chunk = reader.next())
+        if (const auto* mark = std::get_if<MarkChunk>(&*chunk)) session = mark->session;
+    return session;
+}
+
+Replay plan_replay(const std::filesystem::path& journal) {
+    Replay replay;
+    std::optional<SessionId> oldest;
+    bool has_reached_oldest = false;
+    const auto segments = journal_segments(journal);
+    for (auto segment = segments.rbegin(); segment != segments.rend(); ++segment) {
+        JournalReader reader(*segment);
+        const auto header = header_of(reader);
+        if (!header) continue;  // nothing in it can be read
+        if (has_reached_oldest && header->session != *oldest) break;
+        if (replay.segments.empty()) replay.codes = header->codes;
+        replay.segments.push_back(*segment);
+        replay.first = header;
+        if (!oldest) oldest = newest_marked_session(reader);
+        has_reached_oldest = oldest && header->session == *oldest;
+    }
+    std::reverse(replay.segments.begin(), replay.segments.end());
+    return replay;
+}
+
+}  // namespace
+
+RecoveryReport recover(FileLayer& files, const std::filesystem::path& data_root) {
+    const auto journal = data_root / "journal";
+    const auto archive = data_root / "archive";
+    RecoveryReport report;
+    report.journal = repair_newest_segment(files, journal);
+    const Replay replay = plan_replay(journal);
+    if (!replay.first) return report;
+
+    for (const auto& channel : channels_in(archive, replay.codes)) {
+        const auto day_file = newest_day_file(archive, replay.codes, channel);
+        if (!day_file) continue;
+        if (const auto tail = repair_tail(files, *day_file)) report.archive.push_back(*tail);
+    }
+
+    ArchiveWriter writer(files, archive, replay.codes);
+    writer.begin_replay(replay.first->clock.realtime - kMargin);
+    Archiver archiver(writer);
+    for (const auto& segment : replay.segments) {
+        JournalReader reader(segment);
+        while (const auto chunk = reader.next()) archiver.take(*chunk);
+    }
+    archiver.close_records();
+    writer.end_replay();
+    static_cast<void>(writer.sync());
+
+    report.records_added = writer.records_written();
+    report.records_confirmed = writer.records_passed_over();
+    report.records_conflicting = writer.replay_conflicts();
+    report.replayed = archiver.counters();
+    return report;
+}
+
+}  // namespace a351::record

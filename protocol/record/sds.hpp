@@ -1,0 +1,75 @@
+#pragma once
+/// @file
+/// The SDS archive as files: `YEAR/NET/STA/CHAN.D/NET.STA.LOC.CHAN.D.YEAR.DAY`.  Only whole records
+/// are appended; a day file comes into being with its first one.
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocol/core/utc_time.hpp"
+#include "protocol/record/file_layer.hpp"
+#include "protocol/record/journal.hpp"
+#include "protocol/record/miniseed.hpp"
+
+namespace a351::record {
+
+/// The day file that holds a record starting at `start` (UTC day of its first sample).
+[[nodiscard]] std::filesystem::path sds_file(const std::filesystem::path& archive,
+                                             const StationCodes& codes, const std::string& channel,
+                                             UtcTime start);
+
+/// Channel directories present for a station, over all years, sorted by channel.
+[[nodiscard]] std::vector<std::string> channels_in(const std::filesystem::path& archive,
+                                                   const StationCodes& codes);
+
+/// Day files of a channel by day; side files such as `*.torn` are none.
+[[nodiscard]] std::vector<std::filesystem::path> day_files(const std::filesystem::path& archive,
+                                                           const StationCodes& codes,
+                                                           const std::string& channel);
+
+/// Newest day file of a channel, if there is one.
+[[nodiscard]] std::optional<std::filesystem::path> newest_day_file(
+    const std::filesystem::path& archive, const StationCodes& codes, const std::string& channel);
+
+/// What a crash left behind the last whole record.
+struct TornTail {
+    std::filesystem::path file;
+    std::uint64_t offset = 0;
+    std::uint64_t byte_count = 0;
+};
+
+/// Cuts what follows the last whole record into `DAYFILE.OFFSET.torn` beside the archive's day file,
+/// and removes a file that becomes or is empty.  @return what was cut, if anything.
+std::optional<TornTail> repair_tail(FileLayer& files, const std::filesystem::path& day_file);
+
+/// Appends records to day files, keeping one file open per channel.  The first record of a day file is
+/// synced at once; a torn tail is cut before the first append; the day before is synced at its end.
+/// @throws std::system_error  the file is given up, as after a failed sync(): what was not synced may
+///         be lost.  The next append() opens it anew.
+class SdsWriter {
+public:
+    SdsWriter(FileLayer& files, std::filesystem::path archive, StationCodes codes);
+
+    void append(const std::string& channel, const PackedRecord& record);
+    void sync();  ///< Every file touched since the last call.
+
+private:
+    struct Open {
+        std::filesystem::path path;
+        std::unique_ptr<AppendFile> file;
+        bool is_dirty = false;
+    };
+    static void sync(Open& open);
+
+    FileLayer& files_;
+    std::filesystem::path archive_;
+    StationCodes codes_;
+    std::map<std::string, Open> open_;
+};
+
+}  // namespace a351::record

@@ -1,0 +1,49 @@
+#pragma once
+/// @file
+/// StationXML 1.2 (FDSN) of the sensor, written by the daemon and read by the corrector.
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "protocol/core/units.hpp"
+#include "protocol/core/utc_time.hpp"
+#include "protocol/record/journal.hpp"
+
+namespace a351::record {
+
+struct StationDescription {
+    StationCodes codes;
+    Degrees latitude, longitude;
+    Metres elevation;
+    UtcTime start;        ///< Of the epoch.
+    std::string profile;  ///< wire::DeviceProfile by name.
+    bool is_profile_verified = false;
+    std::string product_id;
+    std::string serial_number;
+    std::uint16_t firmware = 0;
+    int output_rate_hz = 0;
+    std::string filter;
+    Nanoseconds group_delay{0};
+};
+
+[[nodiscard]] std::string to_station_xml(const StationDescription& description);
+
+/// How counts of a channel become physical values: value = offset + gain x counts.
+struct ChannelScale {
+    std::string code;   ///< Channel, e.g. BNZ.
+    double gain = 0.0;  ///< Per count, in `unit`.
+    double offset = 0.0;
+    std::string unit;  ///< "m/s**2" or "degC".
+};
+
+struct StationMetadata {
+    StationCodes codes;
+    std::vector<ChannelScale> channels;
+};
+
+/// @throws InputError  the file is missing, is not StationXML, or lacks a response.
+[[nodiscard]] StationMetadata read_station_xml(const std::filesystem::path& file);
+
+}  // namespace a351::record

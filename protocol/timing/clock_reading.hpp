@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+
+#include "protocol/core/utc_time.hpp"
+
+namespace a351::timing {
+
+/// The host's clocks read together, and what the kernel says of its synchronisation.
+struct ClockReading {
+    RawTime raw;                          ///< CLOCK_MONOTONIC_RAW.
+    Nanoseconds boottime{0};              ///< CLOCK_BOOTTIME: runs through suspend.
+    UtcTime realtime;                     ///< CLOCK_REALTIME at the instant `raw`.
+    bool is_synchronised = false;         ///< adjtimex: neither TIME_ERROR nor STA_UNSYNC.
+    std::int64_t max_error_us = 0;        ///< adjtimex maxerror.
+    std::int64_t estimated_error_us = 0;  ///< adjtimex esterror.
+
+    bool operator==(const ClockReading&) const = default;
+};
+
+}  // namespace a351::timing

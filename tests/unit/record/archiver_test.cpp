@@ -1,0 +1,447 @@
+#include "protocol/record/archiver.hpp"
+
+#include <catch2/catch.hpp>
+#include <map>
+#include <utility>
+
+#include "protocol/core/input_error.hpp"
+#include "tests/unit/record/journal_stream.hpp"
+
+using namespace a351;
+using namespace a351::record;
+using namespace std::chrono_literals;
+
+namespace {
+
+struct Collector : ArchiveSink {
+    void record(const std::string& channel, const PackedRecord& record,
+                std::int64_t last_index) override {
+        packed.emplace_back(channel, record.bytes);
+        decoded[channel].push_back(*decode_record(record.bytes));
+        last[channel] = last_index;
+    }
+    void sample(const Sample& sample) override { samples.push_back(sample); }
+
+    [[nodiscard]] std::vector<std::int32_t> counts(const std::string& channel) const {
+        std::vector<std::int32_t> all;
+        const auto found = decoded.find(channel);
+        if (found == decoded.end()) return all;
+        for (const auto& record : found->second)
+            all.insert(all.end(), record.samples.begin(), record.samples.end());
+        return all;
+    }
+
+    std::vector<std::pair<std::string, std::array<std::byte, kRecordSize>>> packed;
+    std::map<std::string, std::vector<DecodedRecord>> decoded;
+    std::map<std::string, std::int64_t> last;
+    std::vector<Sample> samples;
+};
+
+struct Run {
+    Collector sink;
+    ArchiverCounters counters;
+};
+
+Run archive(const std::vector<JournalChunk>& chunks) {
+    Run run;
+    Archiver archiver(run.sink);
+    for (const auto& chunk : chunks) archiver.take(chunk);
+    archiver.close_records();
+    run.counters = archiver.counters();
+    return run;
+}
+
+std::vector<std::int32_t> expected(unsigned axis, std::int64_t first, std::int64_t end) {
+    std::vector<std::int32_t> counts;
+    for (std::int64_t k = first; k < end; ++k) counts.push_back(values_of(k).axes[axis]);
+    return counts;
+}
+
+/// The same bytes with the same stamp for each byte's read, cut into chunks elsewhere.
+std::vector<JournalChunk> recut(const std::vector<JournalChunk>& chunks, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::vector<JournalChunk> cut;
+    for (const auto& chunk : chunks) {
+        const auto* rx = std::get_if<RxChunk>(&chunk);
+        if (!rx) {
+            cut.push_back(chunk);
+            continue;
+        }
+        std::size_t read = 0;
+        while (read < rx->reads.size()) {  // whole reads per chunk
+            const std::size_t from = read == 0 ? 0 : rx->reads[read - 1].end;
+            const std::size_t reads =
+                std::min<std::size_t>(1 + random() % 20, rx->reads.size() - read);
+            RxChunk part;
+            for (std::size_t i = 0; i < reads; ++i, ++read) {
+                part.reads.push_back(
+                    {static_cast<std::uint32_t>(rx->reads[read].end - from), rx->reads[read].time});
+            }
+            const auto begin = rx->bytes.begin() + static_cast<std::ptrdiff_t>(from);
+            part.bytes.assign(begin, begin + part.reads.back().end);
+            cut.emplace_back(std::move(part));
+        }
+    }
+    return cut;
+}
+
+}  // namespace
+
+TEST_CASE("every sample of a stream comes back from the records bit for bit, each once",
+          "[record][archiver]") {
+    JournalStream stream;
+    stream.frames(0, 20'000);
+    const auto run = archive(stream.chunks);
+    CHECK(run.sink.counts("BN1") == expected(0, 0, 20'000));
+    CHECK(run.sink.counts("BN2") == expected(1, 0, 20'000));
+    CHECK(run.sink.counts("BNZ") == expected(2, 0, 20'000));
+    std::vector<std::int32_t> temperature;
+    for (std::int64_t k = 0; k < 20'000; ++k) temperature.push_back(values_of(k).temperature);
+    CHECK(run.sink.counts("BK1") == temperature);
+    REQUIRE(run.sink.samples.size() == 20'000);
+    for (std::int64_t k = 0; k < 20'000; ++k) {
+        REQUIRE(run.sink.samples[static_cast<std::size_t>(k)].index == k);
+        REQUIRE(run.sink.samples[static_cast<std::size_t>(k)].values == values_of(k));
+    }
+    CHECK(run.sink.last.at("BNZ") == 19'999);
+    CHECK(run.counters.frames == 20'000);
+    CHECK(run.counters.bytes == 20'000 * 24);
+    CHECK(run.counters.sessions == 1);
+    CHECK(run.counters.gaps + run.counters.anomalies + run.counters.bytes_skipped == 0);
+}
+
+TEST_CASE("records carry the instants of their samples and the header's codes",
+          "[record][archiver]") {
+    JournalStream stream;
+    std::get<JournalHeader>(stream.chunks.front()).declared_rate_hz = 50.0006;
+    stream.frames(0, 5'000);
+    const auto run = archive(stream.chunks);
+    // k512_fc9: 511 / 2 / 4000 Hz = 63.875 ms; 24 bytes at 460 800 baud = 520.833 us.
+    const Nanoseconds delay = 63'875us + Nanoseconds(520'833);
+    std::int64_t index = 0;
+    for (const auto& record : run.sink.decoded.at("BNZ")) {
+        const Nanoseconds error = record.header.start - (kStart + due(index) - delay);
+        CHECK(std::chrono::abs(error) <= Nanoseconds(1us));
+        CHECK(record.header.network == "XX");
+        CHECK(record.header.station == "A351");
+        CHECK(record.header.location == "00");
+        CHECK(record.header.starts_series == (index == 0));
+        CHECK_FALSE(record.header.ends_series);
+        CHECK_FALSE(record.header.is_clipped);
+        CHECK_FALSE(record.header.had_transmission_errors);
+        CHECK(record.header.declared_rate_hz == double(50.0006F));
+        index += static_cast<std::int64_t>(record.samples.size());
+    }
+}
+
+TEST_CASE("where the journal cuts the stream into chunks changes no record", "[record][archiver]") {
+    JournalStream stream;
+    std::mt19937_64 random(7);
+    for (std::int64_t k = 0; k < 3'000; ++k) {
+        auto frame = frame_of(values_of(k));
+        if (k % 211 == 100) frame[random() % frame.size()] ^= std::byte{0x10};
+        const auto middle = frame.begin() + static_cast<std::ptrdiff_t>(1 + random() % 23);
+        stream.bytes({frame.begin(), middle}, due(k) - 1ms);
+        stream.bytes({middle, frame.end()}, due(k));
+        if (k % 50 == 49) stream.second(due(k));
+    }
+    const auto whole = archive(stream.chunks);
+    CHECK(whole.counters.checksum_errors + whole.counters.framing_errors > 0);
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const auto cut = archive(recut(stream.chunks, seed));
+        CHECK(cut.sink.packed == whole.sink.packed);
+        CHECK(cut.counters.frames == whole.counters.frames);
+    }
+}
+
+TEST_CASE("frames that one read delivered together are stamped by their place in it",
+          "[record][archiver]") {
+    JournalStream single, together;
+    single.frames(0, 3'000);
+    for (std::int64_t k = 0; k < 3'000; k += 2) {
+        // The first of two would arrive together with the second: only the wire time tells.
+        auto bytes = frame_of(values_of(k));
+        const auto second = frame_of(values_of(k + 1));
+        bytes.insert(bytes.end(), second.begin(), second.end());
+        together.bytes(bytes, due(k + 1));
+        if (k % 50 == 48) together.second(due(k + 1));
+    }
+    together.flush();
+    const auto a = archive(single.chunks), b = archive(together.chunks);
+    // Odd frames come as early as before and draw the line; the very first one is late.
+    const auto& last_a = a.sink.decoded.at("BNZ").back();
+    const auto& last_b = b.sink.decoded.at("BNZ").back();
+    CHECK(a.sink.counts("BNZ") == b.sink.counts("BNZ"));
+    const auto first_late = b.sink.decoded.at("BNZ").front().header.start -
+                            a.sink.decoded.at("BNZ").front().header.start;
+    CHECK(std::chrono::abs(first_late - Nanoseconds(20ms - 520'833ns)) <= Nanoseconds(1us));
+    CHECK(last_b.header.start - last_a.header.start < Nanoseconds(10ms));
+}
+
+TEST_CASE("a lost frame leaves a gap of exactly one sample and no other", "[record][archiver]") {
+    for (std::size_t bad_byte = 0; bad_byte < 24; ++bad_byte) {
+        JournalStream stream;
+        for (std::int64_t k = 0; k < 2'000; ++k) {
+            auto frame = frame_of(values_of(k));
+            if (k == 777) frame[bad_byte] ^= std::byte{0x44};
+            stream.bytes(frame, due(k));
+            if (k % 50 == 49) stream.second(due(k));
+        }
+        stream.flush();
+        const auto run = archive(stream.chunks);
+        auto counts = expected(2, 0, 777);
+        const auto rest = expected(2, 778, 2'000);
+        counts.insert(counts.end(), rest.begin(), rest.end());
+        INFO("byte " << bad_byte);
+        CHECK(run.sink.counts("BNZ") == counts);
+        CHECK(run.counters.gaps == 1);
+        CHECK(run.counters.samples_missing == 1);
+        CHECK(run.counters.frames == 1'999);
+        CHECK(run.counters.bytes_skipped == 24);
+        std::int64_t index = 0;
+        int flagged = 0;
+        for (const auto& record : run.sink.decoded.at("BNZ")) {
+            if (index == 777) ++index;
+            const auto error = record.header.start -
+                               (run.sink.decoded.at("BNZ").front().header.start + index * 20ms);
+            CHECK(std::chrono::abs(error) <= Nanoseconds(1us));
+            index += static_cast<std::int64_t>(record.samples.size());
+            if (record.header.had_transmission_errors) ++flagged;
+            CHECK(record.header.had_transmission_errors == (index == 777));
+        }
+        CHECK(flagged == 1);
+        CHECK(index == 2'000);
+    }
+}
+
+TEST_CASE("every byte is in a frame, skipped or pending", "[record][archiver]") {
+    std::mt19937_64 random(11);
+    for (int round = 0; round < 20; ++round) {
+        JournalStream stream;
+        for (std::int64_t k = 0; k < 1'000; ++k) {
+            auto frame = frame_of(values_of(k));
+            const auto fate = random() % 40;
+            if (fate == 0) frame.resize(random() % 24);
+            if (fate == 1) frame[random() % 24] ^= std::byte(1U << random() % 8);
+            if (fate == 2) frame.insert(frame.end(), 30, std::byte{0x80});
+            if (!frame.empty()) stream.bytes(frame, due(k));
+            if (k % 50 == 49) stream.second(due(k));
+        }
+        stream.flush();
+        const auto run = archive(stream.chunks);
+        const auto covered = run.counters.frames * 24 + run.counters.bytes_skipped;
+        CHECK(covered <= run.counters.bytes);
+        CHECK(run.counters.bytes - covered < 96);
+        CHECK(run.counters.anomalies + run.counters.duplicates == 0);
+        CHECK(run.sink.samples.size() + run.counters.samples_missing ==
+              static_cast<std::size_t>(run.sink.samples.back().index -
+                                       run.sink.samples.front().index + 1));
+        for (const auto& sample : run.sink.samples) {
+            const auto k =
+                sample.index + (values_of(0).count == run.sink.samples.front().values.count
+                                    ? 0
+                                    : run.sink.samples.front().values.count / 80 - 1);
+            REQUIRE(sample.values == values_of(k));
+        }
+    }
+}
+
+TEST_CASE("no record reaches over UTC midnight", "[record][archiver]") {
+    const auto before = 12h - 100s;
+    JournalStream stream(1, before);
+    for (std::int64_t k = 0; k < 10'000; ++k) {
+        stream.bytes(frame_of(values_of(k)), before + due(k));
+        if (k % 50 == 49) stream.second(before + due(k));
+    }
+    stream.flush();
+    const auto run = archive(stream.chunks);
+    const UtcTime midnight = *parse_rfc3339("2026-03-02T00:00:00Z");
+    CHECK(run.sink.counts("BNZ") == expected(2, 0, 10'000));
+    for (const auto& [channel, records] : run.sink.decoded) {
+        int before_count = 0;
+        for (const auto& record : records) {
+            if (record.header.start >= midnight) {
+                CHECK(before_count > 0);
+                continue;
+            }
+            ++before_count;
+            CHECK(record.header.start + (record.samples.size() - 1) * 20ms < midnight);
+        }
+        const auto& first_after = records[static_cast<std::size_t>(before_count)];
+        CHECK(first_after.header.start - midnight < Nanoseconds(20ms));
+    }
+}
+
+TEST_CASE("samples that nothing follows are in a record after 60 s", "[record][archiver]") {
+    JournalStream stream;
+    stream.frames(0, 300);
+    Collector sink;
+    Archiver archiver(sink);
+    for (const auto& chunk : stream.chunks) archiver.take(chunk);
+    archiver.take(clock_at(66s));  // the last frame came at 6 s
+    CHECK(sink.decoded.empty());
+    archiver.take(clock_at(66s + 1ms));
+    CHECK(sink.counts("BNZ") == expected(2, 0, 300));
+}
+
+TEST_CASE("an outage of many wraps is a gap of the exact length", "[record][archiver]") {
+    for (const std::int64_t missing : {700, 850, 2'000, 4'500, 100'000}) {
+        JournalStream stream;
+        stream.frames(0, 1'000);
+        stream.frames(1'000 + missing, 2'000 + missing);
+        const auto run = archive(stream.chunks);
+        CHECK(run.counters.gaps == 1);
+        CHECK(run.counters.samples_missing == static_cast<std::uint64_t>(missing));
+        CHECK(run.sink.samples.back().index == 1'999 + missing);
+    }
+}
+
+TEST_CASE("a device that restarts in mid-stream becomes a session of its own",
+          "[record][archiver]") {
+    JournalStream stream;
+    stream.frames(0, 1'000);
+    for (std::int64_t k = 0; k < 1'000; ++k) {  // 30 s later the counter begins anew
+        stream.bytes(frame_of(values_of(k)), due(1'000) + 30s + due(k));
+        if (k % 50 == 49) stream.second(due(1'000) + 30s + due(k));
+    }
+    stream.flush();
+    const auto run = archive(stream.chunks);
+    CHECK(run.counters.sessions == 2);
+    CHECK(run.counters.gaps == 0);
+    auto counts = expected(2, 0, 1'000);
+    const auto again = expected(2, 0, 1'000);
+    counts.insert(counts.end(), again.begin(), again.end());
+    CHECK(run.sink.counts("BNZ") == counts);
+    CHECK(run.sink.samples.back().index == 999);
+}
+
+TEST_CASE("a header of the same session changes nothing, one of another ends the series",
+          "[record][archiver]") {
+    JournalStream plain, rotated;
+    plain.frames(0, 3'000);
+    rotated.frames(0, 1'500);
+    rotated.chunks.emplace_back(header_at(due(1'499)));
+    rotated.frames(1'500, 3'000);
+    CHECK(archive(plain.chunks).sink.packed == archive(rotated.chunks).sink.packed);
+
+    JournalStream other;
+    other.frames(0, 1'500);
+    other.chunks.emplace_back(header_at(due(1'499), 2));
+    other.frames(1'500, 3'000);
+    const auto run = archive(other.chunks);
+    CHECK(run.counters.sessions == 2);
+    CHECK(run.sink.counts("BNZ") == expected(2, 0, 3'000));
+    CHECK(run.sink.last.at("BNZ") == 1'499);
+    int ends = 0, starts = 0;
+    for (const auto& record : run.sink.decoded.at("BNZ")) {
+        ends += record.header.ends_series ? 1 : 0;
+        starts += record.header.starts_series ? 1 : 0;
+    }
+    CHECK(ends == 1);
+    CHECK(starts == 2);
+}
+
+TEST_CASE("a duplicated frame is counted and dropped", "[record][archiver]") {
+    JournalStream stream;
+    stream.frames(0, 100);
+    stream.frame(99);
+    stream.frames(100, 200);
+    const auto run = archive(stream.chunks);
+    CHECK(run.counters.duplicates == 1);
+    CHECK(run.sink.counts("BNZ") == expected(2, 0, 200));
+}
+
+TEST_CASE("values that Steim-2 cannot hold pass as integers", "[record][archiver]") {
+    JournalStream stream;
+    for (std::int64_t k = 0; k < 2'000; ++k) {
+        auto values = values_of(k);
+        if (k == 500) values.axes[2] = -2'147'483'647;
+        if (k == 501) values.axes[2] = 2'147'483'647;
+        stream.bytes(frame_of(values), due(k));
+    }
+    stream.flush();
+    const auto run = archive(stream.chunks);
+    auto counts = expected(2, 0, 2'000);
+    counts[500] = -2'147'483'647;
+    counts[501] = 2'147'483'647;
+    CHECK(run.sink.counts("BNZ") == counts);
+    CHECK(run.counters.integer_records > 0);
+    CHECK(run.counters.gaps == 0);
+    int clipped = 0;
+    for (const auto& record : run.sink.decoded.at("BNZ"))
+        clipped += record.header.is_clipped ? 1 : 0;
+    CHECK(clipped >= 1);
+    for (const auto& record : run.sink.decoded.at("BN1")) CHECK_FALSE(record.header.is_clipped);
+}
+
+TEST_CASE("frames of a forbidden rate and filter are no data", "[record][archiver]") {
+    JournalStream stream;
+    for (std::int64_t k = 0; k < 1'000; ++k) {
+        auto values = values_of(k);
+        if (k >= 300 && k < 310) {
+            values.flag |= wire::kFlagAliasing;
+            values.axes = {0x64000000, 0x64000000, 0x64000000};
+        }
+        stream.bytes(frame_of(values), due(k));
+    }
+    stream.flush();
+    const auto run = archive(stream.chunks);
+    CHECK(run.counters.error_flags == 10);
+    CHECK(run.counters.gaps == 1);
+    CHECK(run.counters.samples_missing == 10);
+    CHECK(run.sink.samples.size() == 990);
+}
+
+TEST_CASE("an alarm flag marks the records of its axis as clipped", "[record][archiver]") {
+    JournalStream stream;
+    for (std::int64_t k = 0; k < 3'000; ++k) {
+        auto values = values_of(k);
+        if (k == 1'000) values.flag |= 0x0008;  // YALARM_ERR
+        stream.bytes(frame_of(values), due(k));
+    }
+    stream.flush();
+    const auto run = archive(stream.chunks);
+    CHECK(run.counters.error_flags == 1);
+    std::int64_t index = 0;
+    for (const auto& record : run.sink.decoded.at("BN2")) {
+        const auto end = index + static_cast<std::int64_t>(record.samples.size());
+        CHECK(record.header.is_clipped == (index <= 1'000 && 1'000 < end));
+        index = end;
+    }
+    for (const auto& record : run.sink.decoded.at("BNZ")) CHECK_FALSE(record.header.is_clipped);
+}
+
+TEST_CASE("band code and channels follow rate and layout", "[record][archiver]") {
+    for (const auto& [rate_hz, band] :
+         {std::pair(50, 'B'), std::pair(100, 'H'), std::pair(500, 'C'), std::pair(1000, 'F')}) {
+        const auto layout = *wire::BurstLayout::from_burst_ctrl(0x0103);  // z, COUNT, CHKSM
+        auto header = header_at(0s);
+        header.output_rate_hz = rate_hz;
+        header.burst_ctrl = layout.burst_ctrl();
+        JournalStream stream;
+        stream.chunks.front() = header;
+        for (std::int64_t k = 0; k < 500; ++k) {
+            auto values = values_of(k);
+            values.count = static_cast<std::uint16_t>(4000 / rate_hz * (k + 1));
+            std::vector<std::byte> bytes;
+            wire::append_frame(layout, values, bytes);
+            stream.bytes(bytes, Nanoseconds(1s) / rate_hz * (k + 1));
+        }
+        stream.flush();
+        const auto run = archive(stream.chunks);
+        REQUIRE(run.sink.decoded.size() == 1);
+        CHECK(run.sink.decoded.begin()->first == std::string(1, band) + "NZ");
+        CHECK(run.sink.counts(std::string(1, band) + "NZ") == expected(2, 0, 500));
+    }
+}
+
+TEST_CASE("a journal of an unknown device is refused by name", "[record][archiver]") {
+    Collector sink;
+    Archiver archiver(sink);
+    auto header = header_at(0s);
+    header.profile = "A999";
+    CHECK_THROWS_AS(archiver.take(header), InputError);
+    header = header_at(0s);
+    header.baud = 0;
+    CHECK_THROWS_AS(archiver.take(header), InputError);
+}

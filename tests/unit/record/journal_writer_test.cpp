@@ -1,0 +1,150 @@
+#include "protocol/record/journal_writer.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <system_error>
+
+#include "protocol/record/journal_reader.hpp"
+#include "tests/unit/record/failing_files.hpp"
+#include "tests/unit/record/journal_samples.hpp"
+#include "tests/unit/record/temporary_directory.hpp"
+
+namespace a351::record {
+namespace {
+
+using test::clock_reading;
+
+std::string text_of(const RxChunk& rx) {
+    return {reinterpret_cast<const char*>(rx.bytes.data()), rx.bytes.size()};
+}
+
+/// All received bytes of a directory, segment by segment; damage allowed at the end of each.
+std::string received_in(const std::filesystem::path& directory) {
+    std::string text;
+    for (const auto& segment : journal_segments(directory)) {
+        JournalReader reader(segment);
+        while (const auto chunk = reader.next()) {
+            if (const auto* rx = std::get_if<RxChunk>(&*chunk)) text += text_of(*rx);
+        }
+    }
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("what is appended is read back in order", "[record][journal]") {
+    const test::TemporaryDirectory directory;
+    JournalWriter writer(posix_files(), directory.path() / "journal");
+    writer.begin_segment(test::journal_header());
+    const auto clock = clock_reading(1001, "2026-03-01T13:00:01Z");
+    for (const auto& chunk : test::one_of_each()) {
+        if (!std::holds_alternative<JournalHeader>(chunk)) writer.append(chunk, clock);
+    }
+    writer.sync();
+    const auto segments = journal_segments(directory.path() / "journal");
+    REQUIRE(segments.size() == 1);
+    CHECK(segments[0].filename() == "00000001_20260301T130000Z.a351j");
+    JournalReader reader(segments[0]);
+    for (const auto& chunk : test::one_of_each()) {
+        const auto read = reader.next();
+        REQUIRE(read);
+        CHECK(read->index() == chunk.index());
+    }
+    CHECK_FALSE(reader.next());
+    CHECK_FALSE(reader.damage());
+    CHECK(writer.bytes_written() == std::filesystem::file_size(segments[0]));
+}
+
+TEST_CASE("a segment ends after one hour of raw time", "[record][journal]") {
+    const test::TemporaryDirectory directory;
+    JournalWriter writer(posix_files(), directory.path());
+    writer.begin_segment(test::journal_header());  // Raw time 1000 s.
+    const auto rx = test::rx_chunk("a", "b");
+    writer.append(rx, clock_reading(4599, "2026-03-01T13:59:59Z"));
+    CHECK(journal_segments(directory.path()).size() == 1);
+    writer.append(rx, clock_reading(4600, "2026-03-01T14:00:00Z"));
+    writer.append(rx, clock_reading(8199, "2026-03-01T14:59:59Z"));
+    const auto segments = journal_segments(directory.path());
+    REQUIRE(segments.size() == 2);
+    CHECK(segments[1].filename() == "00000002_20260301T140000Z.a351j");
+    JournalReader reader(segments[1]);
+    const auto header = reader.next();
+    REQUIRE(header);
+    CHECK(std::get<JournalHeader>(*header).session == test::journal_header().session);
+    CHECK(std::get<JournalHeader>(*header).clock == clock_reading(4600, "2026-03-01T14:00:00Z"));
+}
+
+TEST_CASE("a segment ends when it exceeds 64 MiB", "[record][journal]") {
+    const test::TemporaryDirectory directory;
+    JournalWriter writer(posix_files(), directory.path());
+    writer.begin_segment(test::journal_header());
+    const auto clock = clock_reading(1001, "2026-03-01T13:00:01Z");
+    const EventChunk chunk{std::string(kMostPayloadBytes, 'x')};
+    for (int i = 0; i < 1025; ++i) writer.append(chunk, clock);
+    const auto segments = journal_segments(directory.path());
+    REQUIRE(segments.size() == 2);
+    CHECK(std::filesystem::file_size(segments[0]) >= (64U << 20));
+    CHECK(std::filesystem::file_size(segments[0]) < (64U << 20) + 70'000);
+}
+
+TEST_CASE("the counter goes on over restarts and compressed segments, even when time goes back",
+          "[record][journal]") {
+    const test::TemporaryDirectory directory;
+    test::write_bytes(directory.path() / "00000416_20270301T120000Z.a351j.zst", {});
+    JournalWriter writer(posix_files(), directory.path());
+    writer.begin_segment(test::journal_header());
+    writer.begin_segment(test::journal_header());
+    JournalWriter after_restart(posix_files(), directory.path());
+    after_restart.begin_segment(test::journal_header());
+    const auto segments = journal_segments(directory.path());
+    REQUIRE(segments.size() == 3);
+    CHECK(segment_number(segments[0]) == 417U);
+    CHECK(segment_number(segments[2]) == 419U);
+}
+
+TEST_CASE("whichever file operation fails, no acknowledged byte is lost and writing goes on",
+          "[record][journal]") {
+    int operations = 0;
+    for (int fail_at = 1; fail_at == 1 || fail_at <= operations; ++fail_at) {
+        const test::TemporaryDirectory directory;
+        test::FailingFiles files;
+        JournalWriter writer(files, directory.path());
+        files.fail_at(files.operations() + fail_at);
+        std::string acknowledged;
+        std::string appended;
+        int failures = 0;
+        const int before = files.operations();
+        const auto try_to = [&](auto action) {
+            try {
+                action();
+                return true;
+            } catch (const std::system_error&) {
+                ++failures;
+                return false;
+            }
+        };
+        while (!try_to([&] { writer.begin_segment(test::journal_header()); })) {
+        }
+        for (int i = 0; i < 4; ++i) {
+            const std::string text = {char('a' + 2 * i), char('b' + 2 * i)};
+            const auto rx = test::rx_chunk(text.substr(0, 1), text.substr(1));
+            // The second half comes an hour later: a rotation in between.
+            const auto clock = clock_reading(i < 2 ? 1001 : 9000, "2026-03-01T15:00:00Z");
+            const bool is_appended = try_to([&] { writer.append(rx, clock); });
+            if (is_appended) appended += text;
+            if (try_to([&] { writer.sync(); }) && is_appended) acknowledged = appended;
+        }
+        operations = files.operations() - before;
+        CHECK(failures <= 1);
+        files.fail_at(0);
+        writer.append(test::rx_chunk("i", "j"), clock_reading(9001, "2026-03-01T15:00:01Z"));
+        const auto received = received_in(directory.path());
+        for (const char c : acknowledged) REQUIRE(received.find(c) != std::string::npos);
+        CHECK(std::is_sorted(received.begin(), received.end()));
+        CHECK(received.find("ij") != std::string::npos);
+        if (fail_at > 200) FAIL("does not end");
+    }
+    CHECK(operations >= 10);
+}
+
+}  // namespace a351::record

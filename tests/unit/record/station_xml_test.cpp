@@ -1,0 +1,130 @@
+#include "protocol/record/station_xml.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "protocol/core/input_error.hpp"
+#include "tests/unit/record/file_bytes.hpp"
+#include "tests/unit/record/temporary_directory.hpp"
+
+namespace a351::record {
+namespace {
+
+StationDescription description() {
+    StationDescription station;
+    station.latitude = Degrees(36.106);
+    station.longitude = Degrees(140.087);
+    station.elevation = Metres(25.5);
+    station.start = *parse_rfc3339("2026-03-01T12:00:00Z");
+    station.profile = "A351";
+    station.product_id = "A352AD10";
+    station.serial_number = "X0000001";
+    station.firmware = 258;
+    station.output_rate_hz = 50;
+    station.filter = "k512_fc9";
+    station.group_delay = Nanoseconds(63'875'000);
+    return station;
+}
+
+class File {
+public:
+    explicit File(const std::string& text) { test::write_bytes(path(), test::bytes_of(text)); }
+    [[nodiscard]] std::filesystem::path path() const { return directory_.path() / "station.xml"; }
+    [[nodiscard]] StationMetadata read() const { return read_station_xml(path()); }
+
+private:
+    test::TemporaryDirectory directory_;
+};
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+    const auto at = text.find(what);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, what.size(), by);
+}
+
+}  // namespace
+
+TEST_CASE("scales come back from the metadata", "[record][station_xml]") {
+    const auto metadata = File(to_station_xml(description())).read();
+    CHECK(metadata.codes == StationCodes{});
+    REQUIRE(metadata.channels.size() == 4);
+    const char* codes[] = {"BN1", "BN2", "BNZ"};
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(metadata.channels[i].code == codes[i]);
+        CHECK(metadata.channels[i].unit == "m/s**2");
+        CHECK(metadata.channels[i].offset == 0.0);
+        // 2^24 counts are one g; two roundings on the way.
+        CHECK(metadata.channels[i].gain * 16'777'216.0 == Approx(9.80665).epsilon(3e-16).margin(0));
+    }
+    // M-A352AD10 data sheet 7.6.
+    CHECK(metadata.channels[3].code == "BK1");
+    CHECK(metadata.channels[3].unit == "degC");
+    CHECK(metadata.channels[3].gain == -0.0037918);
+    CHECK(metadata.channels[3].offset == 34.987);
+}
+
+TEST_CASE("the sensitivity has all digits of 2^24 / 9.80665", "[record][station_xml]") {
+    // 1710799.916383270536 by long division; the nearest double in its shortest form.
+    CHECK_THAT(to_station_xml(description()), Catch::Contains("<Value>1710799.9163832706</Value>"));
+}
+
+TEST_CASE("other codes and axes come back", "[record][station_xml]") {
+    auto station = description();
+    station.codes = {"GR", "AB", "", {"N", "Z", "E"}};
+    const auto metadata = File(to_station_xml(station)).read();
+    CHECK(metadata.codes == station.codes);
+    CHECK(metadata.channels[1].code == "BNZ");
+}
+
+TEST_CASE("the metadata say what a reader has to know", "[record][station_xml]") {
+    const auto text = to_station_xml(description());
+    for (const char* part :
+         {"schemaVersion=\"1.2\"", "device profile A351 (unverified)",
+          "group delay 0.063875 s, already subtracted from the time stamps", "filter k512_fc9",
+          "firmware 258", "<SerialNumber>X0000001</SerialNumber>", "<Model>A352AD10</Model>",
+          "<SampleRate>50</SampleRate>", "<Dip>-90</Dip>", "<Azimuth>90</Azimuth>",
+          "orientation not surveyed", "<Longitude>140.087</Longitude>",
+          "startDate=\"2026-03-01T12:00:00.000000Z\""}) {
+        CHECK_THAT(text, Catch::Contains(part));
+    }
+    auto station = description();
+    station.is_profile_verified = true;
+    CHECK_THAT(to_station_xml(station), Catch::Contains("device profile A351 (verified)"));
+}
+
+TEST_CASE("the same description gives the same bytes", "[record][station_xml]") {
+    CHECK(to_station_xml(description()) == to_station_xml(description()));
+}
+
+TEST_CASE("a serial number that is no text still gives XML", "[record][station_xml]") {
+    auto station = description();
+    station.serial_number = "\x01\xFF<&\"";
+    const auto text = to_station_xml(station);
+    CHECK_THAT(text, Catch::Contains("<SerialNumber>??&lt;&amp;\"</SerialNumber>"));
+    CHECK_NOTHROW(File(text).read());
+}
+
+TEST_CASE("an unknown profile breaks the caller's promise", "[record][station_xml]") {
+    auto station = description();
+    station.profile = "A999";
+    CHECK_THROWS_AS(to_station_xml(station), std::invalid_argument);
+}
+
+TEST_CASE("metadata that cannot be used are refused with the file's name",
+          "[record][station_xml]") {
+    const auto whole = to_station_xml(description());
+    const std::string text = GENERATE_COPY(
+        std::string(), std::string("no xml"), std::string("<a/>"), whole.substr(0, 2000),
+        replaced(whole, "<Value>1710799", "<Value>x"), replaced(whole, "<Value>1", "<Value>-1"),
+        replaced(whole, "code=\"BN1\"", "code=\"LK1\""),
+        replaced(whole, "<Name>m/s**2</Name>", "<Name/>"),
+        replaced(whole, "<Coefficient number=\"1\">34.987</Coefficient>", ""));
+    const File file(text);
+    CHECK_THROWS_AS(file.read(), InputError);
+    CHECK_THROWS_WITH(file.read(), Catch::Contains("station.xml: "));
+}
+
+TEST_CASE("a missing file is an input error", "[record][station_xml]") {
+    CHECK_THROWS_AS(read_station_xml("/nonexistent/station.xml"), InputError);
+}
+
+}  // namespace a351::record
