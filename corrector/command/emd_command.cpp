@@ -1,0 +1,119 @@
+#include "corrector/command/emd_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "corrector/command/option_values.hpp"
+#include "corrector/eemd/eemd.hpp"
+#include "corrector/survey/result_files.hpp"
+#include "protocol/text/csv.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr int kMostModes = 64;  // more than floor(log2 n) of any record
+constexpr int kMostMembers = 1'000'000;
+constexpr int kMostThreads = 256;
+
+struct EmdCommandOptions {
+    std::string input;
+    std::string column;
+    std::optional<int> modes;
+    int ensemble = EemdOptions{}.ensemble_size;
+    double noise = EemdOptions{}.noise_ratio;
+    int sifts = FixedSifts{}.count;
+    std::optional<int> s_number;
+    std::string finish = "extrema";
+    std::uint64_t seed = 0;
+    int threads = 1;
+    std::string output;
+};
+
+EemdOptions decomposition(const EmdCommandOptions& options) {
+    EemdOptions eemd_options;
+    if (options.modes) number_option("--modes", *options.modes, 0, kMostModes);
+    eemd_options.mode_count = options.modes;
+    number_option("--ensemble", options.ensemble, 1, kMostMembers);
+    eemd_options.ensemble_size = options.ensemble;
+    eemd_options.noise_ratio = number_option("--noise", options.noise, 0.0, 1e6);
+    number_option("--sifts", options.sifts, 1, kMaxSifts);
+    eemd_options.stopping = FixedSifts{options.sifts};
+    if (options.s_number) {
+        number_option("--s-number", *options.s_number, 1, SNumber{}.max_sifts);
+        eemd_options.stopping = SNumber{*options.s_number, SNumber{}.max_sifts};
+    }
+    eemd_options.finish =
+        options.finish == "always" ? FinishRule::always : FinishRule::at_most_two_extrema;
+    eemd_options.seed = options.seed;
+    number_option("--threads", options.threads, 1, kMostThreads);
+    eemd_options.threads = options.threads;
+    return eemd_options;
+}
+
+std::string to_csv(const EemdResult& result) {
+    std::string csv;
+    for (std::size_t k = 0; k < result.modes.size(); ++k)
+        csv += "imf" + std::to_string(k + 1) + ',';
+    csv += "residue\n";
+    for (std::size_t i = 0; i < result.residue.values.size(); ++i) {
+        for (const Component& mode : result.modes) csv += text::shortest(mode.values[i]) + ',';
+        csv += text::shortest(result.residue.values[i]) + '\n';
+    }
+    return csv;
+}
+
+void write_modes(const EmdCommandOptions& options) {
+    const EemdOptions eemd_options = decomposition(options);
+    const text::CsvTable table = text::read_csv(options.input);
+    std::vector<double> signal;
+    signal.reserve(table.row_count());
+    for (std::size_t row = 0; row < table.row_count(); ++row) {
+        signal.push_back(table.number(row, options.column, -1e300, 1e300));
+    }
+    const std::filesystem::path file = std::filesystem::absolute(options.output);
+    write_together(file.parent_path(),
+                   {{file.filename().string(), to_csv(eemd(signal, eemd_options))}});
+}
+
+}  // namespace
+
+void add_emd_command(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand(
+        "emd",
+        "Decomposes a column into intrinsic mode functions, imf1 (the fastest) first, and a "
+        "residue, by ensemble empirical mode decomposition; --noise 0 is the plain one.");
+    const auto options = std::make_shared<EmdCommandOptions>();
+    command.add_option("--input", options->input, "CSV with a header line")->required();
+    command.add_option("--column", options->column, "Column to read; no cell may be empty")
+        ->required();
+    command.add_option("--modes", options->modes,
+                       "Modes without the residue, 0 to 64 (default: floor(log2 n) - 1)");
+    command.add_option("--ensemble", options->ensemble, "Noise realisations averaged")
+        ->capture_default_str();
+    command
+        .add_option("--noise", options->noise,
+                    "Standard deviation of the noise over that of the column")
+        ->capture_default_str();
+    CLI::Option* const sifts =
+        command.add_option("--sifts", options->sifts, "Sifts per mode")->capture_default_str();
+    command
+        .add_option("--s-number", options->s_number,
+                    "Sift until the number of extrema stays so often, at most 50 times")
+        ->excludes(sifts);
+    command
+        .add_option("--finish", options->finish,
+                    "extrema: two extrema or fewer are the residue; always: sift every mode")
+        ->check(CLI::IsMember({"extrema", "always"}))
+        ->capture_default_str();
+    command.add_option("--seed", options->seed, "Of the noise")->capture_default_str();
+    command.add_option("--threads", options->threads, "No effect on the result")
+        ->capture_default_str();
+    command.add_option("--output", options->output, "CSV to write")->required();
+    command.callback([options] { write_modes(*options); });
+}
+
+}  // namespace a351::corrector

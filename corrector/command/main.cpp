@@ -1,0 +1,53 @@
+/// @file
+/// a351-correct: from records and averages to gravity.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <exception>
+#include <iostream>
+
+#include "corrector/command/decimate_command.hpp"
+#include "corrector/command/emd_command.hpp"
+#include "corrector/command/survey_command.hpp"
+#include "corrector/command/table_command.hpp"
+#include "corrector/command/tide_command.hpp"
+#include "protocol/core/input_error.hpp"
+
+namespace {
+
+constexpr int kDone = 0;
+constexpr int kFailed = 1;
+constexpr int kBadUsage = 2;
+
+int report(std::string message, int status) {
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    std::cerr << "a351-correct: " << message << '\n';
+    return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App program("Corrects the readings of an M-A351 accelerometer to gravity.",
+                     "a351-correct");
+    program.set_version_flag("--version", "a351-correct " A351_VERSION);
+    program.require_subcommand(1);
+    a351::corrector::add_decimate_command(program);
+    a351::corrector::add_emd_command(program);
+    a351::corrector::add_survey_command(program);
+    a351::corrector::add_table_command(program);
+    a351::corrector::add_tide_command(program);
+    try {
+        program.parse(argc, argv);
+        std::cout.flush();
+        return std::cout ? kDone : report("standard output: cannot be written", kFailed);
+    } catch (const CLI::Success& help_or_version) {
+        return program.exit(help_or_version);
+    } catch (const CLI::ParseError& error) {
+        return report(std::string(error.what()) + "; see --help", kBadUsage);
+    } catch (const a351::InputError& error) {
+        return report(error.what(), kBadUsage);
+    } catch (const std::exception& error) {
+        return report(error.what(), kFailed);
+    }
+}

@@ -1,0 +1,150 @@
+#include "corrector/command/survey_command.hpp"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "corrector/command/progress_bar.hpp"
+#include "corrector/survey/joint_table.hpp"
+#include "corrector/survey/occupation_rows.hpp"
+#include "corrector/survey/result_files.hpp"
+#include "corrector/survey/survey_file.hpp"
+#include "corrector/survey/table_text.hpp"
+#include "protocol/core/input_error.hpp"
+
+namespace a351::corrector {
+namespace {
+
+/// Of the command line; an empty text leaves the survey file's value.
+struct SurveyCommandOptions {
+    std::vector<std::string> files;
+    std::string out;
+    std::string model;
+    std::string flags;
+    std::string tide;
+    std::string curve;
+};
+
+SurveyFile with_overrides(SurveyFile survey, const SurveyCommandOptions& options) {
+    if (!options.model.empty()) survey.survey.model = options.model;
+    if (!options.flags.empty()) survey.survey.use_flags = options.flags == "use";
+    if (!options.tide.empty()) survey.tide.source = options.tide;
+    if (!options.curve.empty()) {
+        survey.curve = options.curve == "paper" ? TrendCurve::paper : TrendCurve::slow;
+    }
+    return survey;
+}
+
+nlohmann::ordered_json settings_of(const SurveyFile& survey, const SurveyCorrection& result,
+                                   const std::vector<std::string>& warnings) {
+    nlohmann::ordered_json settings;
+    settings["command"] = "survey";
+    settings["name"] = survey.name;
+    settings["model"] = survey.survey.model;
+    settings["flags"] = survey.survey.use_flags ? "use" : "ignore";
+    settings["tide"] = survey.tide.source;
+    settings["delta2"] = survey.tide.factors.delta2;
+    settings["delta3"] = survey.tide.factors.delta3;
+    settings["base"] = result.options.base;
+    settings["datum"] = survey.survey.datum;
+    settings["curve"] = trend_curve_of(survey) == TrendCurve::paper ? "paper" : "slow";
+    settings["norm"] = survey.norm == NormOrder::decimate_first ? "decimate-first" : "as-published";
+    settings["rate"] = "interval";
+    settings["calibration"] = "";
+    settings["seed"] = survey.seed;
+    settings["warnings"] = warnings;
+    return settings;
+}
+
+/// A survey day, corrected but not yet written.
+struct Day {
+    std::string name;
+    SurveyCorrection result;
+    std::vector<NamedText> files;
+};
+
+/// The name as one part of a path.
+std::string folder_name(std::string name) {
+    std::replace(name.begin(), name.end(), '/', '-');
+    if (name.starts_with('.')) name.front() = '-';
+    return name;
+}
+
+Day correct_day(const SurveyFile& survey) {
+    ProgressBar bar(std::cerr, ::isatty(STDERR_FILENO) == 1, survey.name);
+    const OccupationRows read = average_occupations(
+        survey, [&bar](std::size_t done, std::size_t total) { bar.show(done, total); });
+    Day day;
+    day.name = survey.name;
+    day.result = correct_survey(read.rows, survey.survey);
+    day.files =
+        result_files(day.result, settings_of(survey, day.result, read.warnings), read.inputs);
+    for (const std::string& warning : read.warnings) {
+        std::cerr << "a351-correct: " << survey.name << ": " << warning << '\n';
+    }
+    return day;
+}
+
+void correct_days(const SurveyCommandOptions& options) {
+    std::vector<SurveyFile> surveys;
+    std::set<std::string> names;
+    for (const std::string& file : options.files) {
+        surveys.push_back(with_overrides(read_survey_file(file), options));
+        if (!names.insert(folder_name(surveys.back().name)).second) {
+            throw InputError(file + ": survey.name = " + surveys.back().name +
+                             ": stands twice; allowed: a folder of its own for every day");
+        }
+    }
+    const std::filesystem::path out = options.out.empty()
+                                          ? surveys.front().path.parent_path() / "result"
+                                          : std::filesystem::path(options.out);
+    std::vector<Day> days;
+    for (const SurveyFile& survey : surveys) days.push_back(correct_day(survey));
+
+    const bool is_joint = days.size() > 1;
+    std::vector<SurveyCorrection> results;
+    for (const Day& day : days) {
+        write_together(is_joint ? out / folder_name(day.name) : out, day.files);
+        std::cout << "survey " << day.name << '\n' << survey_text(day.result) << '\n';
+        results.push_back(day.result);
+    }
+    if (is_joint) {
+        const std::vector<JointStation> joint = join_days(results);
+        write_together(out, {{"joint.csv", joint_csv(joint)}});
+        std::cout << "all days\n" << joint_text(joint) << '\n';
+    }
+    std::cout << "written to " << out.string() << '\n';
+}
+
+}  // namespace
+
+void add_survey_command(CLI::App& program) {
+    CLI::App& command =
+        *program.add_subcommand("survey", "Corrects survey days from the archive of a data root.");
+    const auto options = std::make_shared<SurveyCommandOptions>();
+    command.add_option("FILE", options->files, "Survey files (TOML), one per day")->required();
+    command.add_option("--out", options->out,
+                       "Folder of the result (default: result beside the first survey file); "
+                       "several days have a folder each in it");
+    command.add_option("--model", options->model, "Model of the instrument")
+        ->check(CLI::IsMember(model_names()));
+    command
+        .add_option("--flags", options->flags,
+                    "use: occupations with used 0 stay out of the fit; ignore: they take part")
+        ->check(CLI::IsMember({"use", "ignore"}));
+    command.add_option("--tide", options->tide, "Tide, subtracted from the readings")
+        ->check(CLI::IsMember({"direct", "catalogue", "longman", "none"}));
+    command
+        .add_option("--curve", options->curve,
+                    "Trend curve that is averaged; the model paper always has its own")
+        ->check(CLI::IsMember({"paper", "slow"}));
+    command.callback([options] { correct_days(*options); });
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,94 @@
+#include "corrector/command/table_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "corrector/command/option_values.hpp"
+#include "corrector/survey/result_files.hpp"
+#include "corrector/survey/table_text.hpp"
+#include "corrector/survey/tide_choice.hpp"
+
+namespace a351::corrector {
+namespace {
+
+struct TableOptions {
+    std::string sites;
+    std::string observations;
+    SurveyOptions survey;
+    std::string flags = "use";
+    std::string tide;  ///< Empty: given where the column exists, else direct.
+    TideFactors factors;
+    std::string out = "result";
+};
+
+void correct_table(TableOptions options) {
+    const std::vector<text::Site> sites = text::read_sites(options.sites);
+    std::vector<SurveyRow> rows = read_observations(options.observations, sites);
+    if (options.tide.empty()) options.tide = rows.front().given_tide ? "given" : "direct";
+    const TideChoice tide{
+        options.tide,
+        {number_option("--delta2", options.factors.delta2, kLeastFactor, kGreatestFactor),
+         number_option("--delta3", options.factors.delta3, kLeastFactor, kGreatestFactor)}};
+    apply_tide(rows, sites, tide);
+    options.survey.use_flags = options.flags == "use";
+    const SurveyCorrection result = correct_survey(rows, options.survey);
+
+    nlohmann::ordered_json settings;
+    settings["command"] = "table";
+    settings["model"] = options.survey.model;
+    settings["flags"] = options.flags;
+    settings["tide"] = options.tide;
+    settings["delta2"] = tide.factors.delta2;
+    settings["delta3"] = tide.factors.delta3;
+    settings["base"] = result.options.base;
+    settings["datum"] = options.survey.datum;
+    settings["rate"] = "backward";
+    settings["seed"] = nullptr;  // nothing here is random
+    write_together(options.out,
+                   result_files(result, settings,
+                                {describe_input("sites", options.sites),
+                                 describe_input("observations", options.observations)}));
+    std::cout << survey_text(result) << "written to " << options.out << '\n';
+}
+
+}  // namespace
+
+void add_table_command(CLI::App& program) {
+    CLI::App& command =
+        *program.add_subcommand("table", "Corrects a survey given as one average per occupation.");
+    const auto options = std::make_shared<TableOptions>();
+    command.add_option("--sites", options->sites, "CSV of the benchmarks")->required();
+    command
+        .add_option("--observations", options->observations,
+                    "CSV site,occupation[,outlier],time_utc|time_jst|time[,earth_tide_mgal],"
+                    "acceleration_mgal,temperature_degc")
+        ->required();
+    command.add_option("--model", options->survey.model, "Model of the instrument")
+        ->check(CLI::IsMember(model_names()))
+        ->capture_default_str();
+    command
+        .add_option("--flags", options->flags,
+                    "use: rows with outlier 1 stay out of the fit; ignore: they take part")
+        ->check(CLI::IsMember({"use", "ignore"}))
+        ->capture_default_str();
+    command
+        .add_option("--tide", options->tide,
+                    "Tide, subtracted from the readings (default: given where the column "
+                    "exists, else direct)")
+        ->check(CLI::IsMember(tide_sources()));
+    command.add_option("--delta2", options->factors.delta2, "Gravimetric factor of degree 2")
+        ->capture_default_str();
+    command.add_option("--delta3", options->factors.delta3, "Gravimetric factor of degree 3")
+        ->capture_default_str();
+    command.add_option("--base", options->survey.base,
+                       "Station of the drift step (default: that of the first row)");
+    command.add_option("--datum", options->survey.datum,
+                       "Stations whose reference is held (default: all that have one)");
+    command.add_option("--out", options->out, "Folder of the result")->capture_default_str();
+    command.callback([options] { correct_table(*options); });
+}
+
+}  // namespace a351::corrector

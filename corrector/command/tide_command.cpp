@@ -1,0 +1,102 @@
+#include "corrector/command/tide_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "corrector/command/option_values.hpp"
+#include "corrector/survey/aligned_text.hpp"
+#include "corrector/survey/result_files.hpp"
+#include "corrector/survey/tide_choice.hpp"
+#include "corrector/tide/earth_tide.hpp"
+#include "protocol/core/input_error.hpp"
+
+namespace a351::corrector {
+namespace {
+
+struct TideOptions {
+    double latitude_deg = 0.0;
+    double longitude_deg = 0.0;
+    double height_m = 0.0;
+    std::string from;
+    std::string to;
+    double step_s = 0.0;
+    std::string model = "direct";
+    TideFactors factors;
+    std::string output;
+};
+
+/// Digits after the second that instants on this grid need.
+int decimals_for(UtcTime from, Nanoseconds step) {
+    const auto second = Nanoseconds(std::chrono::seconds(1));
+    const bool is_whole =
+        from.time_since_epoch() % second == Nanoseconds(0) && step % second == Nanoseconds(0);
+    return is_whole ? 0 : 9;
+}
+
+void write_series(const TideOptions& options) {
+    const TideStation station{
+        Degrees(number_option("--latitude", options.latitude_deg, -90.0, 90.0)),
+        Degrees(number_option("--longitude", options.longitude_deg, -180.0, 360.0)),
+        Metres(number_option("--height", options.height_m, -500.0, 9000.0))};
+    const UtcTime from = instant_option("--from", options.from);
+    const UtcTime to = instant_option("--to", options.to);
+    if (to < from) {
+        throw InputError("--to = " + options.to + ": before --from; allowed: " + options.from +
+                         " or later");
+    }
+    const Nanoseconds step = from_seconds(number_option("--step", options.step_s, 0.001, 1e6));
+    const TideFactors factors{
+        number_option("--delta2", options.factors.delta2, kLeastFactor, kGreatestFactor),
+        number_option("--delta3", options.factors.delta3, kLeastFactor, kGreatestFactor)};
+    const TideModel model = tide_model(options.model);
+    const int decimals = decimals_for(from, step);
+
+    std::string csv = "time,tide_mgal\n";
+    for (UtcTime time = from; time <= to; time += step) {
+        csv += to_rfc3339(time, decimals) + ',' +
+               fixed(earth_tide(model, time, station, factors).value(), 6) + '\n';
+        if (options.output.empty() && csv.size() > 65536) {
+            std::cout << csv;
+            csv.clear();
+        }
+    }
+    if (options.output.empty()) {
+        std::cout << csv;
+        return;
+    }
+    const std::filesystem::path file = std::filesystem::absolute(options.output);
+    write_together(file.parent_path(), {{file.filename().string(), std::move(csv)}});
+}
+
+}  // namespace
+
+void add_tide_command(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand(
+        "tide",
+        "Writes the tide of the solid Earth as CSV time,tide_mgal.  Sign: effect on gravity; "
+        "positive where gravity is larger.  To remove the tide from a reading, subtract it.");
+    const auto options = std::make_shared<TideOptions>();
+    command.add_option("--latitude", options->latitude_deg, "Geodetic latitude, degrees north")
+        ->required();
+    command.add_option("--longitude", options->longitude_deg, "Longitude, degrees east")
+        ->required();
+    command.add_option("--height", options->height_m, "Height above the ellipsoid, m")->required();
+    command.add_option("--from", options->from, "First instant, RFC 3339")->required();
+    command.add_option("--to", options->to, "Last instant (included), RFC 3339")->required();
+    command.add_option("--step", options->step_s, "Step, s")->required();
+    command.add_option("--model", options->model, "direct (catalogue is the same), longman")
+        ->check(CLI::IsMember({"direct", "catalogue", "longman"}))
+        ->capture_default_str();
+    command
+        .add_option("--delta2", options->factors.delta2,
+                    "Gravimetric factor of degree 2 (1: rigid Earth)")
+        ->capture_default_str();
+    command.add_option("--delta3", options->factors.delta3, "Gravimetric factor of degree 3")
+        ->capture_default_str();
+    command.add_option("--output", options->output, "File to write instead of standard output");
+    command.callback([options] { write_series(*options); });
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,77 @@
+#include "corrector/survey/linear_fit.hpp"
+
+#include <Eigen/QR>
+#include <cmath>
+#include <limits>
+
+namespace a351::corrector {
+
+double LinearFit::at(const Eigen::Ref<const Eigen::VectorXd>& x) const {
+    // Centred: the constant would carry the rounding of large x.
+    return mean + (x - column_means).dot(coefficients.tail(coefficients.size() - 1));
+}
+
+double LinearFit::leverage_at(const Eigen::Ref<const Eigen::VectorXd>& x) const {
+    const Eigen::Index q = column_means.size();
+    const Eigen::VectorXd centred = x - column_means;
+    return 1.0 / static_cast<double>(row_count()) +
+           centred.dot(cofactor.bottomRightCorner(q, q) * centred);
+}
+
+std::optional<double> LinearFit::residual_scale() const {
+    const Eigen::Index dof = row_count() - parameter_count();
+    if (dof <= 0) return std::nullopt;
+    return std::sqrt(rss / static_cast<double>(dof));
+}
+
+std::optional<LinearFit> fit_linear(const Eigen::Ref<const Eigen::MatrixXd>& columns,
+                                    const Eigen::Ref<const Eigen::VectorXd>& y) {
+    const Eigen::Index n = columns.rows();
+    const Eigen::Index q = columns.cols();
+    if (n < q + 1) return std::nullopt;
+
+    LinearFit fit;
+    fit.column_means = columns.colwise().mean().transpose();
+    fit.mean = y.mean();
+    const Eigen::MatrixXd x = columns.rowwise() - fit.column_means.transpose();
+    const Eigen::VectorXd centred_y = y.array() - fit.mean;
+
+    fit.coefficients.resize(q + 1);
+    fit.cofactor.resize(q + 1, q + 1);
+    Eigen::VectorXd slopes = Eigen::VectorXd::Zero(q);
+    Eigen::MatrixXd slope_cofactor = Eigen::MatrixXd::Zero(q, q);
+    if (q > 0) {
+        Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(x);
+        // Columns are centred to about 1e-16 of their values; what is left of a constant one is noise.
+        const double noise =
+            1e-12 * (1.0 + columns.cwiseAbs().maxCoeff()) * std::sqrt(static_cast<double>(n));
+        for (Eigen::Index k = 0; k < q; ++k) {
+            if (!(std::abs(qr.matrixR()(k, k)) > noise)) return std::nullopt;
+        }
+        if (qr.rank() < q) return std::nullopt;
+        slopes = qr.solve(centred_y);
+        // X = Q R P^T, so (X^T X)^-1 = P R^-1 R^-T P^T.
+        const Eigen::MatrixXd inverse_r =
+            qr.matrixR().topLeftCorner(q, q).template triangularView<Eigen::Upper>().solve(
+                Eigen::MatrixXd::Identity(q, q));
+        const Eigen::MatrixXd root = qr.colsPermutation() * inverse_r;
+        slope_cofactor = root * root.transpose();
+    }
+    const Eigen::VectorXd mean_cofactor = slope_cofactor * fit.column_means;
+    fit.coefficients(0) = fit.mean - slopes.dot(fit.column_means);
+    fit.coefficients.tail(q) = slopes;
+    fit.cofactor(0, 0) = 1.0 / static_cast<double>(n) + fit.column_means.dot(mean_cofactor);
+    fit.cofactor.block(1, 0, q, 1) = -mean_cofactor;
+    fit.cofactor.block(0, 1, 1, q) = -mean_cofactor.transpose();
+    fit.cofactor.bottomRightCorner(q, q) = slope_cofactor;
+
+    fit.residuals = centred_y - x * slopes;
+    fit.rss = fit.residuals.squaredNorm();
+    const double total = centred_y.squaredNorm();
+    fit.r_squared = total > 0.0 ? 1.0 - fit.rss / total : std::numeric_limits<double>::quiet_NaN();
+    fit.leverages.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) fit.leverages(i) = fit.leverage_at(columns.row(i));
+    return fit;
+}
+
+}  // namespace a351::corrector

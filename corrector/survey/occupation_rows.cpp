@@ -1,0 +1,219 @@
+#include "corrector/survey/occupation_rows.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "corrector/survey/occupation_window.hpp"
+#include "protocol/core/input_error.hpp"
+#include "protocol/record/sds.hpp"
+
+namespace a351::corrector {
+namespace {
+
+/// Calls work(0) ... work(count - 1) from as many threads as there are cores.
+/// @throws  what the first failing call threw, by number.
+void on_all_cores(std::size_t count, const std::function<void(std::size_t)>& work,
+                  const Progress& progress) {
+    std::vector<std::exception_ptr> errors(count);
+    std::atomic<std::size_t> next = 0;
+    std::mutex mutex;
+    std::size_t done = 0;
+    const auto run = [&] {
+        for (std::size_t i = next++; i < count; i = next++) {
+            try {
+                work(i);
+            } catch (...) {
+                errors[i] = std::current_exception();
+            }
+            const std::lock_guard lock(mutex);
+            progress(++done, count);
+        }
+    };
+    {
+        const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+        std::vector<std::jthread> threads;
+        for (std::size_t k = 1; k < std::min(cores, count); ++k) threads.emplace_back(run);
+        run();
+    }
+    for (const std::exception_ptr& error : errors) {
+        if (error) std::rethrow_exception(error);
+    }
+}
+
+void add_axis(std::vector<SurveyRow::Detail>& details, const std::string& name,
+              const AxisSummary& axis) {
+    details.push_back({"mean_" + name + "_g", axis.mean.value()});
+    details.push_back({"rms_" + name + "_mgal", axis.rms.value()});
+}
+
+std::vector<InputFile> archive_files(const SurveyFile& survey, const record::StationCodes& codes,
+                                     const SurveyChannels& channels,
+                                     const std::vector<OccupationWindow>& windows) {
+    std::vector<std::string> names{channels.temperature.code};
+    for (const record::ChannelScale& axis : channels.axes) names.push_back(axis.code);
+    std::sort(names.begin(), names.end());
+    std::vector<std::filesystem::path> files;
+    for (const std::string& channel : names) {
+        for (const OccupationWindow& window : windows) {
+            for (const UtcTime time : {window.start, window.end}) {
+                const auto file = record::sds_file(survey.root / "archive", codes, channel, time);
+                if (std::filesystem::exists(file)) files.push_back(file);
+            }
+        }
+    }
+    std::sort(files.begin(), files.end());
+    files.erase(std::unique(files.begin(), files.end()), files.end());
+    std::vector<InputFile> inputs;
+    for (const auto& file : files) inputs.push_back(describe_input("archive", file));
+    return inputs;
+}
+
+/// All samples from the first window to the last; each channel is read once.
+SurveySamples read_samples(const SurveyFile& survey, const record::StationCodes& codes,
+                           const SurveyChannels& channels,
+                           const std::vector<OccupationWindow>& windows) {
+    constexpr std::chrono::minutes kMargin(1);  // for the filters of the temperature
+    const UtcTime from = windows.front().start - kMargin;
+    const UtcTime to = windows.back().end + kMargin;
+    SurveySamples samples;
+    const auto read = [&](std::size_t k) {
+        const bool is_axis = k < samples.axes.size();
+        (is_axis ? samples.axes[k] : samples.temperature) = record::read_channel(
+            survey.root / "archive", codes,
+            is_axis ? channels.axes[k].code : channels.temperature.code, from, to);
+    };
+    on_all_cores(samples.axes.size() + 1, read, [](std::size_t, std::size_t) {});
+    return samples;
+}
+
+void add_damage(std::vector<std::string>& warnings, const record::ChannelData& channel) {
+    for (const record::ArchiveDamage& damage : channel.damage) {
+        warnings.push_back(damage.file.filename().string() + ": " +
+                           std::to_string(damage.byte_count) + " bytes at " +
+                           std::to_string(damage.offset) + " are no record");
+    }
+}
+
+std::vector<InputFile> inputs_of(const SurveyFile& survey, const std::filesystem::path& metadata,
+                                 const record::StationCodes& codes, const SurveyChannels& channels,
+                                 const std::vector<OccupationWindow>& windows) {
+    std::vector<InputFile> inputs{describe_input("survey", survey.path),
+                                  describe_input("sites", survey.sites),
+                                  describe_input("metadata", metadata)};
+    if (!survey.occupations.empty()) {
+        inputs.push_back(describe_input("occupations", survey.occupations));
+    } else {
+        std::vector<std::filesystem::path> logs;
+        for (const auto& entry : std::filesystem::directory_iterator(survey.root / "events")) {
+            if (entry.path().extension() == ".jsonl") logs.push_back(entry.path());
+        }
+        std::sort(logs.begin(), logs.end());
+        for (const auto& log : logs) inputs.push_back(describe_input("events", log));
+    }
+    const auto archive = archive_files(survey, codes, channels, windows);
+    inputs.insert(inputs.end(), archive.begin(), archive.end());
+    return inputs;
+}
+
+RepresentativeOptions options_of(const SurveyFile& survey) {
+    RepresentativeOptions options;
+    options.norm = survey.norm;
+    options.curve = trend_curve_of(survey);
+    options.seed = survey.seed;
+    return options;
+}
+
+}  // namespace
+
+SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& value) {
+    const TemperatureSummary& temperature = value.temperature.value();
+    SurveyRow row;
+    row.site = window.site;
+    row.occupation = window.number;
+    row.start = value.interval_start;
+    row.end = value.interval_end;
+    row.time = value.interval_start + (value.interval_end - value.interval_start) / 2;
+    row.is_flagged = window.is_flagged;
+    for (const OccupationFlag flag : value.flags) row.notes.emplace_back(flag_name(flag));
+    row.acceleration = value.acceleration;
+    row.temperature = temperature.mean;
+    row.rate_degc_per_h = temperature.slope_degc_per_h;
+
+    auto& details = row.details;
+    details.push_back({"series_mean_mgal", value.series_mean.value()});
+    details.push_back(
+        {"series_minus_curve_mgal", (value.series_mean - value.acceleration).value()});
+    details.push_back({"standard_error_mgal", std::nullopt});
+    if (value.standard_error) details.back().value = value.standard_error->value();
+    details.push_back({"temperature_range_degc", temperature.range.value()});
+    details.push_back(
+        {"temperature_is_monotone", temperature.shape == TemperatureShape::monotone ? 1.0 : 0.0});
+    details.push_back({"valid_samples", static_cast<double>(value.counts.valid)});
+    details.push_back({"partial_samples", static_cast<double>(value.counts.partial)});
+    details.push_back({"missing_samples", static_cast<double>(value.counts.missing)});
+    add_axis(details, "x", value.x);
+    add_axis(details, "y", value.y);
+    add_axis(details, "z", value.z);
+    details.push_back({"rectification_mgal", value.rectification.value()});
+    return row;
+}
+
+OccupationRows average_occupations(const SurveyFile& survey, const Progress& progress) {
+    const std::vector<text::Site> sites = text::read_sites(survey.sites);
+    const OccupationList list = survey.occupations.empty()
+                                    ? read_logged_occupations(survey.root / "events", sites)
+                                    : read_occupation_table(survey.occupations, sites);
+    const std::filesystem::path metadata = survey.root / "metadata" / "station.xml";
+    const record::StationMetadata station = record::read_station_xml(metadata);
+    const SurveyChannels channels = find_channels(station, metadata);
+    const RepresentativeOptions options = options_of(survey);
+    const SurveySamples samples = read_samples(survey, station.codes, channels, list.windows);
+
+    std::vector<std::optional<SurveyRow>> rows(list.windows.size());
+    std::vector<std::string> troubles(list.windows.size());
+    const auto average = [&](std::size_t i) {
+        const OccupationWindow& window = list.windows[i];
+        const auto record = cut_occupation(samples, channels, window.start, window.end);
+        const auto value = record ? representative_value(*record, options) : std::nullopt;
+        if (!record) {
+            troubles[i] = "no samples";
+        } else if (!value) {
+            troubles[i] = "too few samples in a row";
+        } else if (!value->temperature) {
+            troubles[i] = "no temperature";
+        } else {
+            rows[i] = row_of(window, *value);
+        }
+    };
+    on_all_cores(list.windows.size(), average, progress);
+
+    OccupationRows result;
+    result.warnings = list.warnings;
+    for (const record::ChannelData& axis : samples.axes) add_damage(result.warnings, axis);
+    add_damage(result.warnings, samples.temperature);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const OccupationWindow& window = list.windows[i];
+        if (!rows[i]) {
+            result.warnings.push_back(window.site + " (" + std::to_string(window.number) + ") at " +
+                                      to_rfc3339(window.start) + " is left out: " + troubles[i]);
+            continue;
+        }
+        rows[i]->reference = text::find_site(sites, window.site)->gravity;
+        result.rows.push_back(std::move(*rows[i]));
+    }
+    if (result.rows.empty()) {
+        throw InputError(survey.path.string() + ": root = " + survey.root.string() +
+                         ": no occupation has samples; last: " + result.warnings.back() +
+                         "; allowed: an archive of those hours");
+    }
+    apply_tide(result.rows, sites, survey.tide);
+
+    result.inputs = inputs_of(survey, metadata, station.codes, channels, list.windows);
+    return result;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,83 @@
+#pragma once
+/// @file
+/// From rows to gravity: the fit of one model, every correction of every row, scores of all models.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "corrector/survey/model_fit.hpp"
+#include "corrector/survey/survey_row.hpp"
+
+namespace a351::corrector {
+
+/// Names for SurveyOptions::model: auto, paper and those of kLinearModels.
+[[nodiscard]] const std::vector<std::string>& model_names();
+
+struct SurveyOptions {
+    std::string model = "auto";
+    std::string base;  ///< Station of the drift step; empty: that of the first row.
+    std::vector<std::string>
+        datum;              ///< Stations whose reference is held; empty: all that have one.
+    bool use_flags = true;  ///< Flagged rows stay out of the fit.
+};
+
+/// One row and what became of it.  corrected = acceleration - tide + the three corrections; the
+/// constant is in the temperature correction.
+struct CorrectedRow {
+    SurveyRow row;
+    bool is_used = false;                ///< In the fit.
+    std::optional<MilliGal> difference;  ///< acceleration - reference - tide.
+    MilliGal temperature_correction;
+    MilliGal rate_correction;
+    MilliGal drift_correction;
+    MilliGal corrected;
+    std::optional<MilliGal> residual;     ///< reference - corrected.
+    double leverage = 0.0;                ///< Of an unused row: what it would have at its place.
+    std::optional<MilliGal> u_corrected;  ///< s sqrt(1 + leverage): as of a new station.
+    std::optional<double> studentised_residual;  ///< External; not for `paper`.
+    std::optional<MilliGal> corrected1;          ///< `paper` only: before the drift step.
+};
+
+struct StationValue {
+    std::string site;
+    std::size_t row_count = 0;     ///< Rows averaged.
+    bool is_flagged_only = false;  ///< No row in use: the flagged ones are averaged.
+    MilliGal gravity;
+    std::optional<MilliGal> u_gravity;  ///< s sqrt(1/n + leverage of the mean row).
+    std::optional<MilliGal> reference;
+    std::optional<MilliGal> residual;
+    std::optional<double> redundancy;  ///< Sum of 1 - leverage over its rows in the fit.
+};
+
+struct Coefficient {
+    std::string name;  ///< With its unit.
+    double value = 0.0;
+    std::optional<double> standard_error;
+};
+
+struct ScoredRowSet {
+    std::string rows;  ///< "used": not flagged; "all": flagged ones too.
+    std::vector<ModelScore> scores;
+};
+
+struct SurveyCorrection {
+    SurveyOptions options;  ///< As applied: `base` is filled in.
+    std::string model;      ///< Applied; with `auto` the chosen one.
+    std::vector<Coefficient> coefficients;
+    std::vector<CorrectedRow> rows;
+    std::vector<StationValue> stations;
+    std::vector<ScoredRowSet> row_sets;      ///< used, all.
+    ModelScore score;                        ///< Of `model` on the rows of the fit.
+    std::optional<ModelChoice> choice;       ///< `auto` only.
+    std::optional<double> choice_loso_mgal;  ///< `auto` only: LOSO of choosing and fitting.
+};
+
+/// @param rows  in strictly ascending time, with tide and rates set.
+/// @throws InputError  base or datum unknown or without a row, no such model, too few rows for the
+///                     model, a term that does not vary, the drift step of `paper` refused.
+[[nodiscard]] SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows,
+                                              const SurveyOptions& options);
+
+}  // namespace a351::corrector

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "corrector/signal/norm.hpp"
+#include "corrector/signal/trend_curve.hpp"
+#include "corrector/survey/survey_correction.hpp"
+#include "corrector/survey/tide_choice.hpp"
+
+namespace a351::corrector {
+
+/// One survey day as written in its TOML file, table [survey].  Paths are relative to that file.
+struct SurveyFile {
+    std::filesystem::path path;
+    std::string name;                   ///< Of the day; default: the file's stem.
+    std::filesystem::path root;         ///< Data root: archive/, metadata/, events/.
+    std::filesystem::path sites;        ///< CSV of the benchmarks.
+    std::filesystem::path occupations;  ///< CSV; empty: the event log of the root.
+    SurveyOptions survey;
+    TideChoice tide;
+    std::optional<TrendCurve> curve;  ///< Absent: the signal's default.  `paper` has its own.
+    NormOrder norm = NormOrder::decimate_first;
+    std::uint64_t seed = 1;  ///< Of the noise of the decomposition.
+};
+
+/// @throws InputError  unknown key or value, a root that is no directory, a base or datum that is
+///                     not in the table of sites.
+[[nodiscard]] SurveyFile read_survey_file(const std::filesystem::path& file);
+
+/// The curve that applies: the publication's for model `paper`, else as asked for or by default.
+[[nodiscard]] TrendCurve trend_curve_of(const SurveyFile& survey);
+
+}  // namespace a351::corrector

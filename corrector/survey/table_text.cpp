@@ -1,0 +1,121 @@
+#include "corrector/survey/table_text.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "corrector/survey/aligned_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+using Cells = std::vector<std::string>;
+
+template <class Value>
+std::string cell(const std::optional<Value>& value, int decimals) {
+    return fixed_or(value, decimals, "-");
+}
+
+std::string occupations_text(const SurveyCorrection& result) {
+    std::vector<Cells> rows{{"site", "occ", "time UTC", "fit", "accel. mGal", "T degC", "degC/h",
+                             "tide", "diff.", "corrected", "reference", "residual", "u", "flags"}};
+    for (const CorrectedRow& row : result.rows) {
+        rows.push_back({row.row.site, std::to_string(row.row.occupation), to_rfc3339(row.row.time),
+                        row.is_used ? "yes" : "no", fixed(row.row.acceleration.value(), 3),
+                        fixed(row.row.temperature.value(), 3), fixed(row.row.rate_degc_per_h, 3),
+                        fixed(row.row.tide.value(), 3), cell(row.difference, 3),
+                        fixed(row.corrected.value(), 3), cell(row.row.reference, 3),
+                        cell(row.residual, 3), cell(row.u_corrected, 2),
+                        flags_of(row, result.options)});
+    }
+    return aligned(rows);
+}
+
+std::string stations_text(const SurveyCorrection& result) {
+    std::vector<Cells> rows{
+        {"station", "n", "gravity mGal", "u", "reference", "residual", "redundancy", ""}};
+    for (const StationValue& station : result.stations) {
+        rows.push_back(
+            {station.site, std::to_string(station.row_count), fixed(station.gravity.value(), 3),
+             cell(station.u_gravity, 2), cell(station.reference, 3), cell(station.residual, 3),
+             cell(station.redundancy, 2), station.is_flagged_only ? "flagged only" : ""});
+    }
+    return aligned(rows);
+}
+
+std::string models_text(const SurveyCorrection& result) {
+    std::vector<Cells> rows{{"model", "rows", "n", "p", "RMS (in sample)", "s (in sample)",
+                             "RMS (leave-one-out)", "RMS (leave-one-station-out)", "AICc", ""}};
+    for (const ScoredRowSet& set : result.row_sets) {
+        for (const ModelScore& score : set.scores) {
+            rows.push_back({score.model, set.rows, std::to_string(score.row_count),
+                            std::to_string(score.parameter_count), cell(score.rms_mgal, 3),
+                            cell(score.s_mgal, 3), cell(score.loo_mgal, 3),
+                            cell(score.loso_mgal, 3), cell(score.aicc, 2),
+                            is_selected(result, set, score) ? "<" : ""});
+        }
+    }
+    return aligned(rows);
+}
+
+std::string coefficients_text(const SurveyCorrection& result) {
+    std::string text;
+    for (const Coefficient& c : result.coefficients) {
+        text += "  " + c.name + " = " + fixed(c.value, 4);
+        if (c.standard_error) text += " +- " + fixed(*c.standard_error, 4);
+        text += '\n';
+    }
+    return text;
+}
+
+std::string summary_text(const SurveyCorrection& result) {
+    const ModelScore& score = result.score;
+    std::string text = "model " + result.model;
+    if (result.options.model == "auto") text += ", chosen by leave-one-station-out error";
+    text += ": RMS " + cell(score.rms_mgal, 3) +
+            " mGal (in sample, n = " + std::to_string(score.row_count) + ")";
+    if (score.loo_mgal) text += ", " + fixed(*score.loo_mgal, 3) + " mGal (leave-one-out)";
+    if (score.loso_mgal) {
+        text += ", " + fixed(*score.loso_mgal, 3) + " mGal (leave-one-station-out)";
+    }
+    text += '\n';
+    if (score.rms_before_drift_mgal) {
+        text += "RMS of Error (1), before the drift step: " + cell(score.rms_before_drift_mgal, 3) +
+                " mGal (in sample); of Error (2), after it: " + cell(score.rms_mgal, 3) +
+                " mGal (in sample)\n";
+    }
+    if (result.choice_loso_mgal) {
+        text += "with the choice of the model repeated for every station left out: " +
+                cell(result.choice_loso_mgal, 3) + " mGal (leave-one-station-out)\n";
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string flags_of(const CorrectedRow& row, const SurveyOptions& options) {
+    std::string flags;
+    const auto add = [&flags](const std::string& flag) {
+        flags += (flags.empty() ? "" : ";") + flag;
+    };
+    if (row.row.is_flagged) add("outlier");
+    for (const std::string& note : row.row.notes) add(note);
+    const auto& datum = options.datum;
+    if (!row.row.reference) {
+        add("no-reference");
+    } else if (!datum.empty() &&
+               std::find(datum.begin(), datum.end(), row.row.site) == datum.end()) {
+        add("not-datum");
+    }
+    return flags;
+}
+
+bool is_selected(const SurveyCorrection& result, const ScoredRowSet& set, const ModelScore& score) {
+    return score.model == result.model && set.rows == (result.options.use_flags ? "used" : "all");
+}
+
+std::string survey_text(const SurveyCorrection& result) {
+    return occupations_text(result) + '\n' + stations_text(result) + '\n' + models_text(result) +
+           '\n' + summary_text(result) + coefficients_text(result);
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,22 @@
+#pragma once
+/// @file
+/// A corrected survey as text for people.
+
+#include <string>
+
+#include "corrector/survey/survey_correction.hpp"
+
+namespace a351::corrector {
+
+/// Reasons why a row is doubtful or not in the fit, joined by ';'.
+[[nodiscard]] std::string flags_of(const CorrectedRow& row, const SurveyOptions& options);
+
+/// Whether this score is that of the applied model on the rows of its fit.
+[[nodiscard]] bool is_selected(const SurveyCorrection& result, const ScoredRowSet& set,
+                               const ModelScore& score);
+
+/// Aligned tables of occupations, stations and models.  Each root mean square says whether it is
+/// in sample or cross-validated.
+[[nodiscard]] std::string survey_text(const SurveyCorrection& result);
+
+}  // namespace a351::corrector

@@ -1,0 +1,174 @@
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "corrector/tide/earth_tide.hpp"
+#include "corrector/tide/lunar_terms.hpp"
+
+namespace a351::corrector {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr double kSecondsPerDay = 86400.0;
+constexpr double kDaysPerCentury = 36525.0;
+constexpr UtcTime kJ2000 =
+    std::chrono::sys_days(std::chrono::year(2000) / 1 / 1) + std::chrono::hours(12);
+
+/// TT - UTC: 32.184 s + TAI - UTC, which was 30 to 37 s in 1996-2030 (IERS Bulletin C, rounded).
+constexpr double kTtMinusUtc_s = 69.0;
+
+/// m3/s2.  Moon: JPL ephemeris DE430 (W. M. Folkner et al., IPN Progress Report 42-196, 2014);
+/// Sun: DE405 (E. M. Standish, JPL IOM 312.F-98-048, 1998).
+constexpr double kGmMoon = 4.902800066e12;
+constexpr double kGmSun = 1.32712440018e20;
+
+constexpr double kAstronomicalUnit_m = 149597870.7e3;  // IAU 2012 resolution B2
+
+/// WGS84 (NIMA TR8350.2, table 3.1).
+constexpr double kEquatorialRadius_m = 6378137.0;
+constexpr double kFlattening = 1.0 / 298.257223563;
+
+double sin_deg(double angle_deg) { return std::sin(angle_deg * kRadPerDeg); }
+double cos_deg(double angle_deg) { return std::cos(angle_deg * kRadPerDeg); }
+
+struct Ecliptic {
+    double longitude_deg = 0.0;
+    double latitude_deg = 0.0;
+    double distance_m = 0.0;
+};
+
+/// Meeus, ch. 47.  `t` in Julian centuries of TT from J2000.
+Ecliptic moon_position(double t) {
+    const double mean_longitude = 218.3164477 + 481267.88123421 * t - 0.0015786 * t * t;
+    const double d = 297.8501921 + 445267.1114034 * t - 0.0018819 * t * t;
+    const double m = 357.5291092 + 35999.0502909 * t - 0.0001536 * t * t;
+    const double m_prime = 134.9633964 + 477198.8675055 * t + 0.0087414 * t * t;
+    const double f = 93.2720950 + 483202.0175233 * t - 0.0036539 * t * t;
+    const double e = 1.0 - 0.002516 * t - 0.0000074 * t * t;
+
+    const auto angle = [&](const LunarArgument& a) {
+        return a.d * d + a.m * m + a.m_prime * m_prime + a.f * f;
+    };
+    const auto scale = [&](const LunarArgument& a) { return std::pow(e, std::abs(a.m)); };
+
+    double longitude_udeg = 0.0;
+    double distance_m = 385000.56e3;
+    for (const LongitudeDistanceTerm& term : kLongitudeDistanceTerms) {
+        const double argument = angle(term.argument);
+        longitude_udeg += scale(term.argument) * term.longitude_udeg * sin_deg(argument);
+        distance_m += scale(term.argument) * term.distance_m * cos_deg(argument);
+    }
+    double latitude_udeg = 0.0;
+    for (const LatitudeTerm& term : kLatitudeTerms) {
+        latitude_udeg += scale(term.argument) * term.latitude_udeg * sin_deg(angle(term.argument));
+    }
+    return {mean_longitude + 1e-6 * longitude_udeg, 1e-6 * latitude_udeg, distance_m};
+}
+
+/// Meeus, ch. 25, low accuracy (0.01 degree).
+Ecliptic sun_position(double t) {
+    const double mean_longitude = 280.46646 + 36000.76983 * t + 0.0003032 * t * t;
+    const double m = 357.52911 + 35999.05029 * t - 0.0001537 * t * t;
+    const double eccentricity = 0.016708634 - 0.000042037 * t;
+    const double center = (1.914602 - 0.004817 * t) * sin_deg(m) +
+                          (0.019993 - 0.000101 * t) * sin_deg(2.0 * m) +
+                          0.000289 * sin_deg(3.0 * m);
+    const double distance_au = 1.000001018 * (1.0 - eccentricity * eccentricity) /
+                               (1.0 + eccentricity * cos_deg(m + center));
+    return {mean_longitude + center, 0.0, distance_au * kAstronomicalUnit_m};
+}
+
+/// Unit vector in the Earth-fixed frame: ecliptic -> equator by the obliquity -> about the pole.
+Vector earth_fixed_direction(const Ecliptic& body, double obliquity_deg, double sidereal_deg) {
+    const double x = cos_deg(body.latitude_deg) * cos_deg(body.longitude_deg);
+    const double y = cos_deg(body.latitude_deg) * sin_deg(body.longitude_deg);
+    const double z = sin_deg(body.latitude_deg);
+    const double cos_o = cos_deg(obliquity_deg);
+    const double sin_o = sin_deg(obliquity_deg);
+    const double y_equator = y * cos_o - z * sin_o;
+    const double z_equator = y * sin_o + z * cos_o;
+    const double cos_s = cos_deg(sidereal_deg);
+    const double sin_s = sin_deg(sidereal_deg);
+    return {x * cos_s + y_equator * sin_s, y_equator * cos_s - x * sin_s, z_equator};
+}
+
+struct StationFrame {
+    Vector direction;  ///< From the centre of the Earth, unit length.
+    Vector normal;     ///< Of the ellipsoid, outward.
+    double radius_m = 0.0;
+};
+
+StationFrame station_frame(const TideStation& station) {
+    const double sin_lat = sin_deg(station.latitude.value());
+    const double cos_lat = cos_deg(station.latitude.value());
+    const double sin_lon = sin_deg(station.longitude.value());
+    const double cos_lon = cos_deg(station.longitude.value());
+    const double e2 = kFlattening * (2.0 - kFlattening);
+    const double n = kEquatorialRadius_m / std::sqrt(1.0 - e2 * sin_lat * sin_lat);
+    const double h = station.height.value();
+    const double x = (n + h) * cos_lat * cos_lon;
+    const double y = (n + h) * cos_lat * sin_lon;
+    const double z = (n * (1.0 - e2) + h) * sin_lat;
+    const double radius = std::sqrt(x * x + y * y + z * z);
+    return {{x / radius, y / radius, z / radius},
+            {cos_lat * cos_lon, cos_lat * sin_lon, sin_lat},
+            radius};
+}
+
+/// Degrees 2 and 3 of the tidal acceleration along the outward normal, m/s2.
+double pull_mps2(double gm, double distance_m, const Vector& u, const StationFrame& at,
+                 TideFactors factors) {
+    const double c = dot(at.direction, u);
+    const double e_n = dot(at.direction, at.normal);
+    const double u_n = dot(u, at.normal);
+    const double p2 = 1.5 * c * c - 0.5;
+    const double dp2 = 3.0 * c;
+    const double p3 = (2.5 * c * c - 1.5) * c;
+    const double dp3 = 7.5 * c * c - 1.5;
+    const double ratio = at.radius_m / distance_m;
+    const double a2 = ratio * ((2.0 * p2 - c * dp2) * e_n + dp2 * u_n);
+    const double a3 = ratio * ratio * ((3.0 * p3 - c * dp3) * e_n + dp3 * u_n);
+    return gm / (distance_m * distance_m) * (factors.delta2 * a2 + factors.delta3 * a3);
+}
+
+}  // namespace
+
+MilliGal direct_tide(UtcTime time, const TideStation& station, TideFactors factors) {
+    const double utc_days = seconds_between(kJ2000, time) / kSecondsPerDay;
+    const double t = (utc_days + kTtMinusUtc_s / kSecondsPerDay) / kDaysPerCentury;
+    const double t_ut = utc_days / kDaysPerCentury;
+    const double obliquity_deg = 23.439291 - 0.0130042 * t;
+    // Meeus, eq. 12.4; UT1 - UTC (under 0.9 s) moves the tide by at most 0.00002 mGal.
+    const double sidereal_deg =
+        280.46061837 + 360.98564736629 * utc_days + 0.000387933 * t_ut * t_ut;
+
+    const StationFrame at = station_frame(station);
+    const Ecliptic moon = moon_position(t);
+    const Ecliptic sun = sun_position(t);
+    const double pull =
+        pull_mps2(kGmMoon, moon.distance_m,
+                  earth_fixed_direction(moon, obliquity_deg, sidereal_deg), at, factors) +
+        pull_mps2(kGmSun, sun.distance_m, earth_fixed_direction(sun, obliquity_deg, sidereal_deg),
+                  at, factors);
+    constexpr double kMilliGalPerMps2 = 1e5;
+    return MilliGal(-kMilliGalPerMps2 * pull);
+}
+
+MilliGal earth_tide(TideModel model, UtcTime time, const TideStation& station,
+                    TideFactors factors) {
+    switch (model) {
+        case TideModel::none:
+            break;
+        case TideModel::direct:
+            return direct_tide(time, station, factors);
+        case TideModel::longman:
+            return longman_tide(time, station, factors);
+    }
+    return MilliGal(0.0);
+}
+
+}  // namespace a351::corrector

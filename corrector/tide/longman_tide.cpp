@@ -1,0 +1,95 @@
+// I. M. Longman, Formulas for computing the tidal accelerations due to the Moon and the Sun,
+// J. Geophys. Res. 64(12), 2351-2355, 1959, doi:10.1029/JZ064i012p02351.  Symbols and centimetres,
+// grams and seconds are the paper's.
+#include <cmath>
+#include <numbers>
+
+#include "corrector/tide/earth_tide.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr double kSecondsPerCentury = 36525.0 * 86400.0;
+constexpr UtcTime kEpoch =
+    std::chrono::sys_days(std::chrono::year(1899) / 12 / 31) + std::chrono::hours(12);
+
+constexpr double kGravitation = 6.673e-8;      // mu, cm3/(g s2)
+constexpr double kMoonMass_g = 7.3537e25;      // M
+constexpr double kSunMass_g = 1.993e33;        // S
+constexpr double kMoonEccentricity = 0.05490;  // e
+constexpr double kMeanMotionRatio = 0.074804;  // m, Sun to Moon
+constexpr double kMoonInclination = 0.08979719;
+constexpr double kObliquity = 23.452 * kRadPerDeg;
+constexpr double kMoonDistance_cm = 3.84402e10;  // c
+constexpr double kSunDistance_cm = 1.495e13;     // c1
+constexpr double kEarthRadius_cm = 6.378270e8;   // a
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+MilliGal longman_tide(UtcTime time, const TideStation& station, TideFactors factors) {
+    using std::cos;
+    using std::sin;
+    const double t = seconds_between(kEpoch, time) / kSecondsPerCentury;
+    const double ut_hours =
+        seconds_between(std::chrono::floor<std::chrono::days>(time), time) / 3600.0;
+
+    const double s = 4.720023434 + 8399.709299 * t + 4.40695e-5 * t * t + 3.29e-8 * t * t * t;
+    const double p = 5.835124721 + 71.01800936 * t - 1.80546e-4 * t * t - 2.18e-7 * t * t * t;
+    const double h = 4.88162798 + 628.33195099 * t + 5.27962e-6 * t * t;
+    const double node = 4.523588570 - 33.757153303 * t + 3.67488e-5 * t * t + 3.87e-8 * t * t * t;
+    const double p1 = 4.908229461 + 0.0300526416 * t + 7.902463e-6 * t * t + 5.81e-8 * t * t * t;
+    const double e1 = 0.01675104 - 4.18e-5 * t - 1.26e-7 * t * t;
+    const double e = kMoonEccentricity;
+    const double m = kMeanMotionRatio;
+    const double w = kObliquity;
+
+    // Orbit of the Moon against the equator.
+    const double cos_i =
+        cos(w) * cos(kMoonInclination) - sin(w) * sin(kMoonInclination) * cos(node);
+    const double sin_i = std::sqrt(1.0 - cos_i * cos_i);
+    const double sin_nu = sin(kMoonInclination) * sin(node) / sin_i;
+    const double cos_nu = std::sqrt(1.0 - sin_nu * sin_nu);
+    const double cos_alpha = cos(node) * cos_nu + sin(node) * sin_nu * cos(w);
+    const double sin_alpha = sin(w) * sin(node) / sin_i;
+    const double xi = node - std::atan2(sin_alpha, cos_alpha);
+    const double nu = std::asin(sin_nu);
+    const double sigma = s - xi;
+
+    const double hour_angle = (15.0 * (ut_hours - 12.0) + station.longitude.value()) * kRadPerDeg;
+    const double chi = hour_angle + h - nu;
+    const double chi1 = hour_angle + h;
+    const double l = sigma + 2.0 * e * sin(s - p) + 1.25 * e * e * sin(2.0 * (s - p)) +
+                     3.75 * m * e * sin(s - 2.0 * h + p) + 1.375 * m * m * sin(2.0 * (s - h));
+    const double l1 = h + 2.0 * e1 * sin(h - p1);
+
+    const double lat = station.latitude.value() * kRadPerDeg;
+    // cos^2(I/2) = (1 + cos I)/2, sin^2(I/2) = (1 - cos I)/2.
+    const double cos_theta =
+        sin(lat) * sin_i * sin(l) +
+        cos(lat) * (0.5 * (1.0 + cos_i) * cos(l - chi) + 0.5 * (1.0 - cos_i) * cos(l + chi));
+    const double cos_phi =
+        sin(lat) * sin(w) * sin(l1) +
+        cos(lat) * (square(cos(0.5 * w)) * cos(l1 - chi1) + square(sin(0.5 * w)) * cos(l1 + chi1));
+
+    const double r = kEarthRadius_cm / std::sqrt(1.0 + 0.006738 * square(sin(lat))) +
+                     100.0 * station.height.value();
+    const double a_moon = 1.0 / (kMoonDistance_cm * (1.0 - e * e));
+    const double a_sun = 1.0 / (kSunDistance_cm * (1.0 - e1 * e1));
+    const double inverse_d =
+        1.0 / kMoonDistance_cm + a_moon * e * cos(s - p) + a_moon * e * e * cos(2.0 * (s - p)) +
+        1.875 * a_moon * m * e * cos(s - 2.0 * h + p) + a_moon * m * m * cos(2.0 * (s - h));
+    const double inverse_d1 = 1.0 / kSunDistance_cm + a_sun * e1 * cos(h - p1);
+
+    const double moon = kGravitation * kMoonMass_g * r * inverse_d * inverse_d * inverse_d;
+    const double sun = kGravitation * kSunMass_g * r * inverse_d1 * inverse_d1 * inverse_d1;
+    const double degree2 =
+        moon * (3.0 * square(cos_theta) - 1.0) + sun * (3.0 * square(cos_phi) - 1.0);
+    const double degree3 = 1.5 * moon * r * inverse_d * (5.0 * square(cos_theta) - 3.0) * cos_theta;
+    constexpr double kMilliGalPerGal = 1000.0;
+    return MilliGal(-kMilliGalPerGal * (factors.delta2 * degree2 + factors.delta3 * degree3));
+}
+
+}  // namespace a351::corrector

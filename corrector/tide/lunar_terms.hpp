@@ -1,0 +1,68 @@
+#pragma once
+/// @file
+/// The largest periodic terms of the Moon's longitude, distance and latitude.
+/// Source: J. Meeus, Astronomical Algorithms, 2nd ed., Willmann-Bell 1998, ch. 47, tables 47.A and
+/// 47.B, which shorten the theory ELP-2000/82 of M. Chapront-Touze and J. Chapront.
+
+#include <array>
+
+namespace a351::corrector {
+
+/// Multiples of D, M, M', F in the argument of a term.  A term with M is scaled by E^|m|.
+struct LunarArgument {
+    int d = 0;
+    int m = 0;
+    int m_prime = 0;
+    int f = 0;
+};
+
+struct LongitudeDistanceTerm {
+    LunarArgument argument;
+    double longitude_udeg = 0.0;  ///< Coefficient of the sine, 1e-6 degree.
+    double distance_m = 0.0;      ///< Coefficient of the cosine.
+};
+
+struct LatitudeTerm {
+    LunarArgument argument;
+    double latitude_udeg = 0.0;  ///< Coefficient of the sine, 1e-6 degree.
+};
+
+/// All terms down to 0.002 degree in longitude; left out together they change the tide by less than
+/// 0.0001 mGal.
+inline constexpr std::array<LongitudeDistanceTerm, 31> kLongitudeDistanceTerms{{
+    {{0, 0, 1, 0}, 6288774.0, -20905355.0}, {{2, 0, -1, 0}, 1274027.0, -3699111.0},
+    {{2, 0, 0, 0}, 658314.0, -2955968.0},   {{0, 0, 2, 0}, 213618.0, -569925.0},
+    {{0, 1, 0, 0}, -185116.0, 48888.0},     {{0, 0, 0, 2}, -114332.0, -3149.0},
+    {{2, 0, -2, 0}, 58793.0, 246158.0},     {{2, -1, -1, 0}, 57066.0, -152138.0},
+    {{2, 0, 1, 0}, 53322.0, -170733.0},     {{2, -1, 0, 0}, 45758.0, -204586.0},
+    {{0, 1, -1, 0}, -40923.0, -129620.0},   {{1, 0, 0, 0}, -34720.0, 108743.0},
+    {{0, 1, 1, 0}, -30383.0, 104755.0},     {{2, 0, 0, -2}, 15327.0, 10321.0},
+    {{0, 0, 1, 2}, -12528.0, 0.0},          {{0, 0, 1, -2}, 10980.0, 79661.0},
+    {{4, 0, -1, 0}, 10675.0, -34782.0},     {{0, 0, 3, 0}, 10034.0, -23210.0},
+    {{4, 0, -2, 0}, 8548.0, -21636.0},      {{2, 1, -1, 0}, -7888.0, 24208.0},
+    {{2, 1, 0, 0}, -6766.0, 30824.0},       {{1, 0, -1, 0}, -5163.0, -8379.0},
+    {{1, 1, 0, 0}, 4987.0, -16675.0},       {{2, -1, 1, 0}, 4036.0, -12831.0},
+    {{2, 0, 2, 0}, 3994.0, -10445.0},       {{4, 0, 0, 0}, 3861.0, -11650.0},
+    {{2, 0, -3, 0}, 3665.0, 14403.0},       {{0, 1, -2, 0}, -2689.0, -7003.0},
+    {{2, -1, -2, 0}, 2390.0, 10056.0},      {{1, 0, 1, 0}, -2348.0, 6322.0},
+    {{2, -2, 0, 0}, 2236.0, -9884.0},
+}};
+
+inline constexpr std::array<LatitudeTerm, 14> kLatitudeTerms{{
+    {{0, 0, 0, 1}, 5128122.0},
+    {{0, 0, 1, 1}, 280602.0},
+    {{0, 0, 1, -1}, 277693.0},
+    {{2, 0, 0, -1}, 173237.0},
+    {{2, 0, -1, 1}, 55413.0},
+    {{2, 0, -1, -1}, 46271.0},
+    {{2, 0, 0, 1}, 32573.0},
+    {{0, 0, 2, 1}, 17198.0},
+    {{2, 0, 1, -1}, 9266.0},
+    {{0, 0, 2, -1}, 8822.0},
+    {{2, -1, 0, -1}, 8216.0},
+    {{2, 0, -2, -1}, 4324.0},
+    {{2, 0, 1, 1}, 4200.0},
+    {{2, 1, 0, -1}, -3359.0},
+}};
+
+}  // namespace a351::corrector

@@ -1,0 +1,130 @@
+// Reference answers for four regressions on 16 and on 19 rows: tests/golden/tsukuba/README.md.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+
+#include "corrector/survey/survey_correction.hpp"
+#include "tests/golden/tsukuba_table.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+const std::map<std::string, std::string> kNameInReference{
+    {"temperature", "t"},
+    {"temperature+time", "t-drift"},
+    {"temperature+rate", "t-rate"},
+    {"temperature+rate+time", "t-rate-drift"}};
+
+/// All numbers of the reference are printed to 0.0001 (AICc 0.001).
+Approx within(double value, double margin = 0.0005) {
+    return Approx(value).margin(margin).epsilon(0);
+}
+
+SurveyCorrection correct(const std::string& model, bool use_flags) {
+    SurveyOptions options;
+    options.model = model;
+    options.base = "No.0";
+    options.use_flags = use_flags;
+    return correct_survey(tsukuba::observations(), options);
+}
+
+const Coefficient& coefficient(const SurveyCorrection& result, const std::string& name) {
+    for (const Coefficient& c : result.coefficients) {
+        if (c.name == name) return c;
+    }
+    FAIL("no coefficient " << name);
+    return result.coefficients.front();
+}
+
+void check_coefficient(const text::CsvTable& table, std::size_t row, const std::string& column,
+                       const SurveyCorrection& result, const std::string& name) {
+    const auto value = table.number_if_given(row, column);
+    if (!value) return;
+    INFO(name);
+    const std::string error = column == "const" ? "se_const" : "se_" + column;
+    CHECK(coefficient(result, name).value == within(*value));
+    CHECK(coefficient(result, name).standard_error.value() == within(table.number(row, error)));
+}
+
+}  // namespace
+
+TEST_CASE("every number of the eight reference regressions", "[golden][tsukuba]") {
+    const auto table = text::read_csv(A351_GOLDEN "/tsukuba/models_expected.csv");
+    REQUIRE(table.row_count() == 8);
+    const std::size_t row = GENERATE(range(std::size_t(0), std::size_t(8)));
+    const std::string model = kNameInReference.at(table.cell(row, "model"));
+    const auto n = static_cast<std::size_t>(table.number(row, "rows"));
+    CAPTURE(model, n);
+
+    const SurveyCorrection result = correct(model, n == 16);
+    const ModelScore& score = result.score;
+    CHECK(score.row_count == n);
+    CHECK(score.rms_mgal.value() == within(table.number(row, "rms")));
+    CHECK(score.s_mgal.value() == within(table.number(row, "s")));
+    CHECK(score.loo_mgal.value() == within(table.number(row, "loo")));
+    CHECK(score.loso_mgal.value() == within(table.number(row, "loso")));
+    CHECK(score.aicc.value() == within(table.number(row, "aicc")));
+    check_coefficient(table, row, "const", result, "constant_mgal");
+    check_coefficient(table, row, "temperature", result, "temperature_mgal_per_degc");
+    check_coefficient(table, row, "rate", result, "rate_mgal_per_degc_per_h");
+    check_coefficient(table, row, "time", result, "time_mgal_per_h");
+
+    // models.csv lists the same under both settings of the flags.
+    const ScoredRowSet& set = result.row_sets.at(n == 16 ? 0 : 1);
+    CHECK(set.rows == (n == 16 ? "used" : "all"));
+    for (const ModelScore& listed : set.scores) {
+        if (listed.model == model) {
+            CHECK(listed.loso_mgal == score.loso_mgal);
+        }
+    }
+}
+
+TEST_CASE("all 19 rows with rate and drift come out at 2.03 mGal in sample", "[golden][tsukuba]") {
+    const SurveyCorrection result = correct("t-rate-drift", false);
+    CHECK(result.score.row_count == 19);
+    CHECK(result.score.rms_mgal.value() <= 2.03);
+    CHECK(result.score.loso_mgal.value() == within(3.1292));
+}
+
+TEST_CASE("the program's paper model has the RMS before and after the drift step",
+          "[golden][tsukuba]") {
+    const SurveyCorrection result = correct("paper", true);
+    CHECK(result.score.rms_before_drift_mgal.value() == within(2.0084, 0.0001));
+    CHECK(result.score.rms_mgal.value() == within(2.6249, 0.0001));
+    // "3.1 leave-one-out"
+    CHECK(result.score.loo_mgal.value() == within(3.1, 0.05));
+    const auto expected = tsukuba::printed("corrected2_mgal");
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        CAPTURE(i);
+        CHECK(std::abs(result.rows[i].corrected.value() - expected[i]) <= 0.30);
+    }
+}
+
+TEST_CASE("auto takes the temperature line on 16 rows and adds the rate on 19",
+          "[golden][tsukuba]") {
+    CHECK(correct("auto", true).model == "t");
+    CHECK(correct("auto", false).model == "t-rate");
+}
+
+TEST_CASE("choosing a model on the 16 rows costs: its own error is 2.3 to 2.7 mGal",
+          "[golden][tsukuba]") {
+    const double loso = correct("auto", true).choice_loso_mgal.value();
+    CHECK(loso >= 2.2);
+    CHECK(loso <= 2.75);
+}
+
+TEST_CASE("No.2 (1) alone is significant on 19 rows with the temperature line",
+          "[golden][tsukuba]") {
+    // t = 4.8 against the limit 3.6 of Student-t(n - p - 1) at 0.05 / (2n).
+    const SurveyCorrection result = correct("t", false);
+    for (const CorrectedRow& row : result.rows) {
+        CAPTURE(row.row.site, row.row.occupation);
+        const bool is_it = row.row.site == "No.2" && row.row.occupation == 1;
+        CHECK((std::abs(row.studentised_residual.value()) > 3.6) == is_it);
+        if (is_it) {
+            CHECK(std::abs(*row.studentised_residual) == within(4.8, 0.05));
+        }
+    }
+}

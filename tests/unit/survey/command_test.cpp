@@ -1,0 +1,147 @@
+// The program a351-correct as a script sees it: exit status, streams, files.
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "protocol/text/csv.hpp"
+#include "protocol/text/text_file.hpp"
+#include "tests/unit/survey/scratch_folder.hpp"
+
+using namespace a351;
+
+namespace {
+
+struct Outcome {
+    int status = 0;
+    std::string output;
+    std::string errors;
+};
+
+Outcome run(const ScratchFolder& folder, const std::string& arguments) {
+    const std::string command = "cd '" + folder.path().string() + "' && '" A351_CORRECT "' " +
+                                arguments + " > stdout.txt 2> stderr.txt";
+    const int status = std::system(command.c_str());
+    return {WEXITSTATUS(status), text::read_text_file(folder.path() / "stdout.txt"),
+            text::read_text_file(folder.path() / "stderr.txt")};
+}
+
+const std::string kTsukuba =
+    "table --sites '" A351_GOLDEN "/tsukuba/sites.csv' --observations '" A351_GOLDEN
+    "/tsukuba/observations.csv' ";
+
+bool has_result(const ScratchFolder& folder) {
+    return std::filesystem::exists(folder.path() / "result");
+}
+
+}  // namespace
+
+TEST_CASE("table corrects the published survey and writes the same bytes twice", "[command]") {
+    const ScratchFolder folder;
+    const Outcome first = run(folder, kTsukuba + "--model t-rate-drift --flags ignore --out a");
+    CHECK(first.status == 0);
+    CHECK(first.errors.empty());
+    CHECK(first.output.find("RMS 2.027 mGal (in sample, n = 19)") != std::string::npos);
+    CHECK(first.output.find("3.129 mGal (leave-one-station-out)") != std::string::npos);
+    CHECK(run(folder, kTsukuba + "--model t-rate-drift --flags ignore --out b").status == 0);
+    for (const std::string name :
+         {"occupations.csv", "stations.csv", "models.csv", "result.json"}) {
+        CAPTURE(name);
+        CHECK(text::read_text_file(folder.path() / "a" / name) ==
+              text::read_text_file(folder.path() / "b" / name));
+    }
+}
+
+TEST_CASE("the model paper prints its RMS before and after the drift step", "[command]") {
+    const ScratchFolder folder;
+    const Outcome outcome = run(folder, kTsukuba + "--model paper");
+    CHECK(outcome.status == 0);
+    CHECK(outcome.output.find("before the drift step: 2.008 mGal (in sample)") !=
+          std::string::npos);
+    CHECK(outcome.output.find("after it: 2.625 mGal (in sample)") != std::string::npos);
+    const auto json =
+        nlohmann::json::parse(text::read_text_file(folder.path() / "result/result.json"));
+    CHECK(json["in_sample"]["rms_before_drift_mgal"].get<double>() == Approx(2.0084).margin(1e-4));
+    CHECK(json["in_sample"]["rms_mgal"].get<double>() == Approx(2.6249).margin(1e-4));
+}
+
+TEST_CASE("bad usage ends with 2, one line on standard error and nothing written", "[command]") {
+    const ScratchFolder folder;
+    folder.write("unknown.csv",
+                 "site,occupation,time_utc,acceleration_mgal,temperature_degc\n"
+                 "No.77,1,2020-01-01T00:00:00Z,981700,42.5\n");
+    folder.write("nan.csv",
+                 "site,occupation,time_utc,acceleration_mgal,temperature_degc\n"
+                 "No.0,1,2020-01-01T00:00:00Z,nan,42.5\n");
+    folder.write("short.csv", "site,occupation,time_utc,acceleration_mgal\n");
+    folder.write("key.toml", "[survey]\nbasis = 'No.0'\n");
+    folder.write("data/metadata/station.xml", "");
+    folder.write("sites.csv",
+                 "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\nNo.0,140,36,5,979860\n");
+    folder.write("base.toml", "[survey]\nbase = 'No.9'\n");
+    const std::string sites = "table --sites '" A351_GOLDEN "/tsukuba/sites.csv' --observations ";
+    const auto [arguments, message] = GENERATE_COPY(table<std::string, std::string>({
+        {"", "A subcommand is required"},
+        {"table", "--sites is required"},
+        {sites + "unknown.csv", "unknown.csv:2: site = No.77: unknown"},
+        {sites + "nan.csv", "nan.csv:2: acceleration_mgal = nan"},
+        {sites + "short.csv", "short.csv"},
+        {sites + "missing.csv", "missing.csv: cannot be read"},
+        {kTsukuba + "--model network", "t-rate-drift"},
+        {kTsukuba + "--tide tide.csv", "longman"},
+        {kTsukuba + "--model paper --base No.3", "drift step is refused"},
+        {kTsukuba + "--delta2 116", "--delta2 = 116"},
+        {"survey key.toml", "key.toml:2: survey.basis"},
+        {"survey base.toml", "base.toml:2: survey.base = 'No.9': no such site; allowed: No.0"},
+        {"tide --latitude 91 --longitude 0 --height 0 --from 2020-01-01T00:00:00Z "
+         "--to 2020-01-01T01:00:00Z --step 60",
+         "--latitude = 91"},
+        {"tide --latitude 1 --longitude 0 --height 0 --from yesterday "
+         "--to 2020-01-01T01:00:00Z --step 60",
+         "--from = yesterday"},
+    }));
+    CAPTURE(arguments);
+    const Outcome outcome = run(folder, arguments);
+    CHECK(outcome.status == 2);
+    CHECK_THAT(outcome.errors, Catch::StartsWith("a351-correct: ") && Catch::Contains(message));
+    CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
+    CHECK(outcome.output.empty());
+    CHECK_FALSE(has_result(folder));
+}
+
+TEST_CASE("a result that cannot be written ends with 1", "[command]") {
+    const ScratchFolder folder;
+    folder.write("result", "a file where the folder should be");
+    const Outcome outcome = run(folder, kTsukuba);
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.errors, Catch::StartsWith("a351-correct: "));
+}
+
+TEST_CASE("tide writes instants and the effect on gravity", "[command]") {
+    const ScratchFolder folder;
+    const std::string arguments =
+        "tide --latitude 40.7914 --longitude 282.1414 --height 370 --from 2015-04-23T00:00:00Z "
+        "--to 2015-04-23T01:00:00Z --step 1800 --model longman --delta2 1.1575 --delta3 1.1575";
+    const Outcome outcome = run(folder, arguments);
+    CHECK(outcome.status == 0);
+    const auto table = text::CsvTable::parse(outcome.output, "stdout");
+    REQUIRE(table.row_count() == 3);
+    CHECK(table.cell(0, "time") == "2015-04-23T00:00:00Z");
+    CHECK(table.cell(2, "time") == "2015-04-23T01:00:00Z");
+    CHECK(table.number(0, "tide_mgal") == Approx(-0.00354).margin(0.00001).epsilon(0));
+    CHECK(run(folder, arguments + " --output tide.csv").output.empty());
+    CHECK(text::read_text_file(folder.path() / "tide.csv") == outcome.output);
+}
+
+TEST_CASE("help and version go to standard output and end with 0", "[command]") {
+    const ScratchFolder folder;
+    CHECK(run(folder, "--version").output == "a351-correct " A351_VERSION "\n");
+    const Outcome help = run(folder, "tide --help");
+    CHECK(help.status == 0);
+    CHECK(help.output.find("positive where gravity is larger") != std::string::npos);
+    for (const std::string command : {"survey", "table", "decimate", "emd"}) {
+        CHECK(run(folder, command + " --help").status == 0);
+    }
+}

@@ -1,0 +1,78 @@
+#include "corrector/survey/linear_fit.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace a351::corrector;
+
+namespace {
+
+const Eigen::VectorXd kX = (Eigen::VectorXd(6) << 0.1, 0.5, 0.7, 1.4, 1.9, 2.2).finished();
+const Eigen::VectorXd kY = (Eigen::VectorXd(6) << 1.0, 1.9, 1.7, 4.2, 4.8, 5.9).finished();
+
+}  // namespace
+
+TEST_CASE("exact data give back their coefficients and no residual", "[survey][linear_fit]") {
+    Eigen::MatrixXd columns(6, 2);
+    columns << kX, kX.array().square().matrix();
+    const Eigen::VectorXd y = (3.0 - 2.0 * columns.col(0).array() + 0.5 * columns.col(1).array());
+    const auto fit = fit_linear(columns, y).value();
+    CHECK(fit.coefficients(0) == Approx(3.0));
+    CHECK(fit.coefficients(1) == Approx(-2.0));
+    CHECK(fit.coefficients(2) == Approx(0.5));
+    CHECK(fit.residuals.cwiseAbs().maxCoeff() < 1e-12);
+    CHECK(fit.at(Eigen::Vector2d(2.0, 4.0)) == Approx(1.0));
+}
+
+TEST_CASE("a line has the textbook coefficients and standard errors", "[survey][linear_fit]") {
+    // Sums by hand: b = Sxy/Sxx, var(b) = s^2/Sxx, var(a) = s^2 (1/n + mean^2/Sxx).
+    const double mean = kX.mean();
+    const double sxx = (kX.array() - mean).square().sum();
+    const double sxy = ((kX.array() - mean) * (kY.array() - kY.mean())).sum();
+    const auto fit = fit_linear(kX, kY).value();
+    CHECK(fit.coefficients(1) == Approx(sxy / sxx));
+    CHECK(fit.coefficients(0) == Approx(kY.mean() - sxy / sxx * mean));
+    CHECK(fit.cofactor(1, 1) == Approx(1.0 / sxx));
+    CHECK(fit.cofactor(0, 0) == Approx(1.0 / 6.0 + mean * mean / sxx));
+    CHECK(fit.cofactor(0, 1) == Approx(-mean / sxx));
+    CHECK(fit.residual_scale().value() == Approx(std::sqrt(fit.rss / 4.0)));
+    CHECK(fit.r_squared == Approx(sxy * sxy / sxx / (kY.array() - kY.mean()).square().sum()));
+}
+
+TEST_CASE("leverages add up to the number of coefficients", "[survey][linear_fit]") {
+    Eigen::MatrixXd columns(6, 2);
+    columns << kX, kX.array().sin().matrix();
+    CHECK(fit_linear(columns, kY).value().leverages.sum() == Approx(3.0));
+}
+
+TEST_CASE("a residual over 1 - leverage is the error of predicting the row without it",
+          "[survey][linear_fit]") {
+    const auto fit = fit_linear(kX, kY).value();
+    for (Eigen::Index out = 0; out < 6; ++out) {
+        Eigen::VectorXd x(5), y(5);
+        for (Eigen::Index i = 0, k = 0; i < 6; ++i) {
+            if (i == out) continue;
+            x(k) = kX(i);
+            y(k++) = kY(i);
+        }
+        const double predicted = fit_linear(x, y).value().at(kX.segment(out, 1));
+        CHECK(fit.residuals(out) / (1.0 - fit.leverages(out)) == Approx(kY(out) - predicted));
+    }
+}
+
+TEST_CASE("a large constant in y costs no digits", "[survey][linear_fit]") {
+    const auto small = fit_linear(kX, kY).value();
+    const auto large = fit_linear(kX, (kY.array() + 980000.0).matrix()).value();
+    CHECK(large.coefficients(1) == Approx(small.coefficients(1)).epsilon(1e-9));
+    CHECK(large.rss == Approx(small.rss).epsilon(1e-8));
+}
+
+TEST_CASE("what the rows do not determine is not fitted", "[survey][linear_fit]") {
+    Eigen::MatrixXd twice(6, 2);
+    twice << kX, 3.0 * kX;
+    CHECK_FALSE(fit_linear(twice, kY).has_value());
+    CHECK_FALSE(fit_linear(Eigen::VectorXd::Constant(6, 42.61), kY).has_value());
+    CHECK_FALSE(fit_linear(kX.head(1), kY.head(1)).has_value());
+    CHECK(fit_linear(kX.head(2), kY.head(2)).has_value());
+    CHECK_FALSE(fit_linear(kX.head(2), kY.head(2)).value().residual_scale().has_value());
+}

@@ -1,0 +1,55 @@
+#include "corrector/survey/occupation_list.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "protocol/core/input_error.hpp"
+#include "tests/unit/survey/scratch_folder.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+const std::vector<text::Site> kSites{
+    {"A", Degrees(140.0), Degrees(36.0), Metres(10.0), MilliGal(979900.0)},
+    {"B", Degrees(140.1), Degrees(36.1), Metres(20.0), std::nullopt}};
+const std::string kHeader = "site,occupation,start_utc,end_utc,used,note\n";
+
+OccupationList read(const std::string& rows) {
+    const ScratchFolder folder;
+    return read_occupation_table(folder.write("occupations.csv", kHeader + rows), kSites);
+}
+
+}  // namespace
+
+TEST_CASE("occupations are read in the order of time, with several set-ups of one stay",
+          "[survey][occupations]") {
+    const auto list = read(
+        "B,1,2020-01-01T02:00:00Z,2020-01-01T02:12:00Z,0,knocked\n"
+        "A,1,2020-01-01T00:00:00,2020-01-01T00:06:00,1,\n"
+        "A,1,2020-01-01T00:07:00Z,2020-01-01T00:13:00Z,,second set-up\n");
+    REQUIRE(list.windows.size() == 3);
+    CHECK(list.windows[0].site == "A");
+    CHECK(list.windows[1].number == 1);
+    CHECK_FALSE(list.windows[1].is_flagged);
+    CHECK(list.windows[2].is_flagged);
+    CHECK(list.windows[2].end - list.windows[2].start == std::chrono::minutes(12));
+}
+
+TEST_CASE("a bad table of occupations is refused with line, column and value",
+          "[survey][occupations]") {
+    const auto [rows, message] = GENERATE(table<std::string, std::string>({
+        {"C,1,2020-01-01T00:00:00Z,2020-01-01T00:06:00Z,1,\n", ":2: site = C: unknown"},
+        {"A,0,2020-01-01T00:00:00Z,2020-01-01T00:06:00Z,1,\n", "occupation = 0"},
+        {"A,1,noon,2020-01-01T00:06:00Z,1,\n", "start_utc = noon"},
+        {"A,1,2020-01-01T00:00:00Z,2020-01-01T00:06:00Z,yes,\n", "used = yes"},
+        {"A,1,2020-01-01T00:06:00Z,2020-01-01T00:06:00Z,1,\n", "ends before it starts"},
+        {"A,1,2020-01-01T00:00:00Z,2020-01-01T00:06:00Z,1,\n"
+         "B,1,2020-01-01T00:05:00Z,2020-01-01T00:09:00Z,1,\n",
+         "overlaps"},
+        {"", "no occupation"},
+    }));
+    CAPTURE(rows);
+    CHECK_THROWS_WITH(read(rows), Catch::Contains(message));
+    CHECK_THROWS_AS(read(rows), InputError);
+}

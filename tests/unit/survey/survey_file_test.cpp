@@ -1,0 +1,92 @@
+#include "corrector/survey/survey_file.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "protocol/core/input_error.hpp"
+#include "tests/unit/survey/scratch_folder.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+/// A folder with a data root and two sites.
+struct Desk {
+    ScratchFolder folder;
+
+    Desk() {
+        folder.write("data/metadata/station.xml", "");
+        folder.write("sites.csv",
+                     "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\n"
+                     "No.0,140.1,36.2,532,979860.21\nNo.1,140.0,36.1,185,\n");
+    }
+    [[nodiscard]] SurveyFile read(const std::string& toml) const {
+        return read_survey_file(folder.write("day.toml", toml));
+    }
+};
+
+}  // namespace
+
+TEST_CASE("an empty survey file has the documented defaults", "[survey][survey_file]") {
+    const Desk desk;
+    const SurveyFile survey = desk.read("[survey]\n");
+    CHECK(survey.name == "day");
+    CHECK(survey.root == desk.folder.path() / "data");
+    CHECK(survey.sites == desk.folder.path() / "sites.csv");
+    CHECK(survey.occupations.empty());
+    CHECK(survey.survey.model == "auto");
+    CHECK(survey.survey.use_flags);
+    CHECK(survey.tide.source == "direct");
+    CHECK(survey.tide.factors.delta2 == 1.16);
+    CHECK(survey.tide.factors.delta3 == 1.07);
+    CHECK(survey.norm == NormOrder::decimate_first);
+    CHECK(survey.seed == 1);
+}
+
+TEST_CASE("every key of a survey file is read", "[survey][survey_file]") {
+    const Desk desk;
+    const SurveyFile survey = desk.read(
+        "[survey]\nname='first'\nroot='data'\nsites='sites.csv'\noccupations='o.csv'\n"
+        "base='No.0'\ndatum=['No.0','No.1']\nmodel='t-rate'\nflags='ignore'\ntide='longman'\n"
+        "delta2=1.2\ndelta3=1.2\ncurve='slow'\ncalibration=''\nseed=9\nnorm='as-published'\n");
+    CHECK(survey.name == "first");
+    CHECK(survey.occupations == desk.folder.path() / "o.csv");
+    CHECK(survey.survey.base == "No.0");
+    CHECK(survey.survey.datum == std::vector<std::string>{"No.0", "No.1"});
+    CHECK(survey.survey.model == "t-rate");
+    CHECK_FALSE(survey.survey.use_flags);
+    CHECK(survey.tide.source == "longman");
+    CHECK(survey.tide.factors.delta2 == 1.2);
+    CHECK(survey.curve == TrendCurve::slow);
+    CHECK(survey.seed == 9);
+    CHECK(survey.norm == NormOrder::as_published);
+}
+
+TEST_CASE("the model paper has the publication's curve whatever is asked for",
+          "[survey][survey_file]") {
+    const Desk desk;
+    CHECK(trend_curve_of(desk.read("[survey]\nmodel='paper'\ncurve='slow'\n")) ==
+          TrendCurve::paper);
+    CHECK(trend_curve_of(desk.read("[survey]\nmodel='t'\ncurve='slow'\n")) == TrendCurve::slow);
+}
+
+TEST_CASE("a bad survey file is refused with line, key and value", "[survey][survey_file]") {
+    const Desk desk;
+    const auto [toml, message] = GENERATE(table<std::string, std::string>({
+        {"[survey]\nbasis='No.0'\n", ":2: survey.basis = 'No.0': unknown key"},
+        {"[surveys]\n", "unknown key"},
+        {"[survey]\nbase='No.9'\n", "no such site; allowed: No.0, No.1"},
+        {"[survey]\ndatum=['No.0','No.9']\n", "survey.datum"},
+        {"[survey]\nmodel='network'\n", "allowed: auto, paper, t, t-rate, t-drift, t-rate-drift"},
+        {"[survey]\ntide='given'\n", "survey.tide"},
+        {"[survey]\nroot='nowhere'\n", "no such directory"},
+        {"[survey]\ncalibration='unit.toml'\n", "survey.calibration"},
+        {"[survey]\ndelta2=116\n", "survey.delta2 = 116"},
+        {"[survey]\nseed=-1\n", "survey.seed = -1"},
+        {"[survey]\nname=''\n", "survey.name"},
+        {"[survey]\nsites='none.csv'\n", "none.csv: cannot be read"},
+    }));
+    CAPTURE(toml);
+    CHECK_THROWS_WITH(desk.read(toml), Catch::Contains(message));
+    CHECK_THROWS_AS(desk.read(toml), InputError);
+}
