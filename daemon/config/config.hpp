@@ -1,0 +1,67 @@
+#pragma once
+/// @file
+/// The daemon's configuration: one strict TOML file (config/a351d.toml is the annotated example).
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemon/source/port.hpp"
+#include "protocol/core/units.hpp"
+#include "protocol/record/journal.hpp"
+#include "protocol/text/sites.hpp"
+#include "protocol/wire/device_profile.hpp"
+#include "protocol/wire/handshake.hpp"
+
+namespace a351::daemon {
+
+struct StationConfig {
+    record::StationCodes codes;
+    Degrees latitude, longitude;  ///< Of the base station.
+    Metres elevation;
+};
+
+struct SensorConfig {
+    PortAddress address;
+    const wire::DeviceProfile* profile = nullptr;  ///< Never null after read_config().
+    int baud = 460800;
+    wire::SensorSettings settings;
+    std::string filter;         ///< Name of settings.filter_code.
+    std::string serial_number;  ///< The only one accepted; empty accepts any.
+};
+
+struct StorageConfig {
+    std::filesystem::path root;
+    std::optional<double> declared_rate_hz;  ///< Absent until commissioned.
+    int journal_keep_days = 30;              ///< 0: for ever.
+};
+
+struct PageConfig {
+    std::string listen;
+    std::vector<std::string> hosts;
+    std::string token;
+};
+
+struct SurveyConfig {
+    std::vector<text::Site> sites;      ///< Empty when no file is named.
+    std::filesystem::path calibration;  ///< Empty when none is named.
+};
+
+struct Config {
+    StationConfig station;
+    SensorConfig sensor;
+    StorageConfig storage;
+    PageConfig page;
+    SurveyConfig survey;
+};
+
+/// Reads the file; paths in it are relative to its directory.
+/// @throws InputError  naming file, line, key, value and what is allowed.
+[[nodiscard]] Config read_config(const std::filesystem::path& file);
+
+/// Reads `VID:PID:SERIAL` (two hexadecimal numbers of four digits; the serial may hold colons).
+[[nodiscard]] std::optional<UsbAddress> parse_usb_address(std::string_view text);
+
+}  // namespace a351::daemon

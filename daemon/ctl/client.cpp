@@ -1,0 +1,113 @@
+#include "daemon/ctl/client.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "daemon/page/asio.hpp"
+#include "protocol/core/input_error.hpp"
+
+namespace a351::daemon {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+using boost::system::error_code;
+
+// A little more than the daemon grants a request, so that its own words arrive first.
+constexpr std::chrono::seconds kPatience{15};
+constexpr std::uint64_t kLargestAnswer = 64 * 1024 * 1024;
+
+auto into(error_code& error) { return asio::redirect_error(asio::use_awaitable, error); }
+
+asio::awaitable<void> exchange(const Url& url, const http::request<http::string_body>& request,
+                               http::response_parser<http::string_body>& answer,
+                               error_code& error) {
+    const auto executor = co_await asio::this_coro::executor;
+    asio::ip::tcp::resolver resolver(executor);
+    const auto places = co_await resolver.async_resolve(url.host, url.port, into(error));
+    if (error) co_return;
+    beast::tcp_stream stream(executor);
+    stream.expires_after(kPatience);
+    co_await stream.async_connect(places, into(error));
+    if (error) co_return;
+    stream.socket().set_option(asio::ip::tcp::no_delay(true), error);
+    co_await http::async_write(stream, request, into(error));
+    // A daemon that turns the request away may close before it has read all of it: its answer
+    // counts, not the broken pipe.
+    beast::flat_buffer buffer;
+    co_await http::async_read(stream, buffer, answer, into(error));
+}
+
+Reply ask(const Url& url, http::request<http::string_body> request) {
+    request.set(http::field::host, url.authority());
+    request.set(http::field::user_agent, "a351ctl/" A351_VERSION);
+    request.keep_alive(false);
+    request.prepare_payload();
+
+    http::response_parser<http::string_body> answer;
+    answer.body_limit(kLargestAnswer);
+    error_code error;
+    asio::io_context io(1);
+    asio::co_spawn(io, exchange(url, request, answer, error), asio::detached);
+    io.run();
+    if (error) {
+        throw NoDaemon("no daemon answers at http://" + url.authority() + ": " + error.message());
+    }
+    return {static_cast<int>(answer.get().result_int()), std::move(answer.get().body())};
+}
+
+}  // namespace
+
+std::string Url::authority() const {
+    const bool is_v6 = host.find(':') != std::string::npos;
+    return (is_v6 ? "[" + host + "]" : host) + ":" + port;
+}
+
+Url parse_url(std::string_view text) {
+    const auto refuse = [&]() {
+        throw InputError("--url = " + std::string(text) +
+                         ": not an address; allowed: http://HOST:PORT");
+    };
+    constexpr std::string_view kScheme = "http://";
+    if (!text.starts_with(kScheme)) refuse();
+    auto rest = text.substr(kScheme.size());
+    if (rest.ends_with('/')) rest.remove_suffix(1);
+    Url url;
+    if (rest.starts_with('[')) {
+        const auto bracket = rest.find(']');
+        if (bracket == std::string_view::npos) refuse();
+        url.host = std::string(rest.substr(1, bracket - 1));
+        rest.remove_prefix(bracket + 1);
+    } else {
+        const auto end = std::min(rest.find(':'), rest.size());
+        url.host = std::string(rest.substr(0, end));
+        rest.remove_prefix(end);
+    }
+    if (rest.starts_with(':')) {
+        url.port = std::string(rest.substr(1));
+        rest = "";
+    }
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    const bool is_number = !url.port.empty() && url.port.size() <= 5 &&
+                           std::all_of(url.port.begin(), url.port.end(), is_digit);
+    const bool is_clean = std::all_of(url.host.begin(), url.host.end(), [](char c) {
+        return c > ' ' && c < '\x7f' && c != '/' && c != '@';
+    });
+    if (url.host.empty() || !rest.empty() || !is_number || !is_clean) refuse();
+    return url;
+}
+
+Reply Client::get(const std::string& path) const {
+    return ask(url_, http::request<http::string_body>(http::verb::get, path, 11));
+}
+
+Reply Client::post(const std::string& path, const std::string& json,
+                   const std::string& token) const {
+    http::request<http::string_body> request(http::verb::post, path, 11, json);
+    request.set(http::field::content_type, "application/json");
+    request.set("X-A351-Token", token);
+    return ask(url_, std::move(request));
+}
+
+}  // namespace a351::daemon

@@ -1,0 +1,219 @@
+#include "daemon/ctl/screen.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+namespace a351::daemon {
+namespace {
+
+using nlohmann::json;
+
+/// The member at a path such as "device/port"; null when there is none.
+const json& at(const json& object, std::string_view path) {
+    static const json kNull;
+    const json* here = &object;
+    while (!path.empty()) {
+        const auto slash = std::min(path.find('/'), path.size());
+        const auto found = here->find(std::string(path.substr(0, slash)));
+        if (!here->is_object() || found == here->end()) return kNull;
+        here = &*found;
+        path.remove_prefix(std::min(slash + 1, path.size()));
+    }
+    return *here;
+}
+
+std::string text_of(const json& value) {
+    if (value.is_string() && !value.get_ref<const std::string&>().empty()) {
+        return printable(value.get_ref<const std::string&>());
+    }
+    if (value.is_number_integer()) return value.dump();
+    return "-";
+}
+
+std::string number_of(const json& value, const char* format) {
+    if (!value.is_number()) return "-";
+    char text[64];
+    std::snprintf(text, sizeof text, format, value.get<double>());
+    return text;
+}
+
+std::string joined(const json& list) {
+    std::string text;
+    for (const auto& item : list) text += (text.empty() ? "" : "; ") + text_of(item);
+    return text;
+}
+
+std::string line(const char* name, const std::string& text) {
+    std::string result = name;
+    result.resize(13, ' ');
+    return result + text + "\n";
+}
+
+std::string coloured(const std::string& text, const std::string& level, bool is_coloured) {
+    if (!is_coloured) return text;
+    const char* code = level == "good" ? "32" : level == "warning" ? "33" : "31";
+    return std::string("\x1b[1;") + code + "m" + text + "\x1b[0m";
+}
+
+/// How far `index` lags behind the last sample received.
+std::string lag(const json& status, const char* index) {
+    const json& received = at(status, "received");
+    const json& here = at(status, index);
+    if (!received.is_number_integer() || !here.is_number_integer()) return "-";
+    const auto samples = received.get<std::int64_t>() - here.get<std::int64_t>();
+    const json& rate = at(status, "device/output_rate_hz");
+    std::string text = text_of(here) + ", " + std::to_string(samples) + " behind";
+    if (rate.is_number() && rate.get<double>() > 0.0) {
+        char seconds[32];
+        std::snprintf(seconds, sizeof seconds, " (%.1f s)",
+                      static_cast<double>(samples) / rate.get<double>());
+        text += seconds;
+    }
+    return text;
+}
+
+std::string axes(const json& status) {
+    const json& values = at(status, "sample/acceleration_mg");
+    if (!values.is_array() || values.size() != 3) return "-";
+    return "x " + number_of(values[0], "%.3f") + "   y " + number_of(values[1], "%.3f") + "   z " +
+           number_of(values[2], "%.3f") + " mg";
+}
+
+/// Every counter that is not zero, with its own name.
+std::string troubles(const json& status) {
+    std::string text;
+    const json& counters = at(status, "counters");
+    if (!counters.is_object()) return "-";
+    for (const auto& [name, count] : counters.items()) {
+        if (name == "bytes" || name == "frames" || name == "sessions") continue;
+        if (!count.is_number_integer() || count == 0) continue;
+        text += (text.empty() ? "" : "  ") + printable(name) + " " + count.dump();
+    }
+    return text.empty() ? "none" : text;
+}
+
+std::string occupation(const json& status) {
+    const json& running = at(status, "occupation");
+    if (!running.is_object()) return "none running";
+    std::string text = text_of(at(running, "site")) + ", stay " + text_of(at(running, "number")) +
+                       ", since " + text_of(at(running, "start")) + " (" +
+                       number_of(at(running, "running_s"), "%.0f") + " s)";
+    if (at(running, "set_up") != at(running, "start")) {
+        text += ", set up " + text_of(at(running, "set_up"));
+    }
+    return text;
+}
+
+std::string device(const json& status) {
+    std::string text = text_of(at(status, "device/product_id")) + " " +
+                       text_of(at(status, "device/serial_number")) + ", " +
+                       text_of(at(status, "device/state")) + " on " +
+                       text_of(at(status, "device/port"));
+    const auto trouble = text_of(at(status, "device/trouble"));
+    return trouble == "-" ? text : text + ": " + trouble;
+}
+
+std::string rate(const json& status) {
+    const bool is_verified = at(status, "device/profile_verified") == true;
+    return text_of(at(status, "device/output_rate_hz")) + " Hz, filter " +
+           text_of(at(status, "device/filter")) + ", profile " +
+           text_of(at(status, "device/profile")) + (is_verified ? "" : " (not verified)");
+}
+
+/// Columns as wide as their widest cell.
+std::string table(const std::vector<std::vector<std::string>>& rows) {
+    std::vector<std::size_t> widths(rows.front().size(), 0);
+    for (const auto& row : rows) {
+        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    }
+    std::string text;
+    for (const auto& row : rows) {
+        std::string shown;
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            shown += row[i] + std::string(widths[i] - row[i].size() + 2, ' ');
+        }
+        text += shown.substr(0, shown.find_last_not_of(' ') + 1) + "\n";
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+    std::string shown;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(text[i]);
+        const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0U;
+        // U+0080 to U+009F are control characters too; in UTF-8 they begin with C2.
+        const bool is_c1 = byte == 0xC2 && next >= 0x80 && next <= 0x9F;
+        shown += byte < 0x20 || byte == 0x7F || is_c1 ? '?' : text[i];
+        if (is_c1) ++i;
+    }
+    return shown;
+}
+
+std::string status_screen(const json& status, bool is_coloured) {
+    const std::string level = text_of(at(status, "level"));
+    const json& reasons = at(status, "reasons");
+    const json& why = at(status, "verdict/reasons");
+    std::string screen =
+        line("a351d", text_of(at(status, "version")) + "   " + text_of(at(status, "now")) + "   " +
+                          coloured(level, level, is_coloured) +
+                          (reasons.empty() ? "" : ": " + joined(reasons)));
+    screen += line("device", device(status));
+    screen += line("sampling", rate(status));
+    screen += line("verdict",
+                   text_of(at(status, "verdict/state")) + (why.empty() ? "" : ": " + joined(why)));
+    screen += line("axes", axes(status));
+    screen += line("temperature", number_of(at(status, "sample/temperature_degc"), "%.3f degC"));
+    screen += line("last sample", text_of(at(status, "received")) + " at " +
+                                      text_of(at(status, "sample/utc")) + ", " +
+                                      number_of(at(status, "sample/age_s"), "%.1f s ago"));
+    screen += line("journal", lag(status, "journaled"));
+    screen += line("archive", lag(status, "archived"));
+    screen += line("timing", text_of(at(status, "timing/state")) + ", uncertainty " +
+                                 number_of(at(status, "timing/uncertainty_ms"), "%.2f ms"));
+    screen += line("counters", "frames " + text_of(at(status, "counters/frames")) + "  sessions " +
+                                   text_of(at(status, "counters/sessions")));
+    screen += line("troubles", troubles(status));
+    const json& free_bytes = at(status, "disk/free_bytes");
+    const json free_gb = free_bytes.is_number() ? json(free_bytes.get<double>() / 1e9) : json();
+    screen += line("disk", number_of(free_gb, "%.1f GB free"));
+    screen += line("occupation", occupation(status));
+    return screen;
+}
+
+std::string site_table(const json& answer) {
+    std::vector<std::vector<std::string>> rows = {
+        {"site", "longitude_deg", "latitude_deg", "altitude_m", "gravity_mgal"}};
+    for (const auto& site : at(answer, "sites")) {
+        rows.push_back({text_of(at(site, "site")), number_of(at(site, "longitude_deg"), "%.6f"),
+                        number_of(at(site, "latitude_deg"), "%.6f"),
+                        number_of(at(site, "altitude_m"), "%.2f"),
+                        number_of(at(site, "gravity_mgal"), "%.3f")});
+    }
+    return table(rows);
+}
+
+std::string occupation_table(const json& answer) {
+    std::vector<std::vector<std::string>> rows = {{"site", "stay", "start", "end", "note"}};
+    for (const auto& one : at(answer, "occupations")) {
+        std::string note = text_of(at(one, "note"));
+        for (const auto& set_up : at(one, "set_ups")) {
+            rows.push_back({text_of(at(one, "site")), text_of(at(one, "number")),
+                            text_of(at(set_up, "start")), text_of(at(set_up, "end")), note});
+            note = "";
+        }
+    }
+    return table(rows);
+}
+
+int plugin_status(const json& status) {
+    const json& level = at(status, "level");
+    return level == "good" ? 0 : level == "warning" ? 1 : level == "fault" ? 2 : 3;
+}
+
+}  // namespace a351::daemon

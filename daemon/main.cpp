@@ -1,0 +1,233 @@
+#include <signal.h>
+#include <spdlog/async.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <optional>
+#include <string>
+
+#include "daemon/config/config.hpp"
+#include "daemon/page/listen_address.hpp"
+#include "daemon/page/server.hpp"
+#include "daemon/page/status.hpp"
+#include "daemon/source/host_clock.hpp"
+#include "daemon/source/read_queue.hpp"
+#include "daemon/source/sensor_link.hpp"
+#include "daemon/source/serial_ports.hpp"
+#include "daemon/store/assess.hpp"
+#include "daemon/store/status_log.hpp"
+#include "daemon/store/store.hpp"
+#include "daemon/survey/occupations.hpp"
+#include "protocol/core/input_error.hpp"
+
+namespace {
+
+using namespace a351;
+using namespace a351::daemon;
+
+constexpr std::chrono::seconds kStale{3};  // Of instrument time, but never less than
+constexpr std::chrono::milliseconds kShortestRealStale{500};
+
+enum ExitStatus { kDone = 0, kFailed = 1, kBadUsage = 2, kAlreadyRunning = 3 };
+
+std::shared_ptr<spdlog::logger> make_log() {
+    // A full log must not stop the acquisition: the oldest lines give way.
+    spdlog::init_thread_pool(4096, 1);
+    auto sink = std::make_shared<spdlog::sinks::stderr_sink_mt>();
+    auto log = std::make_shared<spdlog::async_logger>(
+        "a351d", sink, spdlog::thread_pool(), spdlog::async_overflow_policy::overrun_oldest);
+    log->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %n %l: %v");
+    log->flush_on(spdlog::level::info);
+    return log;
+}
+
+void print_ports() {
+    for (const SerialPortEntry& port : list_serial_ports()) {
+        std::printf("%s\t%s\t%s\n", port.path.c_str(),
+                    port.by_id.empty() ? "-" : port.by_id.c_str(),
+                    port.usb ? port.usb->to_text().c_str() : "-");
+    }
+}
+
+record::JournalHeader header_of(const Config& config, const HostClock& clock) {
+    record::JournalHeader header;
+    header.boot_id = clock.boot_id();
+    header.program_version = A351_VERSION;
+    header.codes = config.station.codes;
+    header.profile = config.sensor.profile->name;
+    header.output_rate_hz = config.sensor.settings.output_rate_hz;
+    header.filter = config.sensor.filter;
+    header.burst_ctrl = config.sensor.settings.layout.burst_ctrl();
+    header.baud = config.sensor.baud;
+    header.declared_rate_hz = config.storage.declared_rate_hz;
+    return header;
+}
+
+record::StationDescription station_of(const Config& config) {
+    const SensorConfig& sensor = config.sensor;
+    record::StationDescription station;
+    station.codes = config.station.codes;
+    station.latitude = config.station.latitude;
+    station.longitude = config.station.longitude;
+    station.elevation = config.station.elevation;
+    station.profile = sensor.profile->name;
+    station.is_profile_verified = sensor.profile->is_verified;
+    station.output_rate_hz = sensor.settings.output_rate_hz;
+    station.filter = sensor.filter;
+    station.group_delay = sensor.profile->group_delay(*sensor.profile->filter_named(sensor.filter));
+    return station;
+}
+
+Status snapshot(const Config& config, const HostClock& clock, const SensorLink& link,
+                Store& store) {
+    Status status;
+    status.version = A351_VERSION;
+    status.now = clock.now();
+    status.profile = config.sensor.profile->name;
+    status.is_profile_verified = config.sensor.profile->is_verified;
+    status.filter = config.sensor.filter;
+    status.output_rate_hz = config.sensor.settings.output_rate_hz;
+    fill(status, link.status());
+    store.fill(status);
+    assess(status);
+    return status;
+}
+
+void log_recovery(spdlog::logger& log, const record::RecoveryReport& report) {
+    if (report.journal) {
+        log.warn("recovery: {} bytes cut from {} at {}: {}", report.journal->byte_count,
+                 report.journal->file.string(), report.journal->offset, report.journal->reason);
+    }
+    for (const record::TornTail& tail : report.archive) {
+        log.warn("recovery: {} bytes cut from {} at {}", tail.byte_count, tail.file.string(),
+                 tail.offset);
+    }
+    log.info("recovery: {} records added, {} confirmed", report.records_added,
+             report.records_confirmed);
+    if (report.records_conflicting > 0) {
+        log.error("recovery: {} records of the archive disagree with the journal",
+                  report.records_conflicting);
+    }
+}
+
+/// Blocks the signals in this thread, and in all that it starts, so that run() can wait for them.
+sigset_t block_signals() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    return signals;
+}
+
+ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log,
+               const sigset_t& signals, StatusLog& status_log) {
+    ReadQueue reads;
+    Store store(record::posix_files(), {.root = config.storage.root, .station = station_of(config)},
+                clock, reads);
+    log_recovery(log, store.recovery());
+    SensorLink link({.address = config.sensor.address,
+                     .baud = config.sensor.baud,
+                     .profile = config.sensor.profile,
+                     .settings = config.sensor.settings,
+                     .expected_serial_number = config.sensor.serial_number,
+                     .header = header_of(config, clock)},
+                    clock, reads);
+    const std::filesystem::path events = config.storage.root / "events";
+    Occupations occupations(store, config.survey.sites, record::read_events(events).events);
+    Server page(
+        {.listen = config.page.listen, .hosts = config.page.hosts, .token = config.page.token},
+        {.status = [&] { return snapshot(config, clock, link, store); },
+         .occupations = occupations,
+         .sites = config.survey.sites,
+         .events = [&] { return record::read_events(events).events; },
+         .stale_after = std::max<Nanoseconds>(kStale, clock.instrument_span(kShortestRealStale))});
+    for (const std::string& address : page.addresses()) log.info("page at http://{}", address);
+    if (page.is_exposed()) log.warn("the page can be reached from other hosts");
+
+    store.start();
+    link.start();
+    page.start();
+
+    constexpr timespec kSecond{1, 0};
+    while (true) {
+        const int signal = sigtimedwait(&signals, nullptr, &kSecond);
+        status_log.note(snapshot(config, clock, link, store), std::chrono::steady_clock::now());
+        if (signal == SIGHUP) log.warn("SIGHUP: no key can be reloaded in this version");
+        if (signal == SIGINT || signal == SIGTERM) break;
+    }
+    log.info("stopping");
+    page.stop();
+    link.stop();
+    if (store.stop()) return kDone;
+    log.error("not everything is on disk");
+    return kFailed;
+}
+
+int complain_and_end(ExitStatus status, const std::string& trouble) {
+    std::fprintf(stderr, "a351d: %s\n", trouble.c_str());
+    return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Records an M-A351 accelerometer and shows the operator how it is.", "a351d");
+    app.set_version_flag("--version", std::string("a351d ") + A351_VERSION);
+    std::string config_file;
+    std::string clock_text;
+    bool is_check = false;
+    bool is_list = false;
+    app.add_option("--config", config_file, "configuration file (TOML)");
+    app.add_flag("--check-config", is_check, "check the configuration, print ok, and end");
+    app.add_option("--clock", clock_text, "run on simulated time: scaled:FACTOR@UTC[,HOST]");
+    app.add_flag("--list-ports", is_list, "print path, by-id name, USB VID:PID:SERIAL, and end");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& done) {
+        return app.exit(done);
+    } catch (const CLI::ParseError& error) {
+        return complain_and_end(kBadUsage, error.what());
+    }
+
+    try {
+        if (is_list) {
+            print_ports();
+            return kDone;
+        }
+        if (config_file.empty()) return complain_and_end(kBadUsage, "--config FILE is needed");
+        std::optional<ClockScale> scale;
+        if (!clock_text.empty()) {
+            scale = parse_clock_scale(clock_text, host_realtime());
+            if (!scale) {
+                return complain_and_end(kBadUsage, "--clock = " + clock_text +
+                                                       ": not a clock; allowed: "
+                                                       "scaled:FACTOR@UTC[,HOST]");
+            }
+        }
+        const Config config = read_config(config_file);
+        (void)parse_listen(config.page.listen, config.page.token);
+        if (is_check) {
+            std::puts("ok");
+            return kDone;
+        }
+        const sigset_t signals = block_signals();
+        const auto log = make_log();
+        StatusLog status_log(log);
+        const ExitStatus status = run(config, HostClock(scale), *log, signals, status_log);
+        spdlog::shutdown();
+        return status;
+    } catch (const InputError& error) {
+        return complain_and_end(kBadUsage, error.what());
+    } catch (const DataRootLocked& error) {
+        return complain_and_end(kAlreadyRunning, error.what());
+    } catch (const PortError& error) {
+        return complain_and_end(kAlreadyRunning, error.what());
+    } catch (const std::exception& error) {
+        return complain_and_end(kFailed, error.what());
+    }
+}

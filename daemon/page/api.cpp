@@ -1,0 +1,180 @@
+#include "daemon/page/api.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "daemon/page/order.hpp"
+#include "daemon/page/status_json.hpp"
+#include "protocol/core/input_error.hpp"
+
+namespace a351::daemon {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kEventsPerAnswer = 1000;
+
+constexpr std::string_view kReadable[] = {"/",          "/api/status",      "/api/events",
+                                          "/api/sites", "/api/occupations", "/api/token"};
+constexpr std::string_view kChangeable[] = {"/api/occupation/start",  "/api/occupation/stop",
+                                            "/api/occupation/setup",  "/api/occupation/discard",
+                                            "/api/occupation/rename", "/api/note"};
+
+bool contains(std::span<const std::string_view> list, std::string_view path) {
+    return std::find(list.begin(), list.end(), path) != list.end();
+}
+
+/// Texts from files and devices need not be UTF-8; a reader gets U+FFFD for what is not.
+Response ok(const json& body) {
+    return {.body = body.dump(-1, ' ', false, json::error_handler_t::replace) + "\n"};
+}
+
+Response answer_of(const Outcome& outcome, const std::optional<RunningOccupation>& running) {
+    if (outcome.kind == Outcome::Kind::refused) return refusal(409, outcome.message);
+    if (outcome.kind == Outcome::Kind::failed) return refusal(500, outcome.message);
+    return ok({{"message", outcome.message},
+               {"occupation", running ? to_json(*running, running->start) : json()}});
+}
+
+std::optional<std::string> percent_decoded(std::string_view text) {
+    const auto digit = [](char c) {
+        if (c >= '0' && c <= '9') return c - '0';
+        if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+        if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+        return -1;
+    };
+    std::string decoded;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] != '%') {
+            decoded += text[i];
+            continue;
+        }
+        if (i + 2 >= text.size()) return std::nullopt;
+        const int high = digit(text[i + 1]);
+        const int low = digit(text[i + 2]);
+        if (high < 0 || low < 0) return std::nullopt;
+        decoded += static_cast<char>(16 * high + low);
+        i += 2;
+    }
+    return decoded;
+}
+
+}  // namespace
+
+Api::Api(ApiSources sources, std::string token)
+    : sources_(std::move(sources)), token_(std::move(token)) {}
+
+Response Api::answer(const Request& request) noexcept {
+    try {
+        return route(request);
+    } catch (const InputError& error) {
+        return refusal(400, error.what());
+    } catch (const std::exception& error) {
+        ++failures_;
+        return refusal(500, error.what());
+    } catch (...) {
+        ++failures_;
+        return refusal(500, "the daemon failed");
+    }
+}
+
+Response Api::route(const Request& request) {
+    const std::string_view target = request.target;
+    const auto mark = target.find('?');
+    const auto path = target.substr(0, mark);
+    const auto query = mark == std::string_view::npos ? "" : target.substr(mark + 1);
+
+    const bool is_readable = contains(kReadable, path);
+    if (!is_readable && !contains(kChangeable, path)) return refusal(404, "there is no such path");
+    if (is_readable && (request.method == "GET" || request.method == "HEAD")) {
+        return read(path, query);
+    }
+    if (!is_readable && request.method == "POST") {
+        if (!query.empty()) throw InputError("query: none is allowed here");
+        return change(path, request.body);
+    }
+    auto response = refusal(405, request.method + " is not allowed here");
+    response.headers.emplace_back("Allow", is_readable ? "GET, HEAD" : "POST");
+    return response;
+}
+
+Response Api::read(std::string_view path, std::string_view query) {
+    if (path == "/api/events") return events_since(query);
+    if (!query.empty()) throw InputError("query: none is allowed here");
+    if (path == "/api/status") {
+        return ok(to_json(sources_.status(), sources_.occupations, sources_.stale_after));
+    }
+    if (path == "/api/sites") {
+        json sites = json::array();
+        for (const auto& site : sources_.sites) sites.push_back(to_json(site));
+        return ok({{"sites", sites}});
+    }
+    if (path == "/api/occupations") {
+        json list = json::array();
+        for (const auto& one : sources_.occupations.list()) list.push_back(to_json(one));
+        return ok({{"occupations", list}});
+    }
+    if (path == "/api/token") {
+        if (token_.empty()) return refusal(403, "the token is the one in [page] token");
+        return ok({{"token", token_}});
+    }
+    return {.content_type = "text/plain; charset=utf-8",
+            .body = "a351d answers under /api/status; there is no page here yet.\n"};
+}
+
+Response Api::events_since(std::string_view query) {
+    std::optional<UtcTime> since;
+    constexpr std::string_view kKey = "since=";
+    if (!query.empty()) {
+        if (!query.starts_with(kKey)) throw InputError("query: allowed: since");
+        const auto text = percent_decoded(query.substr(kKey.size()));
+        if (text) since = parse_rfc3339(*text);
+        if (!since) {
+            throw InputError("query: since: not an instant; allowed: RFC 3339 in UTC");
+        }
+    }
+    auto events = sources_.events();
+    if (since) std::erase_if(events, [&](const auto& event) { return event.utc < *since; });
+    // The newest ones are what a reader without a place to go on from wants to see.
+    const auto count = std::min(events.size(), kEventsPerAnswer);
+    const auto first = since ? 0 : events.size() - count;
+    json list = json::array();
+    for (std::size_t i = first; i < first + count; ++i) {
+        list.push_back(json::parse(record::to_json(events[i])));
+    }
+    return ok({{"events", list}, {"complete", count == events.size()}});
+}
+
+Response Api::change(std::string_view path, const std::string& body) {
+    auto& occupations = sources_.occupations;
+    Outcome outcome;
+    if (path == "/api/occupation/start") {
+        const auto order = parse_order(body, {"site", "operator", "note", "at"});
+        if (order.site.empty()) throw InputError("body: key site is missing");
+        outcome = occupations.start(order.site, order.remark, order.at);
+    } else if (path == "/api/occupation/stop") {
+        const auto order = parse_order(body, {"site", "operator", "note", "at"});
+        const auto& running = occupations.running();
+        if (running && !order.site.empty() && order.site != running->site) {
+            return refusal(409, running->site + " is running, not " + order.site);
+        }
+        outcome = occupations.stop(order.remark, order.at);
+    } else if (path == "/api/occupation/setup") {
+        outcome = occupations.setup(parse_order(body, {"at"}).at);
+    } else if (path == "/api/occupation/discard") {
+        (void)parse_order(body, {});
+        outcome = occupations.discard();
+    } else if (path == "/api/occupation/rename") {
+        const auto order = parse_order(body, {"site", "operator", "note", "at"});
+        if (order.site.empty()) throw InputError("body: key site is missing");
+        if (order.at) throw InputError("body: key at: a rename speaks of no instant");
+        outcome = occupations.rename(order.site, order.remark);
+    } else {
+        outcome = occupations.note(parse_order(body, {"note"}).remark.note);
+    }
+    return answer_of(outcome, occupations.running());
+}
+
+}  // namespace a351::daemon

@@ -1,0 +1,59 @@
+#pragma once
+/// @file
+/// The HTTP interface as a function from request to response.  No sockets, no threads.
+///
+/// GET  /api/status /api/events?since=UTC /api/sites /api/occupations /api/token
+/// POST /api/occupation/start|stop|setup|discard|rename /api/note, with a JSON object as body
+///
+/// An answer is JSON; a refusal is {"error": one line}: 400 malformed, 403 and 421 security, 404,
+/// 405, 409 against a rule of the survey, 500 not on disk.  GET changes nothing.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/page/message.hpp"
+#include "daemon/page/status.hpp"
+#include "daemon/survey/occupations.hpp"
+#include "protocol/core/utc_time.hpp"
+#include "protocol/record/event_log.hpp"
+#include "protocol/text/sites.hpp"
+
+namespace a351::daemon {
+
+/// Where the answers come from.
+struct ApiSources {
+    std::function<Status()> status;
+    Occupations& occupations;
+    std::vector<text::Site> sites = {};
+    std::function<std::vector<record::Event>()> events;  ///< The whole event log, in file order.
+
+    /// Instrument time without a sample after which the verdict is "no data".  On scaled time let
+    /// it be no shorter than 0.5 s of real time.
+    Nanoseconds stale_after = std::chrono::seconds(3);
+};
+
+class Api {
+public:
+    /// @param token  handed out by GET /api/token unless empty.
+    Api(ApiSources sources, std::string token);
+
+    /// For a request that has passed the Guard.  Never throws: an exception of a source is a 500.
+    [[nodiscard]] Response answer(const Request& request) noexcept;
+
+    [[nodiscard]] std::uint64_t failures() const noexcept { return failures_; }
+
+private:
+    [[nodiscard]] Response route(const Request& request);
+    [[nodiscard]] Response read(std::string_view path, std::string_view query);
+    [[nodiscard]] Response change(std::string_view path, const std::string& body);
+    [[nodiscard]] Response events_since(std::string_view query);
+
+    ApiSources sources_;
+    std::string token_;
+    std::uint64_t failures_ = 0;
+};
+
+}  // namespace a351::daemon

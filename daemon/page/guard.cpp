@@ -1,0 +1,109 @@
+#include "daemon/page/guard.hpp"
+
+#include <sys/random.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <system_error>
+
+namespace a351::daemon {
+namespace {
+
+std::string lower(std::string_view text) {
+    std::string result(text);
+    for (char& c : result) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return result;
+}
+
+bool has_port(std::string_view host) {
+    const auto colon = host.rfind(':');
+    return colon != std::string_view::npos && host.find(']', colon) == std::string_view::npos;
+}
+
+/// application/json, with or without parameters.
+bool is_json(std::string_view content_type) {
+    const std::string type = lower(content_type.substr(0, content_type.find(';')));
+    const auto end = type.find_last_not_of(" \t");
+    return end != std::string::npos && type.substr(0, end + 1) == "application/json";
+}
+
+}  // namespace
+
+Guard::Guard(std::uint16_t port, const std::vector<std::string>& hosts, std::string token)
+    : token_(std::move(token)) {
+    std::string suffix = ":";
+    suffix += std::to_string(port);
+    for (const char* name : {"127.0.0.1", "localhost", "[::1]"}) hosts_.push_back(name + suffix);
+    for (const auto& host : hosts) hosts_.push_back(lower(has_port(host) ? host : host + suffix));
+}
+
+std::optional<Response> Guard::refuse(const Request& request) const {
+    const auto is_listed = [&](std::string_view name) {
+        return std::find(hosts_.begin(), hosts_.end(), lower(name)) != hosts_.end();
+    };
+    const auto host = request.values("Host");
+    if (host.size() != 1 || !is_listed(host.front())) {
+        return refusal(421, "Host is not a name of this daemon; see [page] hosts");
+    }
+    if (request.method == "GET" || request.method == "HEAD") return std::nullopt;
+
+    constexpr std::string_view kScheme = "http://";
+    for (const auto& origin : request.values("Origin")) {
+        if (!lower(origin).starts_with(kScheme) || !is_listed(origin.substr(kScheme.size()))) {
+            return refusal(403, "Origin is not a name of this daemon");
+        }
+    }
+    const auto type = request.values("Content-Type");
+    if (type.size() != 1 || !is_json(type.front())) {
+        return refusal(403, "Content-Type must be application/json");
+    }
+    const auto token = request.values("X-A351-Token");
+    if (token.size() != 1 || !is_same_secret(token.front(), token_)) {
+        return refusal(403, "X-A351-Token is missing or wrong");
+    }
+    return std::nullopt;
+}
+
+std::string random_token() {
+    std::array<unsigned char, 32> bytes{};
+    for (std::size_t filled = 0; filled < bytes.size();) {
+        const auto got = getrandom(bytes.data() + filled, bytes.size() - filled, 0);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) throw std::system_error(errno, std::generic_category(), "getrandom");
+        filled += static_cast<std::size_t>(got);
+    }
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    std::string text;
+    for (const unsigned char byte : bytes) {
+        text += kDigits[byte >> 4];
+        text += kDigits[byte & 15];
+    }
+    return text;
+}
+
+bool is_same_secret(std::string_view given, std::string_view expected) noexcept {
+    if (given.size() != expected.size() || expected.empty()) return false;
+    volatile unsigned char difference = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        difference = static_cast<unsigned char>(difference | (given[i] ^ expected[i]));
+    }
+    return difference == 0;
+}
+
+const std::vector<std::pair<std::string, std::string>>& security_headers() {
+    static const std::vector<std::pair<std::string, std::string>> kHeaders = {
+        {"Content-Security-Policy",
+         "default-src 'self'; script-src 'self'; style-src 'self'; object-src 'none'; "
+         "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
+        {"X-Frame-Options", "DENY"},
+        {"X-Content-Type-Options", "nosniff"},
+        {"Cross-Origin-Resource-Policy", "same-origin"},
+        {"Referrer-Policy", "no-referrer"},
+        {"Cache-Control", "no-store"}};
+    return kHeaders;
+}
+
+}  // namespace a351::daemon

@@ -1,0 +1,43 @@
+#include "daemon/page/order.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "protocol/core/input_error.hpp"
+
+namespace a351::daemon {
+namespace {
+
+std::string joined(const std::vector<std::string>& keys) {
+    std::string text;
+    for (const auto& key : keys) text += (text.empty() ? "" : ", ") + key;
+    return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+Order parse_order(std::string_view body, const std::vector<std::string>& allowed) {
+    const auto parsed = nlohmann::json::parse(body, nullptr, false);
+    if (!parsed.is_object()) throw InputError("body: not a JSON object");
+    Order order;
+    for (const auto& [key, value] : parsed.items()) {
+        if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
+            throw InputError("body: key " + key + " is unknown; allowed: " + joined(allowed));
+        }
+        if (value.is_null()) continue;
+        if (!value.is_string()) throw InputError("body: key " + key + ": not a text");
+        const auto text = value.get<std::string>();
+        if (key == "site") order.site = text;
+        if (key == "operator") order.remark.operator_name = text;
+        if (key == "note") order.remark.note = text;
+        if (key != "at" || text.empty()) continue;
+        order.at = parse_rfc3339(text);
+        if (!order.at) {
+            throw InputError("body: key at = " + text +
+                             ": not an instant; allowed: RFC 3339 such as 2026-01-31T09:30:00Z");
+        }
+    }
+    return order;
+}
+
+}  // namespace a351::daemon

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/survey/occupations.hpp"
+#include "protocol/core/utc_time.hpp"
+
+namespace a351::daemon {
+
+/// The body of a POST: a JSON object whose values are texts.  A key that is absent, null or "" is
+/// not given.
+struct Order {
+    std::string site;
+    Remark remark;  ///< Keys operator and note.
+    std::optional<UtcTime> at;
+};
+
+/// @param allowed  keys that may be given; others are refused.
+/// @throws InputError  no JSON object, a key that is not allowed, a value that is no text or an
+///                     `at` that is not RFC 3339; names the key.
+[[nodiscard]] Order parse_order(std::string_view body, const std::vector<std::string>& allowed);
+
+}  // namespace a351::daemon

@@ -1,0 +1,249 @@
+#include "daemon/page/server.hpp"
+
+#include <array>
+#include <atomic>
+#include <optional>
+#include <system_error>
+#include <thread>
+
+#include "daemon/page/asio.hpp"
+#include "daemon/page/guard.hpp"
+#include "daemon/page/listen_address.hpp"
+
+namespace a351::daemon {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+constexpr std::uint32_t kHeaderLimit = 8 * 1024;
+constexpr std::uint64_t kBodyLimit = 16 * 1024;
+constexpr std::chrono::seconds kLinger{1};
+constexpr std::chrono::milliseconds kAcceptPause{100};
+
+auto into(error_code& error) { return asio::redirect_error(asio::use_awaitable, error); }
+
+Request plain(const http::request<http::string_body>& message) {
+    Request request;
+    request.method = std::string(message.method_string());
+    request.target = std::string(message.target());
+    request.body = message.body();
+    for (const auto& field : message) {
+        request.headers.emplace_back(std::string(field.name_string()), std::string(field.value()));
+    }
+    return request;
+}
+
+http::response<http::string_body> packed(Response response, unsigned version, bool keep_alive,
+                                         bool is_head) {
+    http::response<http::string_body> message;
+    message.version(version);
+    message.result(static_cast<unsigned>(response.status));
+    message.set(http::field::content_type, response.content_type);
+    for (const auto& [name, value] : security_headers()) message.set(name, value);
+    for (const auto& [name, value] : response.headers) message.set(name, value);
+    message.keep_alive(keep_alive);
+    message.content_length(response.body.size());
+    if (!is_head) message.body() = std::move(response.body);
+    return message;
+}
+
+/// What a request that could not be read is told; std::nullopt: nothing, the client is gone.
+std::optional<Response> complaint(error_code error) {
+    if (error == http::error::header_limit) return refusal(431, "the header exceeds 8 KiB");
+    if (error == http::error::body_limit) return refusal(413, "the body exceeds 16 KiB");
+    if (error == beast::error::timeout || error == http::error::end_of_stream ||
+        error == http::error::partial_message ||
+        error.category() != make_error_code(http::error::bad_method).category()) {
+        return std::nullopt;
+    }
+    return refusal(400, "not an HTTP request: " + error.message());
+}
+
+/// Counts a connection while it lives.
+class Seat {
+public:
+    explicit Seat(std::size_t& taken) noexcept : taken_(&taken) { ++taken; }
+    Seat(Seat&& other) noexcept : taken_(std::exchange(other.taken_, nullptr)) {}
+    Seat& operator=(Seat&&) = delete;
+    ~Seat() {
+        if (taken_) --*taken_;
+    }
+
+private:
+    std::size_t* taken_;
+};
+
+}  // namespace
+
+class Server::Impl {
+public:
+    Impl(const ServerOptions& options, ApiSources sources)
+        : options_(options),
+          listen_(parse_listen(options.listen, options.token)),
+          sources_(std::move(sources)) {
+        bind();
+        const std::string token = options.token.empty() ? random_token() : options.token;
+        guard_.emplace(port_, options.hosts, token);
+        api_.emplace(std::move(sources_), listen_.is_loopback ? token : std::string());
+    }
+
+    ~Impl() { stop(); }
+
+    void start() {
+        for (auto& acceptor : acceptors_) {
+            asio::co_spawn(io_, accept_all(acceptor), asio::detached);
+        }
+        thread_ = std::thread([this] { io_.run(); });
+    }
+
+    void stop() noexcept {
+        io_.stop();
+        if (thread_.joinable()) thread_.join();
+    }
+
+    std::uint16_t port_ = 0;
+    std::vector<std::string> addresses_;
+    std::atomic<std::uint64_t> failures_{0};
+
+    [[nodiscard]] bool is_exposed() const noexcept { return !listen_.is_loopback; }
+
+private:
+    void bind() {
+        const auto ip = asio::ip::make_address(listen_.ip);
+        error_code error = listen_on({ip, listen_.port});
+        if (error) throw std::system_error(error, "[page] listen = " + options_.listen);
+        port_ = acceptors_.front().local_endpoint().port();
+
+        asio::ip::address other;
+        if (listen_.ip == "127.0.0.1") other = asio::ip::address_v6::loopback();
+        if (listen_.ip == "::1") other = asio::ip::address_v4::loopback();
+        if (other.is_unspecified()) return;
+        error = listen_on({other, port_});
+        // A host without that family; any other trouble (somebody else listens where the browser
+        // may look for this daemon) is one.
+        if (error && error != asio::error::address_family_not_supported &&
+            error != boost::system::errc::address_not_available) {
+            throw std::system_error(error, "[page] listen, " + other.to_string());
+        }
+    }
+
+    error_code listen_on(const tcp::endpoint& endpoint) {
+        error_code error;
+        tcp::acceptor acceptor(io_);
+        acceptor.open(endpoint.protocol(), error);
+        if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
+        if (!error && endpoint.protocol() == tcp::v6()) {
+            acceptor.set_option(asio::ip::v6_only(true), error);
+        }
+        if (!error) acceptor.bind(endpoint, error);
+        if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+        if (error) return error;
+        const auto bound = acceptor.local_endpoint();
+        const auto ip = bound.address().to_string();
+        addresses_.push_back((bound.address().is_v6() ? "[" + ip + "]" : ip) + ":" +
+                             std::to_string(bound.port()));
+        acceptors_.push_back(std::move(acceptor));
+        return {};
+    }
+
+    asio::awaitable<void> accept_all(tcp::acceptor& acceptor) {
+        for (;;) {
+            error_code error;
+            tcp::socket socket(io_);
+            co_await acceptor.async_accept(socket, into(error));
+            if (!error) {
+                welcome(std::move(socket));
+                continue;
+            }
+            // Out of descriptors, mostly: the pause leaves time for some to come back.
+            asio::steady_timer pause(io_, kAcceptPause);
+            co_await pause.async_wait(into(error));
+        }
+    }
+
+    void welcome(tcp::socket socket) {
+        // Those who are told to come back later hold a socket for a moment, too.
+        if (taken_ + turned_away_ >= 2 * options_.connection_limit) return;
+        error_code ignored;
+        socket.set_option(tcp::no_delay(true), ignored);
+        if (taken_ >= options_.connection_limit) {
+            asio::co_spawn(io_, turn_away(std::move(socket), Seat(turned_away_)), asio::detached);
+        } else {
+            asio::co_spawn(io_, serve(std::move(socket), Seat(taken_)), asio::detached);
+        }
+    }
+
+    asio::awaitable<void> turn_away(tcp::socket socket, Seat) {
+        beast::tcp_stream stream(std::move(socket));
+        co_await refuse(stream, refusal(503, "too many connections"));
+    }
+
+    asio::awaitable<void> serve(tcp::socket socket, Seat) {
+        beast::tcp_stream stream(std::move(socket));
+        beast::flat_buffer buffer(kHeaderLimit + kBodyLimit);
+        for (;;) {
+            http::request_parser<http::string_body> parser;
+            parser.header_limit(kHeaderLimit);
+            parser.body_limit(kBodyLimit);
+            error_code error;
+            stream.expires_after(options_.request_limit);
+            co_await http::async_read(stream, buffer, parser, into(error));
+            if (error) {
+                const auto trouble = complaint(error);
+                if (trouble) co_await refuse(stream, *trouble);
+                co_return;
+            }
+            const auto& message = parser.get();
+            const Request request = plain(message);
+            auto refused = guard_->refuse(request);
+            auto response = refused ? *std::move(refused) : api_->answer(request);
+            failures_ = api_->failures();
+            const auto reply = packed(std::move(response), message.version(), message.keep_alive(),
+                                      request.method == "HEAD");
+            stream.expires_after(options_.request_limit);
+            co_await http::async_write(stream, reply, into(error));
+            if (error || !message.keep_alive()) co_return;
+        }
+    }
+
+    /// Answers and closes.  What the client still sends is read and dropped for a moment, for
+    /// closing over unread bytes resets the connection and may take the answer with it.
+    static asio::awaitable<void> refuse(beast::tcp_stream& stream, Response response) {
+        error_code error;
+        const auto reply = packed(std::move(response), 11, false, false);
+        stream.expires_after(kLinger);
+        co_await http::async_write(stream, reply, into(error));
+        if (error) co_return;
+        stream.socket().shutdown(tcp::socket::shutdown_send, error);
+        std::array<char, 4096> dropped{};
+        while (!error) co_await stream.async_read_some(asio::buffer(dropped), into(error));
+    }
+
+    const ServerOptions options_;
+    const ListenAddress listen_;
+    ApiSources sources_;
+    std::optional<Guard> guard_;
+    std::optional<Api> api_;
+    std::size_t taken_ = 0;
+    std::size_t turned_away_ = 0;
+    asio::io_context io_{1};
+    std::vector<tcp::acceptor> acceptors_;
+    std::thread thread_;
+};
+
+Server::Server(const ServerOptions& options, ApiSources sources)
+    : impl_(std::make_unique<Impl>(options, std::move(sources))) {}
+Server::~Server() = default;
+
+void Server::start() { impl_->start(); }
+void Server::stop() noexcept { impl_->stop(); }
+std::uint16_t Server::port() const noexcept { return impl_->port_; }
+const std::vector<std::string>& Server::addresses() const noexcept { return impl_->addresses_; }
+bool Server::is_exposed() const noexcept { return impl_->is_exposed(); }
+std::uint64_t Server::failures() const noexcept { return impl_->failures_; }
+
+}  // namespace a351::daemon

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocol/core/units.hpp"
+#include "protocol/core/utc_time.hpp"
+#include "protocol/record/archiver.hpp"
+#include "protocol/timing/sample_clock.hpp"
+
+namespace a351::daemon {
+
+/// A snapshot of everything the operator may ask, as `/api/status` publishes it.
+struct Status {
+    enum class Level { good, warning, fault };
+
+    std::string version;
+    Level level = Level::good;
+    std::vector<std::string> reasons;  ///< Why the level is not good; empty when it is.
+
+    std::string session;  ///< Hexadecimal; empty before the first.
+    UtcTime now;          ///< Instrument time of the snapshot.
+    // Index of the last sample of the session that was parsed, that survives a power cut, that is
+    // in a synced record.
+    std::optional<std::int64_t> received, journaled, archived;
+    std::optional<UtcTime> last_sample;
+
+    timing::TimingState timing_state = timing::TimingState::unlocked;
+    Nanoseconds timing_uncertainty{0};
+
+    std::string port;
+    std::string link_state;  ///< searching, handshake, sampling, stalled ...
+    std::string link_trouble;
+    std::string profile, product_id, serial_number, filter;
+    int output_rate_hz = 0;
+    bool is_profile_verified = false;
+
+    std::array<StandardGravity, 3> acceleration{};
+    DegC temperature;
+
+    record::ArchiverCounters counters;
+    std::map<std::string, std::uint64_t> more_counters;  ///< reconnects, queue_overruns ...
+
+    std::uint64_t disk_free_bytes = 0;
+};
+
+}  // namespace a351::daemon

@@ -1,0 +1,149 @@
+#include "daemon/page/status_json.hpp"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace a351::daemon {
+namespace {
+
+using nlohmann::json;
+
+const char* name(Status::Level level) {
+    switch (level) {
+        case Status::Level::good:
+            return "good";
+        case Status::Level::warning:
+            return "warning";
+        case Status::Level::fault:
+            return "fault";
+    }
+    return "fault";
+}
+
+const char* name(timing::TimingState state) {
+    switch (state) {
+        case timing::TimingState::unlocked:
+            return "unlocked";
+        case timing::TimingState::coarse:
+            return "coarse";
+        case timing::TimingState::locked:
+            return "locked";
+        case timing::TimingState::holdover:
+            return "holdover";
+    }
+    return "unlocked";
+}
+
+template <class Number>
+json or_null(const std::optional<Number>& number) {
+    return number ? json(*number) : json();
+}
+
+json verdict_of(const Status& status, Nanoseconds stale_after) {
+    if (!status.last_sample) {
+        return {{"state", "no data"}, {"reasons", json::array({"no sample has come yet"})}};
+    }
+    if (status.now - *status.last_sample <= stale_after) {
+        return {{"state", "not assessed"}, {"reasons", json::array()}};
+    }
+    char reason[64];
+    std::snprintf(reason, sizeof reason, "last sample %.1f s ago",
+                  seconds_between(*status.last_sample, status.now));
+    return {{"state", "no data"}, {"reasons", json::array({reason})}};
+}
+
+json sample_of(const Status& status) {
+    if (!status.last_sample) return nullptr;
+    json acceleration = json::array();
+    for (const auto axis : status.acceleration) acceleration.push_back(1e3 * axis.value());
+    return {{"utc", to_rfc3339(*status.last_sample, 3)},
+            {"age_s", seconds_between(*status.last_sample, status.now)},
+            {"acceleration_mg", acceleration},
+            {"temperature_degc", status.temperature.value()}};
+}
+
+json counters_of(const Status& status) {
+    const auto& c = status.counters;
+    json counters = {{"bytes", c.bytes},
+                     {"frames", c.frames},
+                     {"bytes_skipped", c.bytes_skipped},
+                     {"checksum_errors", c.checksum_errors},
+                     {"framing_errors", c.framing_errors},
+                     {"gaps", c.gaps},
+                     {"samples_missing", c.samples_missing},
+                     {"duplicates", c.duplicates},
+                     {"anomalies", c.anomalies},
+                     {"integer_records", c.integer_records},
+                     {"error_flags", c.error_flags},
+                     {"sessions", c.sessions}};
+    for (const auto& [key, count] : status.more_counters) counters[key] = count;
+    return counters;
+}
+
+}  // namespace
+
+json to_json(const Status& status, const Occupations& occupations, Nanoseconds stale_after) {
+    const auto& running = occupations.running();
+    const double uncertainty_ms =
+        std::chrono::duration<double, std::milli>(status.timing_uncertainty).count();
+    return {{"api", kApiVersion},
+            {"version", status.version},
+            {"level", name(status.level)},
+            {"reasons", status.reasons},
+            {"session", status.session.empty() ? json() : json(status.session)},
+            {"now", to_rfc3339(status.now, 3)},
+            {"received", or_null(status.received)},
+            {"journaled", or_null(status.journaled)},
+            {"archived", or_null(status.archived)},
+            {"timing", {{"state", name(status.timing_state)}, {"uncertainty_ms", uncertainty_ms}}},
+            {"verdict", verdict_of(status, stale_after)},
+            {"occupation", running ? to_json(*running, status.now) : json()},
+            {"sample", sample_of(status)},
+            {"counters", counters_of(status)},
+            {"oven", {{"state", "not present"}}},
+            {"device",
+             {{"port", status.port},
+              {"state", status.link_state},
+              {"trouble", status.link_trouble},
+              {"profile", status.profile},
+              {"profile_verified", status.is_profile_verified},
+              {"product_id", status.product_id},
+              {"serial_number", status.serial_number},
+              {"filter", status.filter},
+              {"output_rate_hz", status.output_rate_hz}}},
+            {"disk", {{"free_bytes", status.disk_free_bytes}}}};
+}
+
+json to_json(const RunningOccupation& running, UtcTime now) {
+    return {{"site", running.site},
+            {"number", running.number},
+            {"operator", running.remark.operator_name},
+            {"note", running.remark.note},
+            {"start", to_rfc3339(running.start, 3)},
+            {"set_up", to_rfc3339(running.set_up, 3)},
+            {"running_s", seconds_between(running.start, now)},
+            {"session", running.session ? json(running.session->to_hex()) : json()},
+            {"index", or_null(running.index)}};
+}
+
+json to_json(const record::Occupation& occupation) {
+    json set_ups = json::array();
+    for (const auto& one : occupation.set_ups) {
+        set_ups.push_back({{"start", to_rfc3339(one.start, 3)}, {"end", to_rfc3339(one.end, 3)}});
+    }
+    return {{"site", occupation.site},
+            {"number", occupation.number},
+            {"note", occupation.note},
+            {"used", or_null(occupation.used)},
+            {"set_ups", set_ups}};
+}
+
+json to_json(const text::Site& site) {
+    return {{"site", site.name},
+            {"longitude_deg", site.longitude.value()},
+            {"latitude_deg", site.latitude.value()},
+            {"altitude_m", site.altitude.value()},
+            {"gravity_mgal", site.gravity ? json(site.gravity->value()) : json()}};
+}
+
+}  // namespace a351::daemon

@@ -1,0 +1,287 @@
+#include "daemon/source/sensor_link.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <random>
+
+#include "daemon/source/handshake_driver.hpp"
+#include "protocol/wire/burst_decoder.hpp"
+
+namespace a351::daemon {
+namespace {
+
+using std::chrono::ceil;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using std::chrono::steady_clock;
+
+// A busy host pauses this long without anything being wrong.
+constexpr milliseconds kShortestRealStall{500};
+constexpr milliseconds kShortestRealWait{50};
+// Of instrument time.
+constexpr seconds kSilenceIsStall{2};
+constexpr seconds kBabbleIsStall{3};
+constexpr milliseconds kStopCheck{200};
+constexpr milliseconds kQueueRetry{10};
+constexpr seconds kPortRetry{1};
+constexpr milliseconds kSilence{50};
+constexpr seconds kLongestDrain{1};
+constexpr std::array kHandshakeBackOff{seconds(1), seconds(2), seconds(5), seconds(10),
+                                       seconds(30)};
+
+record::SessionId random_session() {
+    std::random_device source;
+    record::SessionId id;
+    for (std::uint8_t& byte : id.bytes) byte = static_cast<std::uint8_t>(source());
+    return id;
+}
+
+}  // namespace
+
+const char* to_text(LinkStatus::State state) noexcept {
+    switch (state) {
+        case LinkStatus::State::searching:
+            return "searching";
+        case LinkStatus::State::handshake:
+            return "handshake";
+        case LinkStatus::State::sampling:
+            return "sampling";
+        case LinkStatus::State::waiting:
+            return "waiting";
+        case LinkStatus::State::stopped:
+            return "stopped";
+    }
+    return "";
+}
+
+SensorLink::SensorLink(LinkOptions options, const HostClock& clock, ReadQueue& queue)
+    : options_(std::move(options)), clock_(clock), queue_(queue) {}
+
+SensorLink::~SensorLink() { stop(); }
+
+void SensorLink::start() {
+    try {
+        port_ = open_port(options_.address, options_.baud);
+    } catch (const PortError& error) {
+        if (error.kind() == PortError::Kind::locked) throw;
+    }
+    thread_ = std::thread([this] { run(); });
+}
+
+void SensorLink::stop() {
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+    }
+    woken_.notify_all();
+    if (thread_.joinable()) thread_.join();
+}
+
+LinkStatus SensorLink::status() const {
+    const std::lock_guard lock(mutex_);
+    LinkStatus status = status_;
+    status.queue_full = queue_full_;
+    return status;
+}
+
+void SensorLink::run() noexcept {
+    while (!stop_) {
+        try {
+            if (!find_port()) {
+                wait(kPortRetry);
+            } else if (begin_sampling()) {
+                const End end = read_stream();
+                if (end == End::gone) lose_port();
+                if (end == End::stalled || end == End::unframed) note_stall(end);
+            }
+        } catch (const std::exception& error) {
+            set_state(LinkStatus::State::waiting, error.what());
+            wait(kPortRetry);
+        }
+    }
+    stop_sensor();
+    port_.reset();
+    set_state(LinkStatus::State::stopped, "stopped");
+}
+
+bool SensorLink::find_port() {
+    try {
+        if (!port_) port_ = open_port(options_.address, options_.baud);
+    } catch (const PortError& error) {
+        set_state(LinkStatus::State::searching, error.what());
+        return false;
+    }
+    const std::lock_guard lock(mutex_);
+    status_.port = port_->description();
+    return true;
+}
+
+bool SensorLink::begin_sampling() {
+    set_state(LinkStatus::State::handshake, "configuring the sensor");
+    wire::Handshake handshake(*options_.profile, options_.settings);
+    HandshakeRun run = run_handshake(handshake, *port_, clock_, stop_);
+    if (stop_) return false;
+    if (std::holds_alternative<PortGone>(run.outcome)) {
+        lose_port();
+        return false;
+    }
+    std::string trouble;
+    if (const auto* failure = std::get_if<wire::HandshakeFailure>(&run.outcome)) {
+        trouble = failure->reason;
+    } else {
+        const auto& device = std::get<wire::DeviceIdentity>(run.outcome);
+        const std::string& expected = options_.expected_serial_number;
+        if (expected.empty() || device.serial_number == expected) {
+            take_up(device, std::move(run.sent));
+            return true;
+        }
+        trouble =
+            "another instrument: serial number " + device.serial_number + ", expected " + expected;
+        stop_sensor();
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        ++status_.handshake_failures;
+    }
+    back_off(trouble);
+    return false;
+}
+
+void SensorLink::take_up(const wire::DeviceIdentity& device, std::vector<record::TxChunk> sent) {
+    begun_ = Begun{options_.header, std::move(sent)};
+    record::JournalHeader& header = begun_->header;
+    header.session = random_session();
+    header.product_id = device.product_id;
+    header.serial_number = device.serial_number;
+    header.firmware = device.firmware;
+    header.clock = clock_.read();
+    const std::lock_guard lock(mutex_);
+    status_.device = device;
+}
+
+void SensorLink::back_off(const std::string& trouble) {
+    set_state(LinkStatus::State::waiting, trouble);
+    wait(kHandshakeBackOff[std::min(failures_in_a_row_, kHandshakeBackOff.size() - 1)]);
+    ++failures_in_a_row_;
+}
+
+void SensorLink::begin_session() {
+    while (!queue_.push_session(begun_->header, begun_->header.clock.raw) && !stop_) {
+        ++queue_full_;
+        std::this_thread::sleep_for(kQueueRetry);
+    }
+    for (const record::TxChunk& chunk : begun_->sent) {
+        push(ReadQueue::Kind::tx, chunk.time, chunk.bytes);
+    }
+    begun_.reset();
+
+    const std::lock_guard lock(mutex_);
+    status_.state = LinkStatus::State::sampling;
+    status_.trouble.clear();
+    ++status_.sessions;
+}
+
+SensorLink::End SensorLink::read_stream() {
+    const auto at_least_real = [this](Nanoseconds instrument_span) {
+        return std::max<Nanoseconds>(kShortestRealStall, clock_.real_span(instrument_span));
+    };
+    const auto frame_period = from_seconds(1.0 / options_.settings.output_rate_hz);
+    const auto silence = at_least_real(std::max<Nanoseconds>(kSilenceIsStall, 20 * frame_period));
+    const auto babble = at_least_real(kBabbleIsStall);
+
+    std::array<std::byte, ReadQueue::kLargestItem> bytes{};
+    // Only to see that frames come; the archive has its own decoder.
+    wire::BurstDecoder decoder(options_.settings.layout,
+                               options_.profile->count_step(options_.settings.output_rate_hz));
+    auto last_byte = steady_clock::now();
+    auto last_frame = last_byte;
+    has_frames_ = false;
+    while (!stop_) {
+        const auto count = port_->read(bytes, kStopCheck);
+        const RawTime time = clock_.raw();
+        if (!count) return End::gone;
+        const auto now = steady_clock::now();
+        if (*count > 0) {
+            std::span<const std::byte> input = std::span(bytes).first(*count);
+            if (begun_) begin_session();
+            push(ReadQueue::Kind::rx, time, input);
+            last_byte = now;
+            while (const auto event = decoder.next(input)) {
+                if (!std::holds_alternative<wire::BurstFrame>(*event)) continue;
+                last_frame = now;
+                failures_in_a_row_ = 0;
+                has_frames_ = true;
+            }
+        }
+        if (now - last_byte > silence) return End::stalled;
+        if (now - last_frame > std::max(babble, silence)) return End::unframed;
+    }
+    return End::stopped;
+}
+
+// A sensor that worked is configured again at once; one that answers but sends nothing of use
+// would otherwise begin session after session.
+void SensorLink::note_stall(End end) {
+    const std::string trouble =
+        end == End::stalled ? "no bytes from the sensor" : "bytes but no frames";
+    {
+        const std::lock_guard lock(mutex_);
+        ++status_.stalls;
+    }
+    if (has_frames_) return set_state(LinkStatus::State::handshake, trouble);
+    back_off(trouble);
+}
+
+// A full queue holds the reader up: what the kernel cannot keep meanwhile is lost on a real port,
+// seen as a gap and counted here; the writer of a pseudo-terminal is held up in turn.
+void SensorLink::push(ReadQueue::Kind kind, RawTime time, std::span<const std::byte> bytes) {
+    while (!queue_.push(kind, time, bytes)) {
+        if (stop_) return;
+        ++queue_full_;
+        std::this_thread::sleep_for(kQueueRetry);
+    }
+}
+
+void SensorLink::stop_sensor() {
+    if (!port_) return;
+    const bool is_recorded = status().state == LinkStatus::State::sampling;
+    const std::vector<std::byte> commands = wire::stop_sampling_commands();
+    const RawTime sent = clock_.raw();
+    if (!port_->write(commands) || !is_recorded) return;
+    push(ReadQueue::Kind::tx, sent, commands);
+
+    // Frames that are on their way belong to the session.
+    std::array<std::byte, ReadQueue::kLargestItem> bytes{};
+    const auto end = steady_clock::now() + kLongestDrain;
+    while (steady_clock::now() < end) {
+        const auto count = port_->read(bytes, kSilence);
+        if (count.value_or(0) == 0) return;
+        push(ReadQueue::Kind::rx, clock_.raw(), std::span(bytes).first(*count));
+    }
+}
+
+void SensorLink::lose_port() {
+    port_.reset();
+    set_state(LinkStatus::State::searching, options_.address.to_text() + ": the port is gone");
+    {
+        const std::lock_guard lock(mutex_);
+        status_.port.clear();
+        ++status_.ports_lost;
+    }
+    wait(kPortRetry);
+}
+
+void SensorLink::wait(seconds instrument_span) {
+    const auto real =
+        std::max<Nanoseconds>(kShortestRealWait, clock_.real_span(Nanoseconds(instrument_span)));
+    std::unique_lock lock(mutex_);
+    woken_.wait_for(lock, real, [this] { return stop_.load(); });
+}
+
+void SensorLink::set_state(LinkStatus::State state, std::string trouble) {
+    const std::lock_guard lock(mutex_);
+    status_.state = state;
+    status_.trouble = std::move(trouble);
+}
+
+}  // namespace a351::daemon

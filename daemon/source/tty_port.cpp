@@ -1,0 +1,166 @@
+#include "daemon/source/tty_port.hpp"
+
+#include <asm/termbits.h>
+#include <fcntl.h>
+#include <linux/serial.h>
+#include <poll.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include "daemon/source/serial_ports.hpp"
+
+namespace a351::daemon {
+namespace {
+
+// The kernel's own termios: it gives the speed in force as a number.
+constexpr unsigned kInputOff =
+    IGNBRK | BRKINT | PARMRK | INPCK | ISTRIP | INLCR | IGNCR | ICRNL | IXON | IXOFF | IXANY;
+constexpr unsigned kLocalOff = ISIG | ICANON | ECHO | ECHOE | ECHOK | ECHONL | IEXTEN;
+constexpr unsigned kControlOff = CSIZE | PARENB | CSTOPB | CRTSCTS;
+constexpr int kLowLatency = static_cast<int>(ASYNC_LOW_LATENCY);
+constexpr unsigned kControlOn = CS8 | CLOCAL | CREAD;
+
+PortError failure(PortError::Kind kind, const std::filesystem::path& device, const char* step) {
+    return {kind, device.string() + ": " + step + ": " + std::generic_category().message(errno)};
+}
+
+unsigned speed_code(int baud, const std::filesystem::path& device) {
+    switch (baud) {
+        case 460800:
+            return B460800;
+        case 230400:
+            return B230400;
+        case 115200:
+            return B115200;
+        default:
+            throw PortError(PortError::Kind::settings,
+                            device.string() + ": no speed of " + std::to_string(baud) + " baud");
+    }
+}
+
+bool is_in_tty_class(const std::filesystem::path& device) {
+    return device.parent_path() == "/dev" &&
+           std::filesystem::exists("/sys/class/tty" / device.filename());
+}
+
+bool is_raw(const termios2& settings) {
+    return (settings.c_iflag & kInputOff) == 0 && (settings.c_oflag & OPOST) == 0 &&
+           (settings.c_lflag & kLocalOff) == 0 &&
+           (settings.c_cflag & (kControlOff | kControlOn)) == kControlOn;
+}
+
+/// Asks for the driver's low-latency mode; many drivers have none, or need rights for it.
+std::string ask_for_low_latency(int descriptor, const std::filesystem::path& device) {
+    serial_struct serial{};
+    bool is_low = false;
+    if (ioctl(descriptor, TIOCGSERIAL, &serial) == 0) {
+        serial.flags |= kLowLatency;
+        ioctl(descriptor, TIOCSSERIAL, &serial);
+        is_low = ioctl(descriptor, TIOCGSERIAL, &serial) == 0 && (serial.flags & kLowLatency) != 0;
+    }
+    std::string text = is_low ? ", low latency" : ", low latency not available";
+    std::string timer_ms;
+    std::ifstream("/sys/class/tty" / device.filename() / "device/latency_timer") >> timer_ms;
+    if (!timer_ms.empty()) text += ", latency timer " + timer_ms + " ms";
+    return text;
+}
+
+}  // namespace
+
+TtyPort::TtyPort(const std::filesystem::path& device, int baud) {
+    descriptor_ = open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor_ < 0) {
+        // EBUSY: somebody set the exclusive flag.
+        throw failure(errno == EBUSY ? PortError::Kind::locked : PortError::Kind::absent, device,
+                      "cannot open");
+    }
+    try {
+        lock(device);
+        configure(device, baud);
+    } catch (...) {
+        close(descriptor_);
+        throw;
+    }
+}
+
+TtyPort::~TtyPort() { close(descriptor_); }
+
+void TtyPort::lock(const std::filesystem::path& device) {
+    if (isatty(descriptor_) == 0) throw failure(PortError::Kind::settings, device, "not a port");
+    // Before anything is changed, for the holder would feel it.
+    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+        throw PortError(PortError::Kind::locked, device.string() + ": another process holds it");
+    }
+}
+
+void TtyPort::configure(const std::filesystem::path& device, int baud) {
+    const bool is_real = is_in_tty_class(device);
+    if (is_real) {
+        configure_serial_port(device, baud);
+        // Root ignores this flag, the lock above is what counts.  Not on a pseudo-terminal: there
+        // it outlives us as long as the other side holds the terminal open.
+        ioctl(descriptor_, TIOCEXCL);
+    }
+    termios2 settings{};
+    if (ioctl(descriptor_, TCGETS2, &settings) != 0) {
+        throw failure(PortError::Kind::settings, device, "cannot read the settings");
+    }
+    settings.c_iflag &= ~kInputOff;
+    settings.c_oflag &= ~static_cast<unsigned>(OPOST);
+    settings.c_lflag &= ~kLocalOff;
+    settings.c_cflag = (settings.c_cflag & ~kControlOff) | kControlOn;
+    settings.c_cc[VMIN] = 1;  // A read of 0 bytes then means the end, never "nothing yet".
+    settings.c_cc[VTIME] = 0;
+    if (!is_real) {
+        settings.c_cflag =
+            (settings.c_cflag & ~static_cast<unsigned>(CBAUD | CIBAUD)) | speed_code(baud, device);
+    }
+    termios2 kept{};
+    if (ioctl(descriptor_, TCSETS2, &settings) != 0 || ioctl(descriptor_, TCGETS2, &kept) != 0) {
+        throw failure(PortError::Kind::settings, device, "cannot set 8N1 raw");
+    }
+    if (!is_raw(kept) || kept.c_ospeed != static_cast<unsigned>(baud)) {
+        throw PortError(
+            PortError::Kind::settings,
+            device.string() + ": does not keep 8N1 raw without flow control at that speed");
+    }
+    description_ = device.string() + ", " + std::to_string(kept.c_ospeed) + " baud" +
+                   ask_for_low_latency(descriptor_, device);
+}
+
+std::optional<std::size_t> TtyPort::read(std::span<std::byte> into,
+                                         std::chrono::milliseconds timeout) {
+    pollfd waited{descriptor_, POLLIN, 0};
+    const int ready = poll(&waited, 1, static_cast<int>(timeout.count()));
+    if (ready == 0 || (ready < 0 && errno == EINTR)) return 0;
+    if (ready < 0) return std::nullopt;
+    const ssize_t count = ::read(descriptor_, into.data(), into.size());
+    if (count > 0) return static_cast<std::size_t>(count);
+    if (count < 0 && (errno == EAGAIN || errno == EINTR) && (waited.revents & POLLHUP) == 0) {
+        return 0;
+    }
+    return std::nullopt;
+}
+
+bool TtyPort::write(std::span<const std::byte> bytes) {
+    constexpr int kPatience_ms = 1000;
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
+        if (count > 0) {
+            bytes = bytes.subspan(static_cast<std::size_t>(count));
+        } else if (count < 0 && errno == EAGAIN) {
+            pollfd waited{descriptor_, POLLOUT, 0};
+            if (poll(&waited, 1, kPatience_ms) == 0) return false;
+        } else if (count == 0 || errno != EINTR) {
+            return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace a351::daemon

@@ -1,0 +1,68 @@
+#include "daemon/store/assess.hpp"
+
+#include <algorithm>
+
+namespace a351::daemon {
+namespace {
+
+// Ten days at 50 Hz: 100 MB of journal and 15 MB of archive a day.
+constexpr std::uint64_t kLittleSpace_bytes = std::uint64_t{1} << 30;
+
+/// What a device says of itself may be anything.
+std::string printable(std::string text) {
+    for (char& c : text) {
+        if (c < ' ' || c > '~') c = '?';
+    }
+    return text;
+}
+
+}  // namespace
+
+void complain(Status& status, Status::Level level, std::string reason) {
+    status.level = std::max(status.level, level);
+    status.reasons.push_back(std::move(reason));
+}
+
+void fill(Status& status, const LinkStatus& link) {
+    status.link_state = to_text(link.state);
+    status.link_trouble = link.trouble;
+    status.port = link.port;
+    if (link.device) {
+        status.product_id = printable(link.device->product_id);
+        status.serial_number = printable(link.device->serial_number);
+    }
+    status.more_counters["link_sessions"] = link.sessions;
+    status.more_counters["link_stalls"] = link.stalls;
+    status.more_counters["ports_lost"] = link.ports_lost;
+    status.more_counters["handshake_failures"] = link.handshake_failures;
+    status.more_counters["queue_full"] = link.queue_full;
+    if (link.state != LinkStatus::State::sampling) {
+        complain(status, Status::Level::fault, "no data: " + link.trouble);
+    } else if (link.device && !link.device->has_expected_product_id) {
+        complain(status, Status::Level::warning,
+                 "product identifier " + status.product_id + " does not fit the profile");
+    }
+}
+
+void assess(Status& status) {
+    switch (status.timing_state) {
+        case timing::TimingState::unlocked:
+            complain(status, Status::Level::warning, "sample times are not known yet");
+            break;
+        case timing::TimingState::holdover:
+            complain(status, Status::Level::warning, "the host's clock is not to be trusted");
+            break;
+        case timing::TimingState::coarse:
+        case timing::TimingState::locked:
+            break;
+    }
+    if (status.disk_free_bytes < kLittleSpace_bytes) {
+        complain(status, Status::Level::warning, "less than 1 GiB free for the record");
+    }
+    const auto full = status.more_counters.find("queue_full");
+    if (full != status.more_counters.end() && full->second > 0) {
+        complain(status, Status::Level::warning, "the disk was too slow: the reader had to wait");
+    }
+}
+
+}  // namespace a351::daemon

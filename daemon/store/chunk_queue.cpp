@@ -1,0 +1,47 @@
+#include "daemon/store/chunk_queue.hpp"
+
+namespace a351::daemon {
+namespace {
+
+std::size_t size_of(const NumberedChunk& numbered) {
+    std::size_t size = sizeof numbered;
+    if (const auto* rx = std::get_if<record::RxChunk>(&numbered.chunk)) {
+        size += rx->bytes.size() + rx->reads.size() * sizeof(record::ReadStamp);
+    }
+    return size;
+}
+
+}  // namespace
+
+ChunkQueue::ChunkQueue(std::size_t capacity_bytes) : capacity_bytes_(capacity_bytes) {}
+
+bool ChunkQueue::push(NumberedChunk chunk) {
+    std::unique_lock lock(mutex_);
+    const bool has_room = bytes_ < capacity_bytes_;
+    changed_.wait(lock, [this] { return is_closed_ || bytes_ < capacity_bytes_; });
+    if (is_closed_) return true;
+    bytes_ += size_of(chunk);
+    chunks_.push_back(std::move(chunk));
+    changed_.notify_all();
+    return has_room;
+}
+
+std::optional<NumberedChunk> ChunkQueue::pop() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return is_closed_ || !chunks_.empty(); });
+    if (chunks_.empty()) return std::nullopt;
+    NumberedChunk chunk = std::move(chunks_.front());
+    chunks_.pop_front();
+    const bool was_full = bytes_ >= capacity_bytes_;
+    bytes_ -= size_of(chunk);
+    if (was_full) changed_.notify_all();
+    return chunk;
+}
+
+void ChunkQueue::close() {
+    const std::lock_guard lock(mutex_);
+    is_closed_ = true;
+    changed_.notify_all();
+}
+
+}  // namespace a351::daemon

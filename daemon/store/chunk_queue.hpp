@@ -1,0 +1,47 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+
+#include "protocol/record/journal.hpp"
+
+namespace a351::daemon {
+
+/// A chunk that is written to the journal (not yet synced), by its number since start.
+struct NumberedChunk {
+    std::uint64_t number = 0;
+    record::JournalChunk chunk;
+};
+
+/// From the journal thread to the archive thread.
+class ChunkQueue {
+public:
+    /// 32 MiB of chunks: 5 h at 50 Hz with their stamps.
+    static constexpr std::size_t kCapacityBytes = std::size_t{32} << 20;
+
+    explicit ChunkQueue(std::size_t capacity_bytes = kCapacityBytes);
+
+    /// Waits while the queue is full: the journal must not run ahead of what memory holds.
+    /// @return false when it had to wait.
+    bool push(NumberedChunk chunk);
+
+    /// Waits for a chunk; std::nullopt once the queue is closed and empty.
+    [[nodiscard]] std::optional<NumberedChunk> pop();
+
+    /// No chunk will follow; one that does is dropped.
+    void close();
+
+private:
+    std::size_t capacity_bytes_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<NumberedChunk> chunks_;
+    std::size_t bytes_ = 0;
+    bool is_closed_ = false;
+};
+
+}  // namespace a351::daemon

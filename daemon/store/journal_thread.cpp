@@ -1,0 +1,271 @@
+#include "daemon/store/journal_thread.hpp"
+
+#include <system_error>
+#include <utility>
+
+namespace a351::daemon {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kWriteInterval{50};  // Half of what is promised leaves room for the disk.
+constexpr milliseconds kSyncInterval{800};  // Of the second that is promised.
+constexpr seconds kClockInterval{1};        // Of instrument time, and
+constexpr milliseconds kShortestClockInterval{100};
+// Together with 12 bytes per stamp below the largest chunk.
+constexpr std::size_t kMostBytes = std::size_t{48} << 10;
+constexpr std::size_t kMostReads = 1000;
+
+}  // namespace
+
+JournalThread::JournalThread(record::FileLayer& files, const std::filesystem::path& data_root,
+                             const HostClock& clock, ReadQueue& reads, ChunkQueue& written,
+                             Progress& progress, milliseconds retry_interval)
+    : retry_interval_(retry_interval),
+      files_(files),
+      events_(data_root / "events"),
+      clock_(clock),
+      reads_(reads),
+      written_(written),
+      progress_(progress),
+      writer_(files, data_root / "journal") {}
+
+JournalThread::~JournalThread() {
+    if (!thread_.joinable()) return;
+    drain();
+    finish();
+}
+
+void JournalThread::start() {
+    thread_ = std::thread([this] { run(); });
+}
+
+void JournalThread::drain() {
+    std::unique_lock lock(mutex_);
+    phase_ = Phase::draining;
+    woken_.notify_all();
+    woken_.wait(lock, [this] { return is_drained_; });
+}
+
+bool JournalThread::finish() {
+    {
+        const std::lock_guard lock(mutex_);
+        phase_ = Phase::finishing;
+        woken_.notify_all();
+    }
+    if (thread_.joinable()) thread_.join();
+    return !status().is_faulty;
+}
+
+void JournalThread::post(record::JournalChunk chunk) {
+    const std::lock_guard lock(mutex_);
+    posted_.push_back(std::move(chunk));
+}
+
+std::future<void> JournalThread::commit(const record::Event& event) {
+    const std::lock_guard lock(mutex_);
+    commits_.push_back({event, {}});
+    woken_.notify_all();
+    return commits_.back().done.get_future();
+}
+
+JournalStatus JournalThread::status() const {
+    const std::lock_guard lock(mutex_);
+    return status_;
+}
+
+void JournalThread::run() noexcept {
+    while (true) {
+        Phase phase = Phase::running;
+        {
+            std::unique_lock lock(mutex_);
+            woken_.wait_for(lock, kWriteInterval, [this] {
+                return !commits_.empty() || phase_ == Phase::finishing ||
+                       (phase_ == Phase::draining && !is_drained_);
+            });
+            phase = phase_;
+        }
+        try {
+            work();
+            if (phase != Phase::running) sync();
+        } catch (const std::exception& error) {
+            note_fault(error.what());
+        }
+        if (phase == Phase::running) continue;
+        written_.close();
+        const std::lock_guard lock(mutex_);
+        is_drained_ = true;
+        woken_.notify_all();
+        if (phase == Phase::finishing) break;
+    }
+}
+
+void JournalThread::work() {
+    if (may_try_again()) {
+        retry_unwritten();
+        write_reads();
+        std::vector<record::JournalChunk> posted;
+        {
+            const std::lock_guard lock(mutex_);
+            posted.swap(posted_);
+        }
+        for (record::JournalChunk& chunk : posted) write(std::move(chunk));
+    }
+    std::deque<Commit> commits;
+    {
+        const std::lock_guard lock(mutex_);
+        commits.swap(commits_);
+    }
+    for (Commit& commit : commits) carry_out(commit);
+    if (is_dirty_ && steady_clock::now() - last_sync_ >= kSyncInterval) sync();
+}
+
+void JournalThread::write_reads() {
+    record::RxChunk rx;
+    const auto write_rx = [&] {
+        if (!rx.reads.empty()) write(std::exchange(rx, {}));
+    };
+    while (const auto item = reads_.front()) {
+        if (item->kind != ReadQueue::Kind::rx ||
+            rx.bytes.size() + item->bytes.size() > kMostBytes || rx.reads.size() == kMostReads) {
+            write_rx();
+        }
+        switch (item->kind) {
+            case ReadQueue::Kind::rx:
+                rx.bytes.insert(rx.bytes.end(), item->bytes.begin(), item->bytes.end());
+                rx.reads.push_back({static_cast<std::uint32_t>(rx.bytes.size()), item->time});
+                reads_.pop();
+                break;
+            case ReadQueue::Kind::tx: {
+                record::TxChunk tx{item->time, {item->bytes.begin(), item->bytes.end()}};
+                reads_.pop();
+                write(std::move(tx));
+                break;
+            }
+            case ReadQueue::Kind::session: {
+                record::JournalHeader header = reads_.take_session();
+                reads_.pop();
+                write(std::move(header));
+                break;
+            }
+        }
+    }
+    write_rx();
+    const auto now = steady_clock::now();
+    if (has_segment_ && now - last_clock_real_ >= kShortestClockInterval &&
+        clock_.raw() - last_clock_ >= kClockInterval) {
+        const timing::ClockReading reading = clock_.read();
+        last_clock_ = reading.raw;
+        last_clock_real_ = now;
+        write(reading);
+    }
+}
+
+void JournalThread::write(record::JournalChunk chunk) {
+    unwritten_ = std::move(chunk);
+    retry_unwritten();
+}
+
+void JournalThread::retry_unwritten() {
+    if (!unwritten_) return;
+    const auto* const header = std::get_if<record::JournalHeader>(&*unwritten_);
+    if (header == nullptr && !has_segment_) {
+        unwritten_.reset();
+        return;
+    }
+    try {
+        if (header != nullptr) {
+            writer_.begin_segment(*header);
+            header_ = *header;
+            has_segment_ = true;
+        } else {
+            const timing::ClockReading clock = clock_.read();
+            // On rotation and after a fault: the archive must see what a reader will see.
+            if (writer_.append(*unwritten_, clock)) {
+                header_.clock = clock;
+                hand_over(header_);
+            }
+        }
+    } catch (const std::system_error&) {
+        lose_unsynced();
+        throw;
+    }
+    is_dirty_ = true;
+    hand_over(*std::exchange(unwritten_, std::nullopt));
+    const std::lock_guard lock(mutex_);
+    status_.is_faulty = false;
+    status_.bytes_written = writer_.bytes_written();
+}
+
+void JournalThread::hand_over(record::JournalChunk chunk) {
+    const bool went_through = written_.push({++last_chunk_, std::move(chunk)});
+    if (went_through) return;
+    const std::lock_guard lock(mutex_);
+    ++status_.archive_waits;
+}
+
+// Without a session there is no journal to write to: then the event log alone keeps the event.
+void JournalThread::carry_out(Commit& commit) {
+    try {
+        if (!may_try_again()) {
+            throw std::system_error(std::make_error_code(std::errc::io_error),
+                                    "the journal is not being written");
+        }
+        if (has_segment_) {
+            write(record::EventChunk{record::to_json(commit.event)});
+            sync();
+        }
+        record::append_event(files_, events_, commit.event);
+        commit.done.set_value();
+    } catch (const std::exception& error) {
+        commit.done.set_exception(std::current_exception());
+        // Whoever asked was told that it did not happen.
+        if (unwritten_ && std::holds_alternative<record::EventChunk>(*unwritten_)) {
+            unwritten_.reset();
+        }
+        note_fault(error.what());
+    }
+}
+
+void JournalThread::sync() {
+    if (!is_dirty_) return;
+    last_sync_ = steady_clock::now();
+    try {
+        writer_.sync();
+    } catch (const std::system_error&) {
+        lose_unsynced();
+        throw;
+    }
+    is_dirty_ = false;
+    is_failing_ = false;
+    progress_.journal_synced(last_chunk_);
+}
+
+// The writer gave its segment up: what it had not synced cannot be synced any more.
+void JournalThread::lose_unsynced() {
+    if (is_dirty_) progress_.journal_lost(last_chunk_);
+    is_dirty_ = false;
+}
+
+void JournalThread::note_fault(const std::string& trouble) {
+    last_fault_ = steady_clock::now();
+    is_failing_ = true;
+    const std::lock_guard lock(mutex_);
+    status_.is_faulty = true;
+    status_.trouble = trouble;
+    ++status_.faults;
+}
+
+// While the disk is bad each try may cost a segment.
+bool JournalThread::may_try_again() const {
+    if (!is_failing_) return true;
+    const bool is_last_chance = [this] {
+        const std::lock_guard lock(mutex_);
+        return phase_ != Phase::running;
+    }();
+    return is_last_chance || steady_clock::now() - last_fault_ >= retry_interval_;
+}
+
+}  // namespace a351::daemon

@@ -1,0 +1,110 @@
+#pragma once
+/// @file
+/// The journal thread: what was read goes to disk within 100 ms and survives a power cut after
+/// one second, both of real time.  It waits for nobody but the disk.
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <future>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "daemon/source/host_clock.hpp"
+#include "daemon/source/read_queue.hpp"
+#include "daemon/store/chunk_queue.hpp"
+#include "daemon/store/progress.hpp"
+#include "protocol/record/event_log.hpp"
+#include "protocol/record/file_layer.hpp"
+#include "protocol/record/journal_writer.hpp"
+
+namespace a351::daemon {
+
+struct JournalStatus {
+    bool is_faulty = false;
+    std::string trouble;  ///< The last fault of the disk.
+    std::uint64_t faults = 0;
+    std::uint64_t bytes_written = 0;
+    std::uint64_t archive_waits = 0;  ///< Times it had to wait for the archive.
+};
+
+class JournalThread {
+public:
+    /// All referred to must outlive this.
+    JournalThread(record::FileLayer& files, const std::filesystem::path& data_root,
+                  const HostClock& clock, ReadQueue& reads, ChunkQueue& written, Progress& progress,
+                  std::chrono::milliseconds retry_interval = std::chrono::seconds(10));
+    ~JournalThread();
+
+    void start();
+
+    /// Writes what is left in the queues, closes `written`, and goes on until finish().
+    void drain();
+    /// Writes what was posted meanwhile, syncs, and ends.
+    /// @return false when something could not be written.
+    bool finish();
+
+    /// A chunk to be written soon: MARK, MODEL.
+    void post(record::JournalChunk chunk);
+
+    /// Journal and event log hold the event, synced, once the future is ready; or it throws what
+    /// prevented that.
+    [[nodiscard]] std::future<void> commit(const record::Event& event);
+
+    [[nodiscard]] JournalStatus status() const;
+
+private:
+    enum class Phase { running, draining, finishing };
+    struct Commit {
+        record::Event event;
+        std::promise<void> done;
+    };
+
+    void run() noexcept;
+    void work();
+    void write_reads();
+    void write(record::JournalChunk chunk);
+    void retry_unwritten();
+    void hand_over(record::JournalChunk chunk);
+    void carry_out(Commit& commit);
+    void sync();
+    void lose_unsynced();
+    void note_fault(const std::string& trouble);
+    [[nodiscard]] bool may_try_again() const;
+
+    std::chrono::milliseconds retry_interval_;
+    record::FileLayer& files_;
+    std::filesystem::path events_;
+    const HostClock& clock_;
+    ReadQueue& reads_;
+    ChunkQueue& written_;
+    Progress& progress_;
+    record::JournalWriter writer_;
+
+    // Of the journal thread.
+    bool has_segment_ = false;
+    record::JournalHeader header_;  ///< Of the segment.
+    bool is_dirty_ = false;
+    bool is_failing_ = false;                        ///< From a fault to the next good sync.
+    std::optional<record::JournalChunk> unwritten_;  ///< What the disk refused.
+    std::uint64_t last_chunk_ = 0;
+    RawTime last_clock_;
+    std::chrono::steady_clock::time_point last_clock_real_, last_sync_, last_fault_;
+
+    mutable std::mutex mutex_;
+    std::condition_variable woken_;
+    Phase phase_ = Phase::running;
+    bool is_drained_ = false;
+    std::vector<record::JournalChunk> posted_;
+    std::deque<Commit> commits_;
+    JournalStatus status_;
+    std::thread thread_;
+};
+
+}  // namespace a351::daemon

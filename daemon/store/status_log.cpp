@@ -1,0 +1,68 @@
+#include "daemon/store/status_log.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+namespace a351::daemon {
+namespace {
+
+constexpr std::chrono::minutes kReminder{1};
+
+}  // namespace
+
+StatusLog::StatusLog(std::shared_ptr<spdlog::logger> log) : log_(std::move(log)) {}
+
+void StatusLog::note(const Status& status, Instant now) {
+    if (status.link_state != link_state_) {
+        log_->info("link: {} ({})", status.link_state,
+                   status.link_trouble.empty() ? status.port : status.link_trouble);
+        link_state_ = status.link_state;
+    }
+    if (status.session != session_) {
+        log_->info("session {}: {} serial {}, {} Hz, {}", status.session, status.product_id,
+                   status.serial_number, status.output_rate_hz, status.filter);
+        session_ = status.session;
+    }
+    note_reasons(status, now);
+    note_counter("gaps", status.counters.gaps, now);
+    note_counter("checksum errors", status.counters.checksum_errors, now);
+    note_counter("framing errors", status.counters.framing_errors, now);
+    note_counter("counter anomalies", status.counters.anomalies, now);
+    note_counter("duplicates", status.counters.duplicates, now);
+    note_counter("frames with error flags", status.counters.error_flags, now);
+    for (const char* name : {"link_stalls", "ports_lost", "journal_faults", "archive_faults"}) {
+        const auto found = status.more_counters.find(name);
+        if (found != status.more_counters.end()) note_counter(name, found->second, now);
+    }
+}
+
+void StatusLog::note_reasons(const Status& status, Instant now) {
+    for (const std::string& reason : status.reasons) {
+        Trouble& trouble = troubles_[reason];
+        ++trouble.times;
+        if (trouble.times == 1) {
+            log_->warn("{}", reason);
+            trouble.said = now;
+        } else if (now - trouble.said >= kReminder) {
+            log_->warn("{} (seen {} times)", reason, trouble.times);
+            trouble.said = now;
+        }
+    }
+    std::erase_if(troubles_, [&](const auto& entry) {
+        const auto& reasons = status.reasons;
+        if (std::find(reasons.begin(), reasons.end(), entry.first) != reasons.end()) return false;
+        log_->info("over: {}", entry.first);
+        return true;
+    });
+}
+
+void StatusLog::note_counter(const std::string& name, std::uint64_t value, Instant now) {
+    Counter& counter = counters_[name];
+    if (value <= counter.said_value) return;
+    if (counter.said_value > 0 && now - counter.said < kReminder) return;
+    log_->warn("{}: {} more, {} in all", name, value - counter.said_value, value);
+    counter = {value, now};
+}
+
+}  // namespace a351::daemon

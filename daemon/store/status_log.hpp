@@ -1,0 +1,47 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "daemon/page/status.hpp"
+
+namespace spdlog {
+class logger;
+}
+
+namespace a351::daemon {
+
+/// Turns successive snapshots into log lines: changes of state, and each trouble at its start, once
+/// a minute with its count, and at its end.
+class StatusLog {
+public:
+    using Instant = std::chrono::steady_clock::time_point;
+
+    explicit StatusLog(std::shared_ptr<spdlog::logger> log);
+
+    void note(const Status& status, Instant now);
+
+private:
+    struct Trouble {
+        Instant said;
+        std::uint64_t times = 0;  ///< Snapshots that showed it.
+    };
+    void note_reasons(const Status& status, Instant now);
+    void note_counter(const std::string& name, std::uint64_t value, Instant now);
+
+    struct Counter {
+        std::uint64_t said_value = 0;
+        Instant said;
+    };
+
+    std::shared_ptr<spdlog::logger> log_;
+    std::string session_;
+    std::string link_state_;
+    std::map<std::string, Trouble> troubles_;
+    std::map<std::string, Counter> counters_;
+};
+
+}  // namespace a351::daemon

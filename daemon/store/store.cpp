@@ -1,0 +1,101 @@
+#include "daemon/store/store.hpp"
+
+#include <chrono>
+#include <system_error>
+
+#include "daemon/store/assess.hpp"
+
+namespace a351::daemon {
+namespace {
+
+constexpr std::chrono::seconds kCommitPatience{10};
+
+}  // namespace
+
+Store::Store(record::FileLayer& files, StoreOptions options, const HostClock& clock,
+             ReadQueue& reads)
+    : files_(files),
+      options_(std::move(options)),
+      lock_(files, options_.root),
+      recovery_(record::recover(files, options_.root)),
+      profile_(wire::find_profile(options_.station.profile)),
+      journal_(files, options_.root, clock, reads, chunks_, progress_, options_.retry_interval),
+      archive_(
+          files, options_.root / "archive", options_.station.codes, clock, chunks_, progress_,
+          {.post = [this](record::JournalChunk chunk) { journal_.post(std::move(chunk)); },
+           .session_began = [this](const record::JournalHeader& header) { describe(header); }}) {}
+
+Store::~Store() { stop(); }
+
+void Store::start() {
+    is_running_ = true;
+    archive_.start();
+    journal_.start();
+}
+
+bool Store::stop() {
+    if (!is_running_) return true;
+    is_running_ = false;
+    archive_.hurry();
+    journal_.drain();
+    const bool is_archived = archive_.join();
+    return journal_.finish() && is_archived;
+}
+
+std::optional<Instant> Store::latest() { return archive_.latest(); }
+
+std::optional<Instant> Store::at(UtcTime utc) { return archive_.at(utc); }
+
+void Store::commit(const record::Event& event) {
+    std::future<void> done = journal_.commit(event);
+    if (done.wait_for(kCommitPatience) != std::future_status::ready) {
+        throw std::system_error(std::make_error_code(std::errc::timed_out),
+                                "the event is not on disk after 10 s");
+    }
+    done.get();
+}
+
+void Store::describe(const record::JournalHeader& header) {
+    record::StationDescription description = options_.station;
+    description.start = header.clock.realtime;
+    description.product_id = header.product_id;
+    description.serial_number = header.serial_number;
+    description.firmware = header.firmware;
+    describe_station(files_, options_.root, description);
+}
+
+void Store::fill(Status& status) {
+    const Progress::Indices indices = progress_.indices();
+    if (indices.session) status.session = indices.session->to_hex();
+    status.received = indices.received;
+    status.journaled = indices.journaled;
+    status.archived = indices.archived;
+
+    const ArchiveStatus archive = archive_.status();
+    if (const auto last = archive_.latest()) status.last_sample = last->utc;
+    status.timing_state = archive.timing_state;
+    status.timing_uncertainty = archive.timing_uncertainty;
+    status.counters = archive.counters;
+    if (archive.last_sample && profile_ != nullptr) {
+        const wire::BurstValues& values = archive.last_sample->values;
+        for (std::size_t axis = 0; axis < values.axes.size(); ++axis) {
+            status.acceleration.at(axis) = profile_->acceleration(values.axes.at(axis));
+        }
+        status.temperature = profile_->temperature(values.temperature);
+    }
+
+    const JournalStatus journal = journal_.status();
+    status.more_counters["journal_bytes"] = journal.bytes_written;
+    status.more_counters["journal_faults"] = journal.faults;
+    status.more_counters["archive_faults"] = archive.faults;
+    status.more_counters["archive_records"] = archive.records;
+    status.more_counters["archive_waits"] = journal.archive_waits;
+    if (journal.is_faulty) complain(status, Status::Level::fault, "journal: " + journal.trouble);
+    if (archive.is_faulty) complain(status, Status::Level::fault, "archive: " + archive.trouble);
+
+    std::error_code error;
+    const auto space = std::filesystem::space(options_.root, error);
+    status.disk_free_bytes = error ? 0 : space.available;
+}
+
+}  // namespace a351::daemon

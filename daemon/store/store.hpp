@@ -1,0 +1,72 @@
+#pragma once
+/// @file
+/// Everything between the reader's queue and the disk: recovery at start, journal, archive,
+/// station metadata, events; and what the survey and the page ask of the record.
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+
+#include "daemon/page/status.hpp"
+#include "daemon/source/host_clock.hpp"
+#include "daemon/source/read_queue.hpp"
+#include "daemon/store/archive_thread.hpp"
+#include "daemon/store/chunk_queue.hpp"
+#include "daemon/store/data_root.hpp"
+#include "daemon/store/journal_thread.hpp"
+#include "daemon/store/progress.hpp"
+#include "daemon/survey/recorder.hpp"
+#include "protocol/record/file_layer.hpp"
+#include "protocol/record/journal.hpp"
+#include "protocol/record/recovery.hpp"
+#include "protocol/record/station_xml.hpp"
+#include "protocol/wire/device_profile.hpp"
+
+namespace a351::daemon {
+
+struct StoreOptions {
+    std::filesystem::path root;
+    /// What the configuration knows of the station; device and instants come with each session.
+    record::StationDescription station = {};
+    std::chrono::milliseconds retry_interval{10'000};  ///< Of a journal that could not be written.
+};
+
+class Store : public Recorder {
+public:
+    /// Locks and recovers the data root.  `files`, `clock` and `reads` must outlive this.
+    /// @throws DataRootLocked, std::system_error
+    Store(record::FileLayer& files, StoreOptions options, const HostClock& clock, ReadQueue& reads);
+    ~Store() override;
+
+    [[nodiscard]] const record::RecoveryReport& recovery() const noexcept { return recovery_; }
+
+    void start();
+
+    /// Writes what the reader left in its queue, closes and syncs everything.
+    /// @return false when something could not be written.
+    bool stop();
+
+    [[nodiscard]] std::optional<Instant> latest() override;
+    [[nodiscard]] std::optional<Instant> at(UtcTime utc) override;
+    void commit(const record::Event& event) override;
+
+    /// Fills in what the store knows.
+    void fill(Status& status);
+
+private:
+    void describe(const record::JournalHeader& header);
+
+    record::FileLayer& files_;
+    StoreOptions options_;
+    DataRootLock lock_;
+    record::RecoveryReport recovery_;
+    const wire::DeviceProfile* profile_;
+    Progress progress_;
+    ChunkQueue chunks_;
+    JournalThread journal_;
+    ArchiveThread archive_;
+    bool is_running_ = false;
+};
+
+}  // namespace a351::daemon

@@ -1,0 +1,142 @@
+#include "daemon/config/config.hpp"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "protocol/core/input_error.hpp"
+#include "tests/unit/daemon/temporary_directory.hpp"
+
+using namespace a351;
+using namespace a351::daemon;
+
+namespace {
+
+const std::string kStation = "[station]\nlatitude = 36.1\nlongitude = 140.1\nelevation_m = 26\n";
+const std::string kSensor = "[sensor]\nport = \"/dev/ttyUSB0\"\n";
+const std::string kStorage = "[storage]\nroot = \"data\"\n";
+
+struct Fixture {
+    TemporaryDirectory directory;
+    std::filesystem::path file = directory.path() / "a351d.toml";
+
+    Config read(const std::string& text) const {
+        std::ofstream(file) << text;
+        return read_config(file);
+    }
+
+    /// The message without the directory.
+    std::string refusal(const std::string& text) const {
+        try {
+            (void)read(text);
+        } catch (const InputError& error) {
+            std::string message = error.what();
+            const std::string prefix = directory.path().string() + "/";
+            for (auto at = message.find(prefix); at != std::string::npos;
+                 at = message.find(prefix)) {
+                message.erase(at, prefix.size());
+            }
+            return message;
+        }
+        return "accepted";
+    }
+};
+
+}  // namespace
+
+TEST_CASE_METHOD(Fixture, "the least configuration has the documented defaults",
+                 "[daemon][config]") {
+    const Config config = read(kStation + kSensor + kStorage);
+    CHECK(config.station.codes == record::StationCodes{});
+    CHECK(config.station.latitude == Degrees(36.1));
+    CHECK(config.sensor.address.path == "/dev/ttyUSB0");
+    CHECK(config.sensor.profile->name == "A351");
+    CHECK(config.sensor.baud == 460800);
+    CHECK(config.sensor.settings.output_rate_hz == 50);
+    CHECK(config.sensor.settings.filter_code == 6);
+    CHECK(config.storage.root == directory.path() / "data");
+    CHECK(config.storage.journal_keep_days == 30);
+    CHECK_FALSE(config.storage.declared_rate_hz);
+    CHECK(config.page.listen == "127.0.0.1:8351");
+    CHECK(config.survey.sites.empty());
+}
+
+TEST_CASE("the annotated example is accepted", "[daemon][config]") {
+    const auto example = std::filesystem::path(A351_GOLDEN) / "../../config/a351d.toml";
+    const Config config = read_config(example);
+    CHECK(config.sensor.baud == 460800);
+    CHECK(config.survey.sites.empty());
+}
+
+TEST_CASE_METHOD(Fixture, "every key that is documented is accepted and read", "[daemon][config]") {
+    std::ofstream(directory.path() / "sites.csv")
+        << "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\nNo.0,140.1,36.1,26,\n";
+    const Config config = read(
+        "[station]\nnetwork=\"JP\"\nstation=\"TKB\"\nlocation=\"\"\nlatitude=36\nlongitude=140\n"
+        "elevation_m=26.5\n[sensor]\nusb=\"0403:6001:A:5\"\nprofile=\"A352AD10\"\nbaud=230400\n"
+        "output_rate_hz=100\nfilter=\"k512_fc16\"\nserial_number=\"00000042\"\naxes=\"Z,1,2\"\n"
+        "[oven]\nenabled=false\nport=\"\"\nbaud=9600\nparity=\"N\"\nunit=1\npoll_s=1\ndecimals=1\n"
+        "[storage]\nroot=\"/var/lib/a351\"\ndeclared_rate_hz=100.0005\njournal_keep_days=0\n"
+        "[page]\nlisten=\"127.0.0.1:0\"\nhosts=[\"box\"]\ntoken=\"t\"\n"
+        "[survey]\nsites=\"sites.csv\"\ncalibration=\"\"\n[verdict]\n");
+    CHECK(config.station.codes == record::StationCodes{"JP", "TKB", "", {"Z", "1", "2"}});
+    CHECK(config.sensor.address.usb == UsbAddress{0x0403, 0x6001, "A:5"});
+    CHECK(config.sensor.settings.filter_code == 7);
+    CHECK(config.storage.declared_rate_hz == 100.0005);
+    CHECK(config.storage.root == "/var/lib/a351");
+    REQUIRE(config.survey.sites.size() == 1);
+}
+
+TEST_CASE_METHOD(Fixture,
+                 "a refused configuration names file, line, key, value and what is allowed",
+                 "[daemon][config]") {
+    CHECK(refusal(kStation + kSensor + "bits = 7\n" + kStorage) ==
+          "a351d.toml:7: sensor.bits = 7: unknown key; allowed: axes, baud, filter, "
+          "output_rate_hz, port, profile, serial_number, usb");
+    CHECK(refusal(kStation + kSensor + "baud = \"fast\"\n" + kStorage) ==
+          "a351d.toml:7: sensor.baud = 'fast': wrong type; allowed: a whole number from 0 to "
+          "10000000");
+    CHECK(refusal(kStation + kSensor + "baud = 9600\n" + kStorage) ==
+          "a351d.toml:7: sensor.baud = 9600: not a known value; allowed: 460800, 230400, 115200");
+    CHECK(refusal("[station]\nstation = \"tkb\"\n") ==
+          "a351d.toml:2: station.station = 'tkb': not a SEED code; allowed: 1 to 5 characters A-Z "
+          "0-9");
+    CHECK(refusal("[station]\nlocation = \"0\"\n") ==
+          "a351d.toml:2: station.location = '0': not a SEED code; allowed: 2 characters A-Z 0-9, "
+          "or empty");
+    CHECK(refusal("[station]\nlatitude = 1\n") ==
+          "a351d.toml:1: station.longitude: missing; allowed: degrees east, -180 to 360");
+    CHECK(refusal(kStation + kSensor + "usb = \"0403:6001:X\"\n" + kStorage) ==
+          "a351d.toml:6: sensor.port = '/dev/ttyUSB0': given together with usb; allowed: exactly "
+          "one of port and usb");
+    CHECK(refusal(kStation + "[sensor]\nusb = \"X\"\n" + kStorage) ==
+          "a351d.toml:6: sensor.usb = 'X': not an adapter; allowed: VID:PID:SERIAL as a351d "
+          "--list-ports prints it");
+    CHECK(refusal(kStation + "[sensor]\n" + kStorage) ==
+          "a351d.toml:5: sensor.port: missing, and so is usb; allowed: exactly one of port and "
+          "usb");
+    CHECK(refusal(kStation + kSensor + "filter = \"k512_fc16\"\n" + kStorage) ==
+          "a351d.toml:7: sensor.filter = 'k512_fc16': not usable at 50 Hz with profile A351; "
+          "allowed: k512_fc9");
+    CHECK(refusal(kStation + kSensor + "axes = \"1,1,Z\"\n" + kStorage) ==
+          "a351d.toml:7: sensor.axes = '1,1,Z': not three channel suffixes; allowed: three "
+          "different characters A-Z 0-9 for x, y, z, as \"1,2,Z\"");
+    CHECK(refusal(kStation + kSensor + kStorage + "[oven]\nenabled = true\n") ==
+          "a351d.toml:10: oven.enabled = true: no oven yet; allowed: false in this version");
+    CHECK(refusal(kStation + kSensor + kStorage + "[survey]\nsites = \"no.csv\"\n") ==
+          "a351d.toml:10: survey.sites = 'no.csv': no such file: no.csv; allowed: a CSV of sites, "
+          "or \"\"");
+    CHECK(refusal(kStation + kSensor + kStorage + "[verdict]\nslope = 1\n") ==
+          "a351d.toml:10: verdict.slope = 1: unknown key; allowed: ");
+    CHECK(refusal(kStation + kSensor + "[storage]\n") ==
+          "a351d.toml:7: storage.root: missing; allowed: the directory of the record");
+}
+
+TEST_CASE_METHOD(Fixture, "a line too slow for the output rate is refused", "[daemon][config]") {
+    // 500 Hz x 24 bytes x 10 bits = 120 000 bit/s.
+    CHECK(refusal(kStation + kSensor + "baud = 115200\noutput_rate_hz = 500\n" +
+                  "filter = \"k512_fc210\"\n" + kStorage) ==
+          "a351d.toml:7: sensor.baud = 115200: too slow for the output rate; allowed: at least "
+          "120000 bit/s");
+}

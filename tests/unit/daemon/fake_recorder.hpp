@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cerrno>
+#include <chrono>
+#include <optional>
+#include <system_error>
+#include <vector>
+
+#include "daemon/survey/recorder.hpp"
+#include "protocol/text/sites.hpp"
+
+namespace a351::daemon {
+
+inline const UtcTime kMorning = *parse_rfc3339("2026-03-14T08:00:00Z");
+
+inline UtcTime minute(int minutes) { return kMorning + std::chrono::minutes(minutes); }
+
+/// Remembers samples, one a second, from minute 0 to `last`.
+class FakeRecorder : public Recorder {
+public:
+    std::optional<Instant> latest() override {
+        if (!last) return std::nullopt;
+        return at(*last);
+    }
+    std::optional<Instant> at(UtcTime utc) override {
+        if (!last || utc < kMorning || utc > *last) return std::nullopt;
+        const auto seconds = std::chrono::ceil<std::chrono::seconds>(utc - kMorning);
+        return Instant{session, seconds.count(), kMorning + seconds};
+    }
+    void commit(const record::Event& event) override {
+        if (is_disk_full) throw std::system_error(ENOSPC, std::generic_category(), "events");
+        log.push_back(event);
+    }
+
+    record::SessionId session{{1, 2, 3}};
+    std::optional<UtcTime> last = minute(60);
+    bool is_disk_full = false;
+    std::vector<record::Event> log;
+};
+
+inline std::vector<text::Site> two_sites() {
+    std::vector<text::Site> list(2);
+    list[0].name = "No.0";
+    list[0].gravity = MilliGal(979948.0);
+    list[1].name = "No.1";
+    return list;
+}
+
+}  // namespace a351::daemon

@@ -1,0 +1,103 @@
+#pragma once
+/// @file
+/// A sensor on a pseudo-terminal: registers from scripted_registers.hpp, frames in real time.
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "protocol/wire/burst_frame.hpp"
+#include "tests/unit/daemon/pty.hpp"
+#include "tests/unit/wire/scripted_registers.hpp"
+
+namespace a351 {
+
+class FakeSensor {
+public:
+    std::atomic<bool> is_mute{false};      ///< Neither answers nor sends.
+    std::atomic<bool> is_idle{false};      ///< Answers, but sends no frame.
+    std::atomic<bool> does_babble{false};  ///< Sends bytes that are no frames.
+    std::atomic<std::int32_t> frames_sent{0};
+
+    explicit FakeSensor(std::string serial_number = "00000042") {
+        const std::string identity = "A351AU10" + std::string(2, '\0') + serial_number;
+        for (std::size_t i = 0; i < identity.size(); i += 2) {
+            const auto low = static_cast<unsigned char>(identity[i]);
+            const auto high = static_cast<unsigned char>(identity[i + 1]);
+            registers_.values[{wire::Window::w1, static_cast<std::uint8_t>(0x6A + i)}] =
+                static_cast<std::uint16_t>(high << 8 | low);
+        }
+        thread_ = std::thread([this] { run(); });
+    }
+    ~FakeSensor() { switch_off(); }
+    FakeSensor(const FakeSensor&) = delete;
+    FakeSensor& operator=(const FakeSensor&) = delete;
+
+    [[nodiscard]] const std::string& path() const noexcept { return pty_.path(); }
+
+    /// The terminal goes, as with an adapter that is pulled out.
+    void switch_off() {
+        stop_ = true;
+        if (thread_.joinable()) thread_.join();
+        pty_.close_master();
+    }
+
+    [[nodiscard]] bool is_sampling() const {
+        const std::lock_guard lock(mutex_);
+        return registers_.is_sampling;
+    }
+
+    /// The i-th frame it sends.
+    [[nodiscard]] static wire::BurstValues values(std::int32_t i) {
+        wire::BurstValues values;
+        values.temperature = 1000 + i;
+        values.axes = {i, -i, (std::int32_t{1} << 24) + i};
+        values.count = static_cast<std::uint16_t>(80 * (i + 1));
+        return values;
+    }
+
+private:
+    void run() {
+        using Clock = std::chrono::steady_clock;
+        constexpr std::chrono::milliseconds kPeriod{20};
+        auto due = Clock::now();
+        while (!stop_) {
+            const auto bytes = pty_.read(std::chrono::milliseconds(2));
+            if (is_mute) continue;
+            const std::lock_guard lock(mutex_);
+            const bool was_sampling = registers_.is_sampling;
+            registers_.take(bytes);
+            wire::Bytes output = std::exchange(registers_.output, {});
+            if (!was_sampling) due = Clock::now() + kPeriod;
+            if (registers_.is_sampling && !is_idle && Clock::now() >= due) {
+                due += kPeriod;
+                wire::append_frame(wire::BurstLayout::recommended(), values(frames_sent++), output);
+                if (does_babble) output.assign(24, std::byte{0x55});
+            }
+            if (!output.empty()) pty_.write(output);
+        }
+    }
+
+    Pty pty_;
+    mutable std::mutex mutex_;
+    wire::ScriptedRegisters registers_;
+    std::atomic<bool> stop_{false};
+    std::thread thread_;
+};
+
+/// Waits until `claim` holds.  @return false when it does not within `limit` of real time.
+template <class Claim>
+[[nodiscard]] bool eventually(Claim claim, std::chrono::seconds limit = std::chrono::seconds(20)) {
+    const auto end = std::chrono::steady_clock::now() + limit;
+    while (!claim()) {
+        if (std::chrono::steady_clock::now() > end) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return true;
+}
+
+}  // namespace a351

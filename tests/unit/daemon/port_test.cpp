@@ -1,0 +1,118 @@
+#include "daemon/source/port.hpp"
+
+#include <fcntl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <vector>
+
+#include "tests/unit/daemon/pty.hpp"
+#include "tests/unit/daemon/temporary_directory.hpp"
+
+using namespace a351;
+using namespace a351::daemon;
+using std::chrono::milliseconds;
+
+namespace {
+
+constexpr milliseconds kPatience{2000};
+
+std::vector<std::byte> every_byte() {
+    std::vector<std::byte> bytes;
+    for (int value = 0; value < 256; ++value) bytes.push_back(static_cast<std::byte>(value));
+    return bytes;
+}
+
+PortError::Kind kind_of_refusal(const PortAddress& address) {
+    try {
+        (void)open_port(address, 460800);
+    } catch (const PortError& error) {
+        return error.kind();
+    }
+    FAIL("the port was opened");
+    return PortError::Kind::absent;
+}
+
+}  // namespace
+
+TEST_CASE("every byte value passes a port both ways", "[daemon][port]") {
+    Pty pty;
+    const auto port = open_port({pty.path(), {}}, 460800);
+    const auto sent = every_byte();
+
+    REQUIRE(port->write(sent));
+    CHECK(pty.read(kPatience) == sent);
+
+    pty.write(sent);
+    std::vector<std::byte> received;
+    std::vector<std::byte> some(100);
+    while (received.size() < sent.size()) {
+        const auto count = port->read(some, kPatience);
+        REQUIRE(count.value_or(0) > 0);
+        received.insert(received.end(), some.begin(),
+                        some.begin() + static_cast<std::ptrdiff_t>(*count));
+    }
+    CHECK(received == sent);
+}
+
+TEST_CASE("a port that was left cooked, with XON/XOFF and parity bits, is set to 8N1 raw",
+          "[daemon][port]") {
+    Pty pty;
+    const int before = open(pty.path().c_str(), O_RDWR | O_NOCTTY);
+    termios settings{};
+    REQUIRE(tcgetattr(before, &settings) == 0);
+    settings.c_iflag |= IXON | IXOFF | IXANY | ICRNL | INLCR | IGNCR | ISTRIP;
+    settings.c_lflag |= ICANON | ECHO | ISIG;
+    settings.c_cflag |= CSTOPB | CRTSCTS;
+    REQUIRE(tcsetattr(before, TCSANOW, &settings) == 0);
+
+    const auto port = open_port({pty.path(), {}}, 230400);
+    REQUIRE(tcgetattr(before, &settings) == 0);
+    close(before);
+    CHECK((settings.c_iflag & (IXON | IXOFF | IXANY | ICRNL | INLCR | IGNCR | ISTRIP)) == 0);
+    CHECK((settings.c_lflag & (ICANON | ECHO | ISIG | IEXTEN)) == 0);
+    CHECK((settings.c_oflag & OPOST) == 0);
+    CHECK((settings.c_cflag & (CSIZE | PARENB | CSTOPB | CRTSCTS)) == CS8);
+    CHECK((settings.c_cflag & (CLOCAL | CREAD)) == (CLOCAL | CREAD));
+    CHECK(cfgetispeed(&settings) == B230400);
+    CHECK(cfgetospeed(&settings) == B230400);
+    CHECK(port->description().find("230400 baud") != std::string::npos);
+}
+
+TEST_CASE("a port that is held is refused as locked, and free again after it was closed",
+          "[daemon][port]") {
+    Pty pty;
+    auto port = open_port({pty.path(), {}}, 460800);
+    CHECK(kind_of_refusal({pty.path(), {}}) == PortError::Kind::locked);
+    port.reset();
+    CHECK_NOTHROW(open_port({pty.path(), {}}, 460800));
+}
+
+TEST_CASE("silence is no end, a closed far side is", "[daemon][port]") {
+    Pty pty;
+    const auto port = open_port({pty.path(), {}}, 460800);
+    std::vector<std::byte> some(100);
+    CHECK(port->read(some, milliseconds(10)) == 0U);
+    pty.write(std::vector<std::byte>(3));
+    CHECK(port->read(some, kPatience) == 3U);
+    pty.close_master();
+    CHECK(port->read(some, kPatience) == std::nullopt);
+    CHECK_FALSE(port->write(some));
+}
+
+TEST_CASE("a port is found through links, and what is not there or no port is told apart",
+          "[daemon][port]") {
+    Pty pty;
+    const TemporaryDirectory directory;
+    const auto link = directory.path() / "sensor";
+    std::filesystem::create_symlink(pty.path(), directory.path() / "hop");
+    std::filesystem::create_symlink("hop", link);
+    CHECK(open_port({link, {}}, 460800)->description().starts_with(pty.path()));
+
+    CHECK(kind_of_refusal({directory.path() / "none", {}}) == PortError::Kind::absent);
+    CHECK(kind_of_refusal({{}, UsbAddress{0xFFFF, 0xFFFF, "no such adapter"}}) ==
+          PortError::Kind::absent);
+    CHECK(kind_of_refusal({"/dev/null", {}}) == PortError::Kind::settings);
+}

@@ -1,0 +1,59 @@
+#include "daemon/store/progress.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace a351::daemon;
+using a351::record::SessionId;
+
+namespace {
+
+const SessionId kSession{{1}};
+const SessionId kOther{{2}};
+
+}  // namespace
+
+TEST_CASE("a sample is journaled once its chunk is both parsed and synced", "[daemon][progress]") {
+    Progress progress;
+    progress.parsed(1, kSession, std::nullopt);
+    progress.parsed(2, kSession, 9);
+    CHECK(progress.indices().received == 9);
+    CHECK(progress.indices().journaled == std::nullopt);
+    progress.journal_synced(1);
+    CHECK(progress.indices().journaled == std::nullopt);
+    progress.journal_synced(3);
+    CHECK(progress.indices().journaled == 9);
+    progress.parsed(3, kSession, 15);
+    CHECK(progress.indices().journaled == 15);
+    progress.parsed(4, kSession, 20);
+    CHECK(progress.indices().journaled == 15);
+    CHECK(progress.indices().archived == std::nullopt);
+}
+
+TEST_CASE("after a failed sync nothing is called journaled until the archive has it",
+          "[daemon][progress]") {
+    Progress progress;
+    progress.parsed(1, kSession, 9);
+    progress.journal_synced(1);
+    progress.parsed(2, kSession, 19);
+    progress.journal_lost(3);
+    progress.parsed(3, kSession, 29);
+    progress.parsed(4, kSession, 39);
+    progress.journal_synced(4);
+    CHECK(progress.indices().journaled == 9);
+    progress.archive_synced(kSession, 28);
+    CHECK(progress.indices().journaled == 9);
+    progress.archive_synced(kSession, 29);
+    CHECK(progress.indices().journaled == 39);
+}
+
+TEST_CASE("indices of one session never count for another", "[daemon][progress]") {
+    Progress progress;
+    progress.parsed(1, kSession, 9);
+    progress.journal_synced(1);
+    progress.parsed(2, kOther, std::nullopt);
+    CHECK(progress.indices().session == kOther);
+    CHECK(progress.indices().received == std::nullopt);
+    CHECK(progress.indices().journaled == std::nullopt);
+    progress.archive_synced(kSession, 9);
+    CHECK(progress.indices().archived == std::nullopt);
+}

@@ -1,0 +1,186 @@
+#include "daemon/source/sensor_link.hpp"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <vector>
+
+#include "protocol/wire/burst_decoder.hpp"
+#include "tests/unit/daemon/fake_sensor.hpp"
+#include "tests/unit/daemon/temporary_directory.hpp"
+
+using namespace a351;
+using namespace a351::daemon;
+
+namespace {
+
+LinkOptions options_for(const std::filesystem::path& path) {
+    LinkOptions options;
+    options.address.path = path;
+    options.profile = wire::find_profile("A351");
+    options.header.profile = "A351";
+    options.header.output_rate_hz = 50;
+    return options;
+}
+
+/// What came through the queue.
+struct Received {
+    std::vector<record::JournalHeader> sessions;
+    std::vector<std::byte> bytes;
+    std::vector<std::byte> sent;
+    bool do_stamps_ascend = true;
+
+    explicit Received(ReadQueue& queue) {
+        RawTime last;
+        for (auto item = queue.front(); item; item = queue.front()) {
+            if (item->kind == ReadQueue::Kind::session) {
+                sessions.push_back(queue.take_session());
+            }
+            auto& into = item->kind == ReadQueue::Kind::tx ? sent : bytes;
+            into.insert(into.end(), item->bytes.begin(), item->bytes.end());
+            if (item->kind == ReadQueue::Kind::rx) {
+                if (item->time < last) do_stamps_ascend = false;
+                last = item->time;
+            }
+            queue.pop();
+        }
+    }
+
+    [[nodiscard]] std::vector<wire::BurstValues> frames() const {
+        std::vector<wire::BurstValues> frames;
+        wire::BurstDecoder decoder(wire::BurstLayout::recommended(), 80);
+        std::span<const std::byte> input(bytes);
+        while (const auto event = decoder.next(input)) {
+            if (const auto* frame = std::get_if<wire::BurstFrame>(&*event)) {
+                frames.push_back(frame->values());
+            }
+        }
+        return frames;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("the link configures the sensor, records from the first frame and stops it at the end",
+          "[daemon][sensor_link]") {
+    FakeSensor sensor;
+    ReadQueue queue;
+    const HostClock clock;
+    SensorLink link(options_for(sensor.path()), clock, queue);
+    link.start();
+    REQUIRE(eventually([&] { return sensor.frames_sent >= 20; }));
+    CHECK(link.status().state == LinkStatus::State::sampling);
+    CHECK(link.status().trouble.empty());
+    link.stop();
+    CHECK(eventually([&] { return !sensor.is_sampling(); }));
+    CHECK(link.status().state == LinkStatus::State::stopped);
+
+    const Received received(queue);
+    REQUIRE(received.sessions.size() == 1);
+    CHECK(received.sessions[0].serial_number == "00000042");
+    CHECK(received.sessions[0].product_id == "A351AU10");
+    CHECK(received.sessions[0].output_rate_hz == 50);
+    CHECK(received.do_stamps_ascend);
+    CHECK_FALSE(received.sent.empty());
+    const auto frames = received.frames();
+    REQUIRE(frames.size() >= 20);
+    std::int32_t wrong = 0;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        if (frames[i] != FakeSensor::values(static_cast<std::int32_t>(i))) ++wrong;
+    }
+    CHECK(wrong == 0);
+    // The decoder holds the last frame back until another confirms it.
+    CHECK(frames.size() + 1 >= static_cast<std::size_t>(sensor.frames_sent));
+}
+
+TEST_CASE("a sensor that falls silent is configured again, as a new session",
+          "[daemon][sensor_link]") {
+    FakeSensor sensor;
+    ReadQueue queue;
+    // Two seconds of silence in half a second of real time.
+    const HostClock clock(ClockScale{10.0, host_realtime(), host_realtime()});
+    SensorLink link(options_for(sensor.path()), clock, queue);
+    link.start();
+    REQUIRE(eventually([&] { return sensor.frames_sent >= 5; }));
+    sensor.is_mute = true;
+    REQUIRE(eventually([&] { return link.status().stalls == 1; }));
+    CHECK(eventually([&] { return link.status().state == LinkStatus::State::waiting; }));
+    CHECK(link.status().trouble.find("MODE_CTRL") != std::string::npos);
+    sensor.is_mute = false;
+    REQUIRE(eventually([&] { return link.status().sessions == 2; }));
+    link.stop();
+    const Received received(queue);
+    REQUIRE(received.sessions.size() == 2);
+    CHECK(received.sessions[0].session != received.sessions[1].session);
+}
+
+TEST_CASE("a sensor whose bytes are no frames is configured again", "[daemon][sensor_link]") {
+    FakeSensor sensor;
+    sensor.does_babble = true;
+    ReadQueue queue;
+    const HostClock clock(ClockScale{10.0, host_realtime(), host_realtime()});
+    SensorLink link(options_for(sensor.path()), clock, queue);
+    link.start();
+    REQUIRE(eventually([&] { return link.status().stalls == 1; }));
+    sensor.does_babble = false;
+    REQUIRE(eventually([&] { return link.status().sessions == 2; }));
+    link.stop();
+}
+
+TEST_CASE("a sensor that answers but never sends begins no session", "[daemon][sensor_link]") {
+    FakeSensor sensor;
+    sensor.is_idle = true;
+    ReadQueue queue;
+    const HostClock clock(ClockScale{10.0, host_realtime(), host_realtime()});
+    SensorLink link(options_for(sensor.path()), clock, queue);
+    link.start();
+    REQUIRE(eventually([&] { return link.status().stalls == 2; }));
+    CHECK(link.status().sessions == 0);
+    CHECK(queue.fill() == 0);
+    link.stop();
+}
+
+TEST_CASE("a port that goes is searched for until it is back", "[daemon][sensor_link]") {
+    const TemporaryDirectory directory;
+    const auto name = directory.path() / "sensor";
+    ReadQueue queue;
+    const HostClock clock(ClockScale{10.0, host_realtime(), host_realtime()});
+    SensorLink link(options_for(name), clock, queue);
+    link.start();
+    REQUIRE(eventually([&] { return link.status().state == LinkStatus::State::searching; }));
+    {
+        FakeSensor sensor;
+        std::filesystem::create_symlink(sensor.path(), name);
+        REQUIRE(eventually([&] { return sensor.frames_sent >= 5; }));
+    }
+    REQUIRE(eventually([&] { return link.status().ports_lost == 1; }));
+    FakeSensor sensor;
+    std::filesystem::remove(name);
+    std::filesystem::create_symlink(sensor.path(), name);
+    REQUIRE(eventually([&] { return link.status().sessions == 2; }));
+    link.stop();
+}
+
+TEST_CASE("another instrument is refused by its serial number and stopped",
+          "[daemon][sensor_link]") {
+    FakeSensor sensor("00000099");
+    ReadQueue queue;
+    const HostClock clock;
+    LinkOptions options = options_for(sensor.path());
+    options.expected_serial_number = "00000042";
+    SensorLink link(options, clock, queue);
+    link.start();
+    REQUIRE(eventually([&] { return link.status().handshake_failures == 1; }));
+    CHECK(link.status().trouble == "another instrument: serial number 00000099, expected 00000042");
+    CHECK(eventually([&] { return !sensor.is_sampling(); }));
+    link.stop();
+    CHECK(queue.fill() == 0);
+}
+
+TEST_CASE("a port that another process holds is refused at the start", "[daemon][sensor_link]") {
+    FakeSensor sensor;
+    const auto held = open_port({sensor.path(), {}}, 460800);
+    ReadQueue queue;
+    const HostClock clock;
+    SensorLink link(options_for(sensor.path()), clock, queue);
+    CHECK_THROWS_AS(link.start(), PortError);
+}

@@ -1,0 +1,277 @@
+#include "daemon/page/server.hpp"
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <list>
+#include <random>
+#include <thread>
+
+#include "protocol/core/input_error.hpp"
+#include "tests/unit/daemon/fake_recorder.hpp"
+#include "tests/unit/daemon/raw_client.hpp"
+
+using namespace a351;
+using namespace a351::daemon;
+
+namespace {
+
+const std::string kToken = "0123456789abcdef0123456789abcdef";
+
+/// A real server on a free port of loopback.
+struct Served {
+    explicit Served(ServerOptions options = {}) : server(own(options), sources()) {
+        server.start();
+    }
+
+    static ServerOptions own(ServerOptions options) {
+        options.listen = "127.0.0.1:0";
+        options.token = kToken;
+        return options;
+    }
+    ApiSources sources() {
+        return {.status = [] { return Status{}; },
+                .occupations = occupations,
+                .sites = two_sites(),
+                .events = [] { return std::vector<record::Event>{}; }};
+    }
+
+    [[nodiscard]] std::string host() const {
+        return "Host: 127.0.0.1:" + std::to_string(server.port()) + "\r\n";
+    }
+    [[nodiscard]] std::string get(const std::string& path, const std::string& more = "") const {
+        return "GET " + path + " HTTP/1.1\r\n" + host() + more + "\r\n";
+    }
+    [[nodiscard]] std::string post(const std::string& body, const std::string& headers) const {
+        return "POST /api/note HTTP/1.1\r\n" + host() +
+               "Content-Length: " + std::to_string(body.size()) + "\r\n" + headers + "\r\n" + body;
+    }
+    [[nodiscard]] std::string answer(const std::string& request) const {
+        const RawClient client(server.port());
+        client.send(request);
+        return client.response();
+    }
+    [[nodiscard]] bool is_well() const { return status_of(answer(get("/api/status"))) == 200; }
+
+    FakeRecorder recorder;
+    Occupations occupations{recorder, two_sites(), {}};
+    Server server;
+};
+
+const std::string kJson = "Content-Type: application/json\r\n";
+const std::string kWithToken = "X-A351-Token: " + kToken + "\r\n";
+
+}  // namespace
+
+TEST_CASE("the server answers with the headers of a private interface", "[daemon][server]") {
+    const Served served;
+    const auto answer = served.answer(served.get("/api/status"));
+    CHECK(status_of(answer) == 200);
+    for (const char* header :
+         {"Content-Type: application/json", "Cache-Control: no-store",
+          "X-Content-Type-Options: nosniff", "X-Frame-Options: DENY",
+          "Cross-Origin-Resource-Policy: same-origin",
+          "Content-Security-Policy: default-src 'self'", "frame-ancestors 'none'"}) {
+        CAPTURE(header);
+        CHECK(answer.find(header) != std::string::npos);
+    }
+    CHECK(answer.find("Access-Control") == std::string::npos);
+    CHECK(answer.find("\"level\":\"good\"") != std::string::npos);
+}
+
+TEST_CASE("the rules of security hold on the wire", "[daemon][server]") {
+    Served served;
+    CHECK(status_of(served.answer("GET /api/status HTTP/1.1\r\nHost: evil.example\r\n\r\n")) ==
+          421);
+    CHECK(status_of(served.answer("GET /api/status HTTP/1.1\r\n\r\n")) == 421);
+    const std::string body = R"({"note":"a lorry passed"})";
+    CHECK(status_of(served.answer(served.post(body, kJson))) == 403);
+    CHECK(status_of(served.answer(
+              served.post(body, kJson + kWithToken + "Origin: http://evil.example\r\n"))) == 403);
+    CHECK(status_of(served.answer(
+              served.post(body, "Content-Type: text/plain\r\n" + kWithToken))) == 403);
+    const auto preflight = served.answer("OPTIONS /api/note HTTP/1.1\r\n" + served.host() +
+                                         "Origin: http://evil.example\r\n"
+                                         "Access-Control-Request-Method: POST\r\n\r\n");
+    CHECK(status_of(preflight) == 403);
+    CHECK(preflight.find("Access-Control") == std::string::npos);
+    const std::string own =
+        "Origin: http://127.0.0.1:" + std::to_string(served.server.port()) + "\r\n";
+    CHECK(status_of(served.answer(served.post(body, kJson + kWithToken + own))) == 200);
+    served.server.stop();
+    REQUIRE(served.recorder.log.size() == 1);
+    CHECK(served.recorder.log.front().details.at("note") == "a lorry passed");
+}
+
+TEST_CASE("a change that is answered is in the log", "[daemon][server]") {
+    Served served;
+    const std::string body = R"({"site":"No.0"})";
+    const auto answer = served.answer(
+        "POST /api/occupation/start HTTP/1.1\r\n" + served.host() + kJson + kWithToken +
+        "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
+    CHECK(status_of(answer) == 200);
+    served.server.stop();
+    REQUIRE(served.recorder.log.size() == 1);
+    CHECK(served.recorder.log.front().details.at("site") == "No.0");
+}
+
+TEST_CASE("a header beyond 8 KiB and a body beyond 16 KiB are refused", "[daemon][server]") {
+    const Served served;
+    const auto padded = [&](std::size_t size) {
+        return served.get("/api/status", "X-Padding: " + std::string(size, 'x') + "\r\n");
+    };
+    CHECK(status_of(served.answer(padded(7 * 1024))) == 200);
+    CHECK(status_of(served.answer(padded(8 * 1024))) == 431);
+    CHECK(status_of(served.answer(padded(1024 * 1024))) == 431);
+    const auto noted = [&](std::size_t size) {
+        return served.post(R"({"note":")" + std::string(size, 'x') + "\"}", kJson);
+    };
+    CHECK(status_of(served.answer(noted(16 * 1024 - 11))) == 403);  // Read whole; no token.
+    CHECK(status_of(served.answer(noted(16 * 1024 - 10))) == 413);
+    CHECK(status_of(served.answer(noted(1024 * 1024))) == 413);
+    const std::string chunked = "POST /api/note HTTP/1.1\r\n" + served.host() + kJson +
+                                "Transfer-Encoding: chunked\r\n\r\n5000\r\n" +
+                                std::string(0x5000, 'x') + "\r\n0\r\n\r\n";
+    CHECK(status_of(served.answer(chunked)) == 413);
+    CHECK(served.is_well());
+}
+
+TEST_CASE("one connection too many is told to come back and seats become free again",
+          "[daemon][server]") {
+    const Served served;
+    {
+        std::list<RawClient> seated;
+        for (int i = 0; i < 32; ++i) {
+            seated.emplace_back(served.server.port());
+            seated.back().send(served.get("/api/status"));
+            REQUIRE(status_of(seated.back().response()) == 200);
+        }
+        const RawClient late(served.server.port());
+        late.send(served.get("/api/status"));
+        CHECK(status_of(late.response()) == 503);
+        seated.front().send(served.get("/api/status"));
+        CHECK(status_of(seated.front().response()) == 200);
+        // Hundreds more neither get a seat nor do harm.
+        std::list<RawClient> crowd;
+        for (int i = 0; i < 300; ++i) crowd.emplace_back(served.server.port());
+        seated.back().send(served.get("/api/status"));
+        CHECK(status_of(seated.back().response()) == 200);
+    }
+    bool is_well = false;
+    for (int i = 0; i < 200 && !is_well; ++i) {
+        is_well = served.is_well();
+        if (!is_well) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    CHECK(is_well);
+}
+
+TEST_CASE("a request that is not complete in time is cut", "[daemon][server]") {
+    ServerOptions options;
+    options.request_limit = std::chrono::milliseconds(200);
+    const Served served(options);
+    const RawClient silent(served.server.port());
+    const RawClient half(served.server.port());
+    half.send("GET /api/status HTTP/1.1\r\nHost: ");
+    // A byte now and then does not buy more time.
+    const RawClient trickle(served.server.port());
+    for (int i = 0; i < 20; ++i) {
+        trickle.send("x");
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    CHECK(silent.rest().empty());
+    CHECK(half.rest().empty());
+    CHECK(trickle.rest().empty());
+    CHECK(served.is_well());
+}
+
+TEST_CASE("requests sent at once are answered in order", "[daemon][server]") {
+    const Served served;
+    const RawClient client(served.server.port());
+    client.send(served.get("/api/status") + served.get("/nowhere") + served.get("/api/sites") +
+                served.get("/api/token", "Connection: close\r\n") + served.get("/api/status"));
+    const auto all = client.rest();
+    std::vector<std::string> codes;
+    for (auto at = all.find("HTTP/1.1 "); at != std::string::npos;
+         at = all.find("HTTP/1.1 ", at + 1)) {
+        codes.push_back(all.substr(at + 9, 3));
+    }
+    CHECK(codes == std::vector<std::string>{"200", "404", "200", "200"});
+    CHECK(all.find(kToken) != std::string::npos);
+}
+
+TEST_CASE("HEAD is answered without a body", "[daemon][server]") {
+    const Served served;
+    const RawClient client(served.server.port());
+    client.send("HEAD /api/sites HTTP/1.1\r\n" + served.host() + "Connection: close\r\n\r\n");
+    const auto answer = client.rest();
+    CHECK(status_of(answer) == 200);
+    CHECK(answer.ends_with("\r\n\r\n"));
+    CHECK(answer.find("Content-Length: 0") == std::string::npos);
+}
+
+TEST_CASE("bytes that are no request do no harm", "[daemon][server]") {
+    const Served served;
+    for (const std::string& bytes :
+         {std::string("\0\0\0\0", 4), std::string("\x16\x03\x01\x02\x00\x01\xfc\x03\x03", 9),
+          std::string("GET\r\n\r\n"), std::string("GET / HTTP/9.9\r\n\r\n"),
+          std::string("\r\n\r\n\r\n"), std::string("POST / HTTP/1.1\r\nContent-Length: -1\r\n\r\n"),
+          std::string("POST / HTTP/1.1\r\nContent-Length: 99999999999999999999\r\n\r\n"),
+          std::string("GET / HTTP/1.1\r\nHost : x\r\n\r\n"), std::string()}) {
+        const RawClient client(served.server.port());
+        client.send(bytes);
+        client.finish_sending();
+        const int status = status_of(client.rest());
+        CAPTURE(bytes, status);
+        CHECK((status == 0 || status == 400 || status == 413));
+    }
+    std::mt19937 random(351);
+    for (int i = 0; i < 200; ++i) {
+        std::string bytes = served.get("/api/status");
+        for (int k = 0; k < 5; ++k) bytes[random() % bytes.size()] = static_cast<char>(random());
+        const RawClient client(served.server.port());
+        client.send(bytes);
+        client.finish_sending();
+        CHECK(client.rest().find("(no end)") == std::string::npos);
+    }
+    CHECK(served.is_well());
+    CHECK(served.server.failures() == 0);
+}
+
+TEST_CASE("a client that leaves before the answer does no harm", "[daemon][server]") {
+    const Served served;
+    for (int i = 0; i < 50; ++i) {
+        const RawClient client(served.server.port());
+        client.send(served.get("/api/status"));
+    }
+    CHECK(served.is_well());
+}
+
+TEST_CASE("the server stops with connections open and before it was started", "[daemon][server]") {
+    Served served;
+    const RawClient open(served.server.port());
+    open.send(served.get("/api/status"));
+    CHECK(status_of(open.response()) == 200);
+    served.server.stop();
+    served.server.stop();
+    const Server idle(Served::own({}), served.sources());
+    CHECK(idle.port() != 0);
+}
+
+TEST_CASE("a port in use is known before the start", "[daemon][server]") {
+    Served served;
+    auto options = Served::own({});
+    options.listen = "127.0.0.1:" + std::to_string(served.server.port());
+    CHECK_THROWS_AS(Server(options, served.sources()), std::system_error);
+    options.listen = "0.0.0.0:0";
+    options.token = "";
+    CHECK_THROWS_AS(Server(options, served.sources()), InputError);
+}
+
+TEST_CASE("loopback is served in both families", "[daemon][server]") {
+    const Served served;
+    const auto port = std::to_string(served.server.port());
+    const auto& addresses = served.server.addresses();
+    REQUIRE_FALSE(addresses.empty());
+    CHECK(addresses.front() == "127.0.0.1:" + port);
+    if (addresses.size() > 1) CHECK(addresses.at(1) == "[::1]:" + port);
+    CHECK_FALSE(served.server.is_exposed());
+}

@@ -1,0 +1,56 @@
+#include "daemon/store/status_log.hpp"
+
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <catch2/catch.hpp>
+#include <sstream>
+
+using namespace a351::daemon;
+using std::chrono::seconds;
+
+namespace {
+
+struct Fixture {
+    std::ostringstream out;
+    std::shared_ptr<spdlog::logger> log = std::make_shared<spdlog::logger>(
+        "test", std::make_shared<spdlog::sinks::ostream_sink_st>(out));
+    StatusLog status_log{log};
+    StatusLog::Instant start{};
+
+    Fixture() { log->set_pattern("%v"); }
+
+    std::string said(const Status& status, int second) {
+        out.str("");
+        status_log.note(status, start + seconds(second));
+        return out.str();
+    }
+};
+
+}  // namespace
+
+TEST_CASE_METHOD(Fixture,
+                 "a trouble is said at its start, once a minute with its count, at its end",
+                 "[daemon][status_log]") {
+    Status bad;
+    bad.reasons = {"no disk"};
+    CHECK(said(bad, 0) == "no disk\n");
+    CHECK(said(bad, 1).empty());
+    CHECK(said(bad, 59).empty());
+    CHECK(said(bad, 60) == "no disk (seen 4 times)\n");
+    CHECK(said(bad, 61).empty());
+    CHECK(said(Status(), 62) == "over: no disk\n");
+    CHECK(said(Status(), 63).empty());
+}
+
+TEST_CASE_METHOD(Fixture, "a counter that rises is said with its step, at most once a minute",
+                 "[daemon][status_log]") {
+    Status status;
+    CHECK(said(status, 0).empty());
+    status.counters.gaps = 2;
+    CHECK(said(status, 1) == "gaps: 2 more, 2 in all\n");
+    status.counters.gaps = 3;
+    CHECK(said(status, 2).empty());
+    status.counters.gaps = 7;
+    CHECK(said(status, 61) == "gaps: 5 more, 7 in all\n");
+}
