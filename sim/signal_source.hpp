@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "protocol/core/units.hpp"
+#include "protocol/core/utc_time.hpp"
+#include "protocol/wire/device_profile.hpp"
+#include "sim/disturbance.hpp"
+#include "sim/random.hpp"
+#include "sim/scenario.hpp"
+#include "sim/slow_signal.hpp"
+#include "sim/survey_plan.hpp"
+
+namespace a351::sim {
+
+/// One sample as the device counts it.
+struct SensorSample {
+    std::array<std::int32_t, 3> axes_counts{};  ///< x, y, z.
+    std::int32_t temperature_counts = 0;
+
+    bool operator==(const SensorSample&) const = default;
+};
+
+/// Noise between two frequencies: white noise through a first-order high-pass and low-pass.
+class BandNoise {
+public:
+    BandNoise(double rms, double low_hz, double high_hz, double rate_hz);
+
+    [[nodiscard]] double next(double white) noexcept;
+
+private:
+    [[nodiscard]] double filter(double x) noexcept;
+    double low_gain_, high_gain_;
+    double gain_ = 1.0;
+    double slow_ = 0.0, fast_ = 0.0;
+};
+
+/// The samples of a simulated day, 50 a second on a fixed grid: sample k belongs to
+/// scenario start + k/50 s and depends on (scenario, profile, seed, k) only.
+///
+/// The vertical specific force is turned into the axes by the levelling angles of the set-up,
+/// then come axis biases, ground noise, bursts, spikes, white noise and rounding to counts.
+class SignalSource {
+public:
+    static constexpr int kRateHz = 50;
+
+    SignalSource(const Scenario& scenario, const wire::DeviceProfile& profile, std::uint64_t seed);
+    SignalSource(const SignalSource&) = delete;  // Its parts refer to its scenario and plan.
+    SignalSource& operator=(const SignalSource&) = delete;
+
+    [[nodiscard]] std::int64_t sample_count() const noexcept { return sample_count_; }
+    [[nodiscard]] std::int64_t next_index() const noexcept { return index_; }
+    [[nodiscard]] UtcTime time_of(std::int64_t index) const;
+
+    /// The samples in order.  Precondition: next_index() < sample_count().
+    [[nodiscard]] SensorSample next();
+
+    [[nodiscard]] const std::vector<PlannedOccupation>& plan() const noexcept { return plan_; }
+
+private:
+    void add_noise(std::array<double, 3>& axes_mgal);
+
+    Scenario scenario_;
+    const wire::DeviceProfile& profile_;
+    std::vector<PlannedOccupation> plan_;
+    SlowSignal slow_;
+    Disturbances disturbances_;
+    RandomStream white_, ground_, spikes_, temperature_;
+    std::array<BandNoise, 3> ground_filter_;
+    std::array<double, 3> bias_mgal_{};
+    std::vector<std::array<double, 3>> vertical_;  ///< Unit vector per occupation.
+    SlowValue from_, to_;
+    std::int64_t sample_count_;
+    std::int64_t index_ = 0;
+};
+
+}  // namespace a351::sim
