@@ -66,7 +66,8 @@ timing::SampleClockOptions clock_options(const JournalHeader& header) {
     const auto* filter = profile.filter_named(header.filter);
     const Nanoseconds filter_delay = filter ? profile.group_delay(*filter) : Nanoseconds(0);
     return {Hertz(header.output_rate_hz),
-            filter_delay + wire_time(layout_of(header).frame_size(), header.baud)};
+            filter_delay + profile.data_ready_delay +
+                wire_time(layout_of(header).frame_size(), header.baud)};
 }
 
 /// Arrival of every byte that no event of the decoder covers yet.

@@ -2,7 +2,7 @@
 /// @file
 /// Sample index -> UTC with uncertainty.  No threads, no system calls, no clock is read here.
 ///
-/// A frame arrives late by a constant (filter group delay, wire time) plus a delay that is never
+/// A frame arrives late by a constant (filter, conversion, wire time) plus a delay that is never
 /// negative, so the truth lies on the lower edge of the arrivals.  This first version lays a line
 /// of the nominal rate through the earliest arrivals; its uncertainty says so.
 

@@ -46,7 +46,8 @@ constexpr DeviceProfile kA352{
     .tilt_fraction_bits = 29,              // table 2.3, 7.8
     .temperature_slope_degc = -0.0037918,  // 7.6
     .temperature_offset_degc = 34.987,
-    .internal_rate_hz = 4000,  // 5.17
+    .internal_rate_hz = 4000,                            // 5.17
+    .data_ready_delay = std::chrono::microseconds(430),  // functional times, maximum
     .rated_range = StandardGravity(15.0),
     .output_rates_hz = kOutputRates,
     .baud_rates = kBaudRates,

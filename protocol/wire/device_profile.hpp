@@ -36,8 +36,9 @@ struct DeviceProfile {
     int tilt_fraction_bits = 0;           ///< rad = counts / 2^bits.
     double temperature_slope_degc = 0.0;  ///< degC = slope x counts + offset.
     double temperature_offset_degc = 0.0;
-    int internal_rate_hz = 0;                ///< Conversions per second; COUNT counts them.
-    StandardGravity rated_range;             ///< Output is clamped beyond +-this.
+    int internal_rate_hz = 0;         ///< Conversions per second; COUNT counts them.
+    Nanoseconds data_ready_delay{0};  ///< Internal timer to data ready, filter apart; at most.
+    StandardGravity rated_range;      ///< Output is clamped beyond +-this.
     std::span<const Coded> output_rates_hz;  ///< SMPL_CTRL bits 11:8.
     std::span<const Coded> baud_rates;       ///< UART_CTRL bits 9:8.
     std::span<const FilterSpec> filters;

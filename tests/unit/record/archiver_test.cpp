@@ -116,8 +116,9 @@ TEST_CASE("records carry the instants of their samples and the header's codes",
     std::get<JournalHeader>(stream.chunks.front()).declared_rate_hz = 50.0006;
     stream.frames(0, 5'000);
     const auto run = archive(stream.chunks);
-    // k512_fc9: 511 / 2 / 4000 Hz = 63.875 ms; 24 bytes at 460 800 baud = 520.833 us.
-    const Nanoseconds delay = 63'875us + Nanoseconds(520'833);
+    // k512_fc9: 511 / 2 / 4000 Hz = 63.875 ms; data ready after 430 us; 24 bytes at 460 800
+    // baud = 520.833 us.
+    const Nanoseconds delay = 63'875us + 430us + Nanoseconds(520'833);
     std::int64_t index = 0;
     for (const auto& record : run.sink.decoded.at("BNZ")) {
         const Nanoseconds error = record.header.start - (kStart + due(index) - delay);

@@ -1,0 +1,174 @@
+/// Compares an SDS archive with the emulator's truth file, sample for sample, with libmseed alone:
+/// none of the project's own readers takes part.
+///
+///     compare-truth ARCHIVE TRUTH
+///
+/// Prints one line per channel and exits 0 when nothing was altered or duplicated; samples of the
+/// truth that the archive lacks are counted in runs, and so are record boundaries that show a step
+/// of more than half a sample without a missing sample.
+
+#include <libmseed.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+// Layout of the truth file: sim/truth-format.md.
+struct TruthRow {
+    std::int64_t utc_ns;
+    std::int32_t axes[3];
+    std::int32_t temperature;
+    std::uint16_t count;
+    std::uint16_t run;
+    std::uint32_t grid_index;
+};
+static_assert(sizeof(TruthRow) == 32);
+
+std::vector<TruthRow> read_truth(const char* file) {
+    std::ifstream in(file, std::ios::binary);
+    char header[16];
+    in.read(header, sizeof header);
+    std::vector<TruthRow> rows;
+    TruthRow row;
+    while (in.read(reinterpret_cast<char*>(&row), sizeof row)) rows.push_back(row);
+    return rows;
+}
+
+struct ArchivedSample {
+    std::int32_t counts;
+    double time_s;  // relative to the first truth row
+    bool starts_record;
+};
+
+std::vector<ArchivedSample> read_channel(const std::filesystem::path& archive,
+                                         const std::string& channel, std::int64_t zero_ns) {
+    std::vector<std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(archive)) {
+        if (entry.is_regular_file() && entry.path().parent_path().filename() == channel + ".D") {
+            files.push_back(entry.path());
+        }
+    }
+    std::sort(files.begin(), files.end());
+    std::vector<ArchivedSample> samples;
+    for (const std::string& file : files) {
+        MSRecord* record = nullptr;
+        int status = MS_NOERROR;
+        while ((status = ms_readmsr(&record, file.c_str(), 0, nullptr, nullptr, 0, 1, 0)) ==
+               MS_NOERROR) {
+            const double start_s =
+                static_cast<double>(record->starttime - zero_ns / 1000) / HPTMODULUS;
+            const auto* values = static_cast<const std::int32_t*>(record->datasamples);
+            for (std::int64_t i = 0; i < record->numsamples; ++i) {
+                samples.push_back(
+                    {values[i], start_s + static_cast<double>(i) / record->samprate, i == 0});
+            }
+        }
+        if (status != MS_ENDOFFILE) {
+            std::fprintf(stderr, "%s: libmseed: %s\n", file.c_str(), ms_errorstr(status));
+            std::exit(1);
+        }
+        ms_readmsr(&record, nullptr, 0, nullptr, nullptr, 0, 0, 0);
+    }
+    return samples;
+}
+
+struct Comparison {
+    std::size_t matched = 0, missing = 0, missing_runs = 0, altered = 0, duplicated = 0, steps = 0;
+    double largest_time_error_s = 0.0;
+};
+
+/// Aligns by value: a run of equal samples decides, since white noise repeats by chance only.
+Comparison compare(const std::vector<ArchivedSample>& archived, const std::vector<TruthRow>& truth,
+                   std::int32_t (*value)(const TruthRow&)) {
+    constexpr std::size_t kRun = 24;
+    Comparison result;
+    const auto matches_at = [&](std::size_t i, std::size_t j) {
+        std::size_t n = 0;
+        for (; n < kRun && i + n < archived.size() && j + n < truth.size(); ++n) {
+            if (archived[i + n].counts != value(truth[j + n])) return false;
+        }
+        return n > 0;
+    };
+    std::size_t j = 0;
+    bool joined = false;
+    for (std::size_t i = 0; i < archived.size(); ++i) {
+        if (j >= truth.size() || archived[i].counts != value(truth[j])) {
+            std::size_t k = j;
+            while (k < truth.size() && !matches_at(i, k)) ++k;
+            if (k < truth.size()) {
+                result.missing += k - j;
+                ++result.missing_runs;
+                joined = false;
+                j = k;
+            } else {
+                const std::size_t from = j > 5000 ? j - 5000 : 0;
+                std::size_t back = from;
+                while (back < j && !matches_at(i, back)) ++back;
+                if (back < j) {
+                    ++result.duplicated;
+                } else {
+                    ++result.altered;
+                    ++j;
+                }
+                continue;
+            }
+        }
+        if (archived[i].starts_record && joined) {
+            const double step_s = archived[i].time_s - archived[i - 1].time_s;
+            if (std::abs(step_s - 0.02) > 0.01) ++result.steps;
+        }
+        const double truth_s = static_cast<double>(truth[j].utc_ns - truth[0].utc_ns) * 1e-9;
+        result.largest_time_error_s =
+            std::max(result.largest_time_error_s, std::abs(archived[i].time_s - truth_s));
+        ++result.matched;
+        ++j;
+        joined = true;
+    }
+    if (j < truth.size()) {
+        result.missing += truth.size() - j;
+        ++result.missing_runs;
+    }
+    return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 3) {
+        std::fprintf(stderr, "usage: compare-truth ARCHIVE TRUTH\n");
+        return 2;
+    }
+    const std::vector<TruthRow> truth = read_truth(argv[2]);
+    if (truth.empty()) {
+        std::fprintf(stderr, "compare-truth: %s holds no rows\n", argv[2]);
+        return 1;
+    }
+    const struct {
+        const char* name;
+        std::int32_t (*value)(const TruthRow&);
+    } channels[] = {{"BN1", [](const TruthRow& r) { return r.axes[0]; }},
+                    {"BN2", [](const TruthRow& r) { return r.axes[1]; }},
+                    {"BNZ", [](const TruthRow& r) { return r.axes[2]; }},
+                    {"BK1", [](const TruthRow& r) { return r.temperature; }}};
+    bool is_good = true;
+    for (const auto& channel : channels) {
+        const auto archived = read_channel(argv[1], channel.name, truth[0].utc_ns);
+        const Comparison c = compare(archived, truth, channel.value);
+        std::printf(
+            "channel=%s truth=%zu archived=%zu matched=%zu missing=%zu missing_runs=%zu "
+            "altered=%zu "
+            "duplicated=%zu steps=%zu largest_time_error_s=%.6f\n",
+            channel.name, truth.size(), archived.size(), c.matched, c.missing, c.missing_runs,
+            c.altered, c.duplicated, c.steps, c.largest_time_error_s);
+        is_good = is_good && c.altered == 0 && c.duplicated == 0 && c.steps == 0 && c.matched > 0;
+    }
+    return is_good ? 0 : 1;
+}

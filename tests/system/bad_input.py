@@ -1,0 +1,80 @@
+"""Bad input from outside: one line naming file, line, key and what is allowed; status 2; nothing written."""
+
+import shutil
+
+from programs import BIN, TOP, Scratch, demand, run
+
+GOLDEN = TOP / "tests" / "golden" / "tsukuba"
+SITES = "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\nA,140,36,10,979900\nB,140,36,20,979950\n"
+CONFIG = """[station]
+latitude = 36.2
+longitude = 140.1
+elevation_m = 400.0
+[sensor]
+port = "sensor"
+[storage]
+root = "data"
+[survey]
+sites = "sites.csv"
+"""
+
+
+def listing(directory):
+    return sorted(str(path.relative_to(directory)) for path in directory.rglob("*"))
+
+
+def refuse(title, directory, parts, *command):
+    before = listing(directory)
+    result = run(*command, check=False, cwd=directory)
+    line = result.stderr.strip()
+    print(f"{title}: {line}")
+    demand(f"{title}: status 2", result.returncode == 2)
+    demand(f"{title}: one line on stderr", line != "" and "\n" not in line)
+    for part in parts:
+        demand(f"{title}: the line names {part!r}", part in line)
+    demand(f"{title}: nothing written", listing(directory) == before)
+
+
+def daemon_config(title, text, parts, sites=SITES):
+    with Scratch() as scratch:
+        (scratch / "a351d.toml").write_text(text)
+        (scratch / "sites.csv").write_text(sites)
+        refuse(title, scratch, parts, BIN / "a351d", "--config", "a351d.toml")
+
+
+daemon_config("unknown key", CONFIG + "[page]\nlisten_to = 1\n",
+              ["a351d.toml:12", "page.listen_to", "unknown key", "allowed"])
+daemon_config("wrong type", CONFIG.replace("[storage]", "baud = \"fast\"\n[storage]"),
+              ["a351d.toml:7", "sensor.baud", "fast", "allowed"])
+daemon_config("impossible station code", CONFIG.replace("[sensor]", "station = \"TSUKUBA\"\n[sensor]"),
+              ["a351d.toml:5", "station.station", "TSUKUBA", "allowed"])
+daemon_config("rate and filter that do not fit",
+              CONFIG.replace("port = \"sensor\"", "port = \"sensor\"\nfilter = \"k512_fc16\""),
+              ["a351d.toml:7", "sensor.filter", "k512_fc16", "k512_fc9"])
+daemon_config("missing sites file", CONFIG.replace("sites.csv", "absent.csv"), ["absent.csv"])
+daemon_config("sites without a column", CONFIG, ["sites.csv:1", "longitude_deg"], "site,latitude_deg\nA,1\n")
+daemon_config("sites with NaN", CONFIG, ["sites.csv:2", "latitude_deg", "nan"],
+              SITES.replace("140,36,10", "140,nan,10"))
+daemon_config("a site twice", CONFIG, ["sites.csv:3", "site", "A"], SITES.replace("\nB,", "\nA,"))
+
+with Scratch() as scratch:
+    refuse("missing configuration", scratch, ["absent.toml"], BIN / "a351d", "--config", "absent.toml")
+    refuse("unknown option", scratch, ["--nonsense"], BIN / "a351d", "--nonsense")
+    refuse("unknown scenario", scratch, ["nowhere"], BIN / "a351-sim", "survey", "--scenario",
+           "nowhere", "--out", "root")
+    for name in ("sites.csv", "observations.csv"):
+        shutil.copy(GOLDEN / name, scratch / name)
+    observations = (scratch / "observations.csv").read_text()
+    table = [BIN / "a351-correct", "table", "--sites", "sites.csv", "--observations", "bad.csv",
+             "--out", "result"]
+    bad = scratch / "bad.csv"
+    bad.write_text(observations.replace("No.12,1", "No.99,1"))
+    refuse("observation of an unknown site", scratch, ["bad.csv:3", "site", "No.99", "allowed"], *table)
+    bad.write_text(observations.replace("981614.788", "nan"))
+    refuse("observation that is no number", scratch, ["bad.csv:3", "acceleration_mgal", "nan"], *table)
+    bad.write_text(observations.replace("temperature_degc", "temperature"))
+    refuse("observations without a column", scratch, ["bad.csv:1", "temperature_degc"], *table)
+    (scratch / "data").mkdir()
+    (scratch / "survey.toml").write_text("[survey]\nroot = \"data\"\nsites = \"sites.csv\"\nbase = \"No.99\"\n")
+    refuse("unknown base", scratch, ["survey.toml:4", "survey.base", "No.99"], BIN / "a351-correct",
+           "survey", "survey.toml", "--out", "result")

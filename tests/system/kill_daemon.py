@@ -1,0 +1,119 @@
+"""kill -9 in the middle of a day at 20x: what was journaled stays, the day goes on, nothing doubles."""
+
+import datetime
+import json
+import random
+import signal
+import subprocess
+import threading
+import time
+import urllib.request
+
+from programs import BIN, IS_LONG, Scratch, compare_truth, demand, read_json, run
+
+SPEED = 20
+CONFIG = """[station]
+latitude = 36.2
+longitude = 140.1
+elevation_m = 400.0
+[sensor]
+port = "sensor"
+[storage]
+root = "data"
+[page]
+listen = "127.0.0.1:{port}"
+"""
+
+
+def status(port):
+    try:
+        with urllib.request.urlopen(f"http://127.0.0.1:{port}/api/status", timeout=2) as reply:
+            return json.load(reply)
+    except OSError:
+        return None
+
+
+def wait_for_samples(port, count, seconds=30):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        state = status(port)
+        if state and (state.get("journaled") or 0) >= count:
+            return state
+        time.sleep(0.05)
+    demand(f"{count} samples are journaled within {seconds} s", False)
+
+
+def archive_is_whole(archive):
+    """Every day file holds whole records or, at its very end, the start of one."""
+    for file in archive.rglob("*.D.*"):
+        data = file.read_bytes()
+        whole = len(data) // 512
+        for i in range(whole):
+            if not (data[i * 512:i * 512 + 6].isdigit() and data[i * 512 + 6:i * 512 + 7] == b"D"):
+                return False
+    return True
+
+
+def round_of(number, scratch):
+    generator = random.Random(number)
+    port = generator.randrange(20000, 40000)
+    (scratch / "a351d.toml").write_text(CONFIG.format(port=port))
+    plan = run(BIN / "a351-sim", "plan", "--scenario", "tsukuba", "--seed", number, "--out", scratch)
+    start = dict(part.split("=", 1) for part in plan.stdout.split())["start_utc"]
+    host = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%S.%fZ")
+    clock = f"scaled:{SPEED}@{start},{host}"
+    sim = subprocess.Popen([BIN / "a351-sim", "device", "--link", "sensor", "--scenario", "tsukuba",
+                            "--seed", str(number), "--clock", clock, "--truth", "truth.bin",
+                            "--report", "report.json"], cwd=scratch, stderr=subprocess.DEVNULL)
+    daemon = [BIN / "a351d", "--config", "a351d.toml", "--clock", clock]
+    with open(scratch / "a351d.log", "w") as log:
+        first = subprocess.Popen(daemon, cwd=scratch, stderr=log)
+        wait_for_samples(port, 2000)
+        time.sleep(generator.uniform(0.0, 1.5))
+        last_published = 0
+        stop = threading.Event()
+
+        def watch():
+            nonlocal last_published
+            while not stop.is_set():
+                state = status(port)
+                if state:
+                    last_published = max(last_published, state.get("journaled") or 0)
+
+        watcher = threading.Thread(target=watch)
+        watcher.start()
+        time.sleep(0.5)
+        first.send_signal(signal.SIGKILL)
+        first.wait()
+        stop.set()
+        watcher.join()
+        demand("the archive is readable right after the kill",
+               archive_is_whole(scratch / "data" / "archive"))
+        second = subprocess.Popen(daemon, cwd=scratch, stderr=log)
+        wait_for_samples(port, 2000)
+        second.send_signal(signal.SIGTERM)
+        demand("the restarted daemon ends cleanly", second.wait(timeout=30) == 0)
+    sim.send_signal(signal.SIGTERM)
+    sim.wait(timeout=30)
+
+    report = read_json(scratch / "report.json")
+    print("emulator:", report, "last published journaled:", last_published)
+    runs = report["runs"]
+    demand("the emulator saw two runs of sampling", len(runs) == 2)
+    channels = compare_truth(scratch / "data" / "archive", scratch / "truth.bin")
+    for name, counted in channels.items():
+        demand(f"{name}: nothing altered or duplicated",
+               counted["altered"] == counted["duplicated"] == 0)
+        kept = counted["archived"]
+        first_run = counted["archived"] - runs[1]["frames"]
+        demand(f"{name}: one gap, of the {runs[0]['frames'] - first_run:.0f} samples that were sent "
+               "after the last chunk written and before the restart",
+               counted["missing_runs"] == 1
+               and counted["missing"] == runs[0]["frames"] - first_run)
+        demand(f"{name}: {first_run:.0f} samples of the first run are there, {last_published + 1} "
+               "were published as journaled", first_run >= last_published + 1)
+
+
+for number in range(1, 21 if IS_LONG else 3):
+    with Scratch() as scratch:
+        round_of(number, scratch)

@@ -1,0 +1,70 @@
+"""What the system tests share: the programs under test, a scratch directory, and small readers."""
+
+import csv
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+BIN = pathlib.Path(os.environ["A351_BIN"])
+TOOLS = pathlib.Path(os.environ["A351_TOOLS"])
+TOP = pathlib.Path(__file__).resolve().parents[2]
+IS_LONG = os.environ.get("A351_LONG") == "1"
+IS_SANITIZED = bool(os.environ.get("A351_PRESET_SANITIZE"))
+SKIPPED = 77
+
+
+def run(*command, check=True, env=None, cwd=None):
+    """Runs a program to its end; prints what it said when it failed unexpectedly."""
+    result = subprocess.run([str(part) for part in command], capture_output=True, text=True, cwd=cwd,
+                            env={**os.environ, **(env or {})})
+    if check and result.returncode != 0:
+        print(result.stdout[-4000:], result.stderr[-4000:], sep="\n")
+        sys.exit(f"{command[0]} ended with {result.returncode}")
+    return result
+
+
+def rows(file):
+    with open(file, newline="") as text:
+        return list(csv.DictReader(text))
+
+
+def compare_truth(archive, truth):
+    """Per channel what tests/support/compare_truth.cpp counted."""
+    result = run(TOOLS / "compare-truth", archive, truth, check=False)
+    print(result.stdout, result.stderr, sep="")
+    channels = {}
+    for line in result.stdout.splitlines():
+        fields = dict(part.split("=") for part in line.split())
+        name = fields.pop("channel")
+        channels[name] = {key: float(value) for key, value in fields.items()}
+    return channels
+
+
+def demand(claim, is_true):
+    """A check with its sentence; the first that fails ends the test."""
+    print(("holds: " if is_true else "FAILS: ") + claim)
+    if not is_true:
+        sys.exit(1)
+
+
+class Scratch:
+    """A directory that goes when the test succeeded and stays to be looked at when it did not."""
+
+    def __enter__(self):
+        self.path = pathlib.Path(tempfile.mkdtemp(prefix="a351-"))
+        return self.path
+
+    def __exit__(self, kind, value, trace):
+        is_good = kind is None or (kind is SystemExit and value.code in (0, None, SKIPPED))
+        if is_good:
+            shutil.rmtree(self.path, ignore_errors=True)
+        else:
+            print(f"left for inspection: {self.path}")
+
+
+def read_json(file):
+    return json.loads(pathlib.Path(file).read_text())

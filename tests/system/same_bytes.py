@@ -1,0 +1,26 @@
+"""The correction is a function of its input alone: not of threads, locale, time zone or truth files."""
+
+import filecmp
+
+from programs import BIN, Scratch, demand, run
+
+with Scratch() as scratch:
+    root = scratch / "day"
+    run(BIN / "a351-sim", "survey", "--scenario", "tsukuba", "--seed", 11, "--out", root)
+    run(BIN / "a351-correct", "survey", root / "survey.toml", "--out", scratch / "first")
+    run("sh", "-c", f"rm -f {root}/truth*")
+    run(BIN / "a351-correct", "survey", root / "survey.toml", "--out", scratch / "second",
+        env={"TZ": "Asia/Tokyo", "LC_ALL": "de_DE.UTF-8"})
+    run("taskset", "1", BIN / "a351-correct", "survey", root / "survey.toml", "--out",
+        scratch / "third")
+    names = ["occupations.csv", "stations.csv", "models.csv", "result.json"]
+    for other in ("second", "third"):
+        same, different, missing = filecmp.cmpfiles(scratch / "first", scratch / other, names,
+                                                    shallow=False)
+        demand(f"{other} run: {', '.join(same)} equal to the byte", sorted(same) == sorted(names))
+
+    again = scratch / "again"
+    run(BIN / "a351-sim", "survey", "--scenario", "tsukuba", "--seed", 11, "--out", again,
+        env={"TZ": "America/Lima"})
+    result = run("diff", "-r", root / "archive", again / "archive", check=False)
+    demand("the same seed writes the same archive", result.returncode == 0)
