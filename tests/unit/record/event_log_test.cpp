@@ -26,7 +26,8 @@ Event stop(const std::string& time_of_day) { return event_of("stop", time_of_day
 std::vector<std::string> shown(const std::vector<Event>& events) {
     std::vector<std::string> lines;
     for (const auto& occupation : occupations_of(events)) {
-        std::string line = occupation.site + "#" + std::to_string(occupation.number);
+        std::string line = occupation.site;
+        line.append("#").append(std::to_string(occupation.number));
         for (const auto& set_up : occupation.set_ups) {
             line += " " + to_rfc3339(set_up.start).substr(11, 5) + "-" +
                     to_rfc3339(set_up.end).substr(11, 5);
