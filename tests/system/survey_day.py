@@ -6,7 +6,7 @@ from programs import IS_SANITIZED, TOP, Scratch, compare_truth, demand, read_jso
 
 scenario = sys.argv[1]
 # Sanitized programs run several times slower; at 1000x they would fall behind for minutes.
-speed = "200" if IS_SANITIZED else "1000"
+speed = "500" if IS_SANITIZED else "1000"
 
 with Scratch() as scratch:
     out = scratch / "day"

@@ -131,7 +131,7 @@ TEST_CASE("a tail torn at any byte is cut back to whole records", "[record][sds]
         three.insert(three.end(), record.bytes.begin(), record.bytes.end());
     }
     for (std::size_t size = 1; size <= three.size();
-         size += (size % 512 < 2 || size % 512 > 509) ? 1 : 51) {
+         size += (size % 512 < 2 || size % 512 > 509) ? 1u : 51u) {
         test::write_bytes(file, std::span(three).first(size));
         const auto tail = repair_tail(posix_files(), file);
         const std::size_t whole = size / kRecordSize * kRecordSize;
