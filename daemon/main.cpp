@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <ctime>
 #include <optional>
@@ -116,7 +117,9 @@ void log_recovery(spdlog::logger& log, const record::RecoveryReport& report) {
 }
 
 /// Blocks the signals in this thread, and in all that it starts, so that run() can wait for them.
+/// A reader of the log that went away must not end the acquisition.
 sigset_t block_signals() {
+    std::signal(SIGPIPE, SIG_IGN);
     sigset_t signals;
     sigemptyset(&signals);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);

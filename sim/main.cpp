@@ -169,7 +169,9 @@ int main(int argc, char** argv) {
         if (survey->parsed()) return run_survey(arguments);
         return run_plan(arguments);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? kDone : kBadUsage;
+        if (error.get_exit_code() == 0) return app.exit(error);
+        std::cerr << "a351-sim: " << error.what() << '\n';
+        return kBadUsage;
     } catch (const InputError& error) {
         std::cerr << "a351-sim: " << error.what() << '\n';
         return kBadUsage;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 
 #include "corrector/survey/paper_correction.hpp"
 
@@ -95,12 +96,14 @@ std::optional<double> left_out_paper_error_mgal(std::vector<SurveyRow> rows,
 
 bool takes_part(const LinearModel& model, const std::vector<SurveyRow>& rows,
                 std::string_view base) {
-    constexpr std::ptrdiff_t kFewestBaseRows = 3;
+    constexpr std::size_t kFewestBaseStays = 3;
     constexpr std::size_t kEnoughRows = 12;
     if (!(model.has_rate && model.has_time)) return true;
-    const auto base_rows = std::count_if(rows.begin(), rows.end(),
-                                         [base](const SurveyRow& row) { return row.site == base; });
-    return base_rows >= kFewestBaseRows || rows.size() >= kEnoughRows;
+    std::set<int> base_stays;
+    for (const SurveyRow& row : rows) {
+        if (row.site == base) base_stays.insert(row.occupation);
+    }
+    return base_stays.size() >= kFewestBaseStays || rows.size() >= kEnoughRows;
 }
 
 }  // namespace

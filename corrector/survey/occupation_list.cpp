@@ -78,13 +78,19 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
     }
     for (const record::Occupation& occupation : record::occupations_of(log.events)) {
         if (text::find_site(sites, occupation.site) == nullptr) {
-            throw InputError(events.string() + ": site = " + occupation.site +
-                             ": unknown; allowed: a name of the table of sites");
+            list.warnings.push_back(events.string() + ": site = " + occupation.site + ", started " +
+                                    to_rfc3339(occupation.set_ups.front().start) +
+                                    ": not in the table of sites, left out");
+            continue;
         }
         for (const record::Occupation::SetUp& set_up : occupation.set_ups) {
             list.windows.push_back({occupation.site, occupation.number, set_up.start, set_up.end,
                                     !occupation.used.value_or(true)});
         }
+    }
+    if (const auto site = record::running_site(log.events)) {
+        list.warnings.push_back(events.string() + ": the last occupation, of " + *site +
+                                ", has no stop, left out");
     }
     return in_order(std::move(list), events);
 }

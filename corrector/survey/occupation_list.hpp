@@ -20,7 +20,7 @@ struct OccupationWindow {
 
 struct OccupationList {
     std::vector<OccupationWindow> windows;  ///< By start; they do not overlap.
-    std::vector<std::string> warnings;      ///< Damaged lines that were passed over.
+    std::vector<std::string> warnings;      ///< What was passed over, and why.
 };
 
 /// Reads `site,occupation,start_utc,end_utc,used,note`; `used` is 1, 0 or empty (= 1).
@@ -28,8 +28,9 @@ struct OccupationList {
 [[nodiscard]] OccupationList read_occupation_table(const std::filesystem::path& file,
                                                    const std::vector<text::Site>& sites);
 
-/// The occupations of an event log (directory `events` of a data root).
-/// @throws InputError  as above.
+/// The occupations of an event log (directory `events` of a data root).  One at an unknown site,
+/// a slip made in the field, is left out with a warning, and so is one that was never stopped.
+/// @throws InputError  windows that overlap, no occupation left.
 [[nodiscard]] OccupationList read_logged_occupations(const std::filesystem::path& events,
                                                      const std::vector<text::Site>& sites);
 

@@ -76,8 +76,9 @@ DriftStep find_end_point_drift(const std::vector<SurveyRow>& rows, const std::ve
     const auto refuse = [base](const std::string& why) {
         return DriftStep{std::nullopt, "base " + std::string(base) + " " + why};
     };
-    if (stays.size() < 2) {
-        return refuse("has " + std::to_string(stays.size()) + " occupation(s), two are needed");
+    // Several set-ups of one stay are rows of the same occupation.
+    if (stays.empty() || rows[stays.front()].occupation == rows[stays.back()].occupation) {
+        return refuse("has fewer than two occupations, two are needed");
     }
     const std::size_t first = stays.front();
     const std::size_t last = stays.back();

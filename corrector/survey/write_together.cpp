@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -26,7 +28,7 @@ private:
 
 std::filesystem::path temporary_name(const std::filesystem::path& directory,
                                      const std::string& name) {
-    return directory / ("." + name + ".part");
+    return directory / ("." + name + "." + std::to_string(::getpid()) + ".part");
 }
 
 }  // namespace

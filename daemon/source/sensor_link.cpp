@@ -6,6 +6,7 @@
 
 #include "daemon/source/handshake_driver.hpp"
 #include "protocol/wire/burst_decoder.hpp"
+#include "protocol/wire/commands.hpp"
 
 namespace a351::daemon {
 namespace {
@@ -245,10 +246,13 @@ void SensorLink::push(ReadQueue::Kind kind, RawTime time, std::span<const std::b
 void SensorLink::stop_sensor() {
     if (!port_) return;
     const bool is_recorded = status().state == LinkStatus::State::sampling;
-    const std::vector<std::byte> commands = wire::stop_sampling_commands();
-    const RawTime sent = clock_.raw();
-    if (!port_->write(commands) || !is_recorded) return;
-    push(ReadQueue::Kind::tx, sent, commands);
+    for (const auto& command : wire::stop_sampling()) {
+        const RawTime sent = clock_.raw();
+        if (!port_->write(command)) return;
+        if (is_recorded) push(ReadQueue::Kind::tx, sent, command);
+        std::this_thread::sleep_for(wire::kCommandSpacing);
+    }
+    if (!is_recorded) return;
 
     // Frames that are on their way belong to the session.
     std::array<std::byte, ReadQueue::kLargestItem> bytes{};

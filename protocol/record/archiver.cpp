@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/record/channel_code.hpp"
 #include "protocol/record/channel_packer.hpp"
 #include "protocol/timing/sample_index.hpp"
 #include "protocol/wire/burst_decoder.hpp"
@@ -28,11 +29,6 @@ constexpr std::int32_t kNoData = 0x64000000;
 
 // XALARM_ERR; those of Y and Z follow below it.
 constexpr unsigned kFlagAlarmX = 0x0010;
-
-// SEED reference manual 2.4, appendix A: band code of a broad-band sensor.
-char band_code(int rate_hz) {
-    return rate_hz >= 1000 ? 'F' : rate_hz >= 250 ? 'C' : rate_hz >= 80 ? 'H' : 'B';
-}
 
 bool is_data(const wire::BurstValues& values) {
     return !(values.flag & wire::kFlagAliasing) && values.axes[0] != kNoData &&
@@ -171,15 +167,15 @@ private:
     }
 
     void open_channels() {
-        const std::string band(1, band_code(header_.output_rate_hz));
+        const int rate_hz = header_.output_rate_hz;
         channels_.clear();
         for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
             if (!layout_.has_axis(axis)) continue;
             const auto& suffix = header_.codes.axes[static_cast<std::size_t>(axis)];
-            channels_.push_back({ChannelPacker(band + "N" + suffix), axis});
+            channels_.push_back({ChannelPacker(channel_code(rate_hz, "N" + suffix)), axis});
         }
         if (layout_.has_temperature())
-            channels_.push_back({ChannelPacker(band + "K1"), std::nullopt});
+            channels_.push_back({ChannelPacker(channel_code(rate_hz, "K1")), std::nullopt});
     }
 
     [[nodiscard]] RecordContext context() {

@@ -66,4 +66,8 @@ struct Occupation {
 /// @param events  in the order they were logged.
 [[nodiscard]] std::vector<Occupation> occupations_of(const std::vector<Event>& events);
 
+/// Site of the occupation that still runs after the last event: started, neither stopped nor
+/// discarded.
+[[nodiscard]] std::optional<std::string> running_site(const std::vector<Event>& events);
+
 }  // namespace a351::record

@@ -36,6 +36,9 @@ public:
     }
 
     [[nodiscard]] std::vector<Occupation> take_finished() { return std::move(finished_); }
+    [[nodiscard]] std::optional<std::string> running_site() const {
+        return is_running_ ? std::optional(running_.site) : std::nullopt;
+    }
 
 private:
     void start(const Event& event) {
@@ -92,6 +95,12 @@ std::vector<Occupation> occupations_of(const std::vector<Event>& events) {
     std::map<std::string, int> stays;
     for (Occupation& occupation : occupations) occupation.number = ++stays[occupation.site];
     return occupations;
+}
+
+std::optional<std::string> running_site(const std::vector<Event>& events) {
+    Replay replay;
+    for (const Event& event : events) replay.take(event);
+    return replay.running_site();
 }
 
 }  // namespace a351::record

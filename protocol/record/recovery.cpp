@@ -13,8 +13,8 @@ constexpr auto kMargin = std::chrono::hours(1);
 
 struct Replay {
     std::vector<std::filesystem::path> segments;
-    std::optional<JournalHeader> first;  // header of the first of them
-    StationCodes codes;                  // of the last
+    UtcTime earliest = UtcTime::max();  // by the clock of their headers
+    StationCodes codes;                 // of the last
 };
 
 std::optional<JournalHeader> header_of(JournalReader& reader) {
@@ -41,8 +41,10 @@ Replay plan_replay(const std::filesystem::path& journal) {
         if (!header) continue;  // nothing in it can be read
         if (has_reached_oldest && header->session != *oldest) break;
         if (replay.segments.empty()) replay.codes = header->codes;
+        // What stands under other codes was recovered at the start that brought the new ones.
+        if (header->codes != replay.codes) break;
         replay.segments.push_back(*segment);
-        replay.first = header;
+        replay.earliest = std::min(replay.earliest, header->clock.realtime);
         if (!oldest) oldest = newest_marked_session(reader);
         has_reached_oldest = oldest && header->session == *oldest;
     }
@@ -58,7 +60,7 @@ RecoveryReport recover(FileLayer& files, const std::filesystem::path& data_root)
     RecoveryReport report;
     report.journal = repair_newest_segment(files, journal);
     const Replay replay = plan_replay(journal);
-    if (!replay.first) return report;
+    if (replay.segments.empty()) return report;
 
     for (const auto& channel : channels_in(archive, replay.codes)) {
         const auto day_file = newest_day_file(archive, replay.codes, channel);
@@ -67,7 +69,7 @@ RecoveryReport recover(FileLayer& files, const std::filesystem::path& data_root)
     }
 
     ArchiveWriter writer(files, archive, replay.codes);
-    writer.begin_replay(replay.first->clock.realtime - kMargin);
+    writer.begin_replay(replay.earliest - kMargin);
     Archiver archiver(writer);
     for (const auto& segment : replay.segments) {
         JournalReader reader(segment);

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/record/channel_code.hpp"
 #include "protocol/wire/device_profile.hpp"
 
 namespace a351::record {
@@ -212,11 +213,14 @@ std::string to_station_xml(const StationDescription& description) {
     const double gain =
         std::ldexp(1.0, profile->acceleration_fraction_bits) / (kMilliGalPerStandardGravity / 1e5);
     for (const std::string& axis : description.codes.axes) {
-        add_gain_response(add_channel(station, description, "BN" + axis, orientation_of(axis)),
-                          gain);
+        add_gain_response(
+            add_channel(station, description, channel_code(description.output_rate_hz, "N" + axis),
+                        orientation_of(axis)),
+            gain);
     }
-    auto response =
-        add_channel(station, description, "BK1", Orientation{}).append_child("Response");
+    auto response = add_channel(station, description,
+                                channel_code(description.output_rate_hz, "K1"), Orientation{})
+                        .append_child("Response");
     const double offset_degc = profile->temperature_offset_degc;
     const double slope_degc = profile->temperature_slope_degc;
     add_polynomial(response.append_child("InstrumentPolynomial"), offset_degc, slope_degc,

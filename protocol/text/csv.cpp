@@ -99,9 +99,10 @@ double CsvTable::number(std::size_t row, std::string_view column, double low, do
     return value;
 }
 
-std::optional<double> CsvTable::number_if_given(std::size_t row, std::string_view column) const {
+std::optional<double> CsvTable::number_if_given(std::size_t row, std::string_view column,
+                                                double low, double high) const {
     if (cell(row, column).empty()) return std::nullopt;
-    return number(row, column);
+    return number(row, column, low, high);
 }
 
 void CsvTable::refuse(std::size_t row, std::string_view column, std::string_view trouble,

@@ -31,8 +31,10 @@ public:
                                 double high = std::numeric_limits<double>::max()) const;
 
     /// The same, or std::nullopt for an empty cell.
-    [[nodiscard]] std::optional<double> number_if_given(std::size_t row,
-                                                        std::string_view column) const;
+    [[nodiscard]] std::optional<double> number_if_given(
+        std::size_t row, std::string_view column,
+        double low = std::numeric_limits<double>::lowest(),
+        double high = std::numeric_limits<double>::max()) const;
 
     [[noreturn]] void refuse(std::size_t row, std::string_view column, std::string_view trouble,
                              std::string_view allowed) const;

@@ -20,7 +20,8 @@ std::vector<Site> read_sites(const std::filesystem::path& file) {
         site.longitude = Degrees(table.number(row, "longitude_deg", -180.0, 360.0));
         site.latitude = Degrees(table.number(row, "latitude_deg", -90.0, 90.0));
         site.altitude = Metres(table.number(row, "altitude_m", -500.0, 9000.0));
-        if (const auto gravity = table.number_if_given(row, "gravity_mgal")) {
+        // Gravity on the Earth's surface: 976 400 (Huascaran) to 983 400 mGal (Arctic Ocean).
+        if (const auto gravity = table.number_if_given(row, "gravity_mgal", 976000.0, 984000.0)) {
             site.gravity = MilliGal(*gravity);
         }
         sites.push_back(std::move(site));

@@ -251,12 +251,4 @@ void Handshake::take_window(std::uint16_t value) {
     queue_.push_back(Sampling{identity_});
 }
 
-std::vector<std::byte> stop_sampling_commands() {
-    std::vector<std::byte> bytes;
-    for (const Command& command : stop_sampling()) {
-        bytes.insert(bytes.end(), command.begin(), command.end());
-    }
-    return bytes;
-}
-
 }  // namespace a351::wire

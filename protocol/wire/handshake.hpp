@@ -113,8 +113,4 @@ private:
     DeviceIdentity identity_;
 };
 
-/// Commands that stop sampling, from any window; the answer is silence.  Three bytes each: where
-/// the mode is not checked afterwards, send them kCommandSpacing apart.
-[[nodiscard]] std::vector<std::byte> stop_sampling_commands();
-
 }  // namespace a351::wire

@@ -81,7 +81,8 @@ std::vector<ArchivedSample> read_channel(const std::filesystem::path& archive,
 }
 
 struct Comparison {
-    std::size_t matched = 0, missing = 0, missing_runs = 0, altered = 0, duplicated = 0, steps = 0;
+    std::size_t first_missing = 0, matched = 0, missing = 0, missing_runs = 0, altered = 0,
+                duplicated = 0, steps = 0;
     double largest_time_error_s = 0.0;
 };
 
@@ -104,6 +105,7 @@ Comparison compare(const std::vector<ArchivedSample>& archived, const std::vecto
             std::size_t k = j;
             while (k < truth.size() && !matches_at(i, k)) ++k;
             if (k < truth.size()) {
+                if (result.missing_runs == 0) result.first_missing = j;
                 result.missing += k - j;
                 ++result.missing_runs;
                 joined = false;
@@ -133,6 +135,7 @@ Comparison compare(const std::vector<ArchivedSample>& archived, const std::vecto
         joined = true;
     }
     if (j < truth.size()) {
+        if (result.missing_runs == 0) result.first_missing = j;
         result.missing += truth.size() - j;
         ++result.missing_runs;
     }
@@ -163,11 +166,12 @@ int main(int argc, char** argv) {
         const auto archived = read_channel(argv[1], channel.name, truth[0].utc_ns);
         const Comparison c = compare(archived, truth, channel.value);
         std::printf(
-            "channel=%s truth=%zu archived=%zu matched=%zu missing=%zu missing_runs=%zu "
+            "channel=%s truth=%zu archived=%zu matched=%zu missing=%zu first_missing=%zu "
+            "missing_runs=%zu "
             "altered=%zu "
             "duplicated=%zu steps=%zu largest_time_error_s=%.6f\n",
-            channel.name, truth.size(), archived.size(), c.matched, c.missing, c.missing_runs,
-            c.altered, c.duplicated, c.steps, c.largest_time_error_s);
+            channel.name, truth.size(), archived.size(), c.matched, c.missing, c.first_missing,
+            c.missing_runs, c.altered, c.duplicated, c.steps, c.largest_time_error_s);
         is_good = is_good && c.altered == 0 && c.duplicated == 0 && c.steps == 0 && c.matched > 0;
     }
     return is_good ? 0 : 1;

@@ -60,6 +60,10 @@ daemon_config("a site twice", CONFIG, ["sites.csv:3", "site", "A"], SITES.replac
 with Scratch() as scratch:
     refuse("missing configuration", scratch, ["absent.toml"], BIN / "a351d", "--config", "absent.toml")
     refuse("unknown option", scratch, ["--nonsense"], BIN / "a351d", "--nonsense")
+    for command in (["a351-sim", "plan", "--out", "plan"], ["a351-correct", "survey", "day.toml"],
+                    ["a351ctl", "sites"]):
+        refuse(f"unknown option of {command[0]}", scratch, ["--nonsense"], BIN / command[0],
+               *command[1:], "--nonsense")
     refuse("unknown scenario", scratch, ["nowhere"], BIN / "a351-sim", "survey", "--scenario",
            "nowhere", "--out", "root")
     for name in ("sites.csv", "observations.csv"):

@@ -44,14 +44,15 @@ def wait_for_samples(port, count, seconds=30):
 
 
 def archive_is_whole(archive):
-    """Every day file holds whole records or, at its very end, the start of one."""
-    for file in archive.rglob("*.D.*"):
+    """There are day files, each of whole records or, at its very end, the start of one."""
+    files = list(archive.rglob("*.D.*"))
+    for file in files:
         data = file.read_bytes()
         whole = len(data) // 512
         for i in range(whole):
             if not (data[i * 512:i * 512 + 6].isdigit() and data[i * 512 + 6:i * 512 + 7] == b"D"):
                 return False
-    return True
+    return len(files) == 4
 
 
 def round_of(number, scratch):
@@ -83,6 +84,7 @@ def round_of(number, scratch):
         watcher = threading.Thread(target=watch)
         watcher.start()
         time.sleep(0.5)
+        killed = time.monotonic()
         first.send_signal(signal.SIGKILL)
         first.wait()
         stop.set()
@@ -90,6 +92,8 @@ def round_of(number, scratch):
         demand("the archive is readable right after the kill",
                archive_is_whole(scratch / "data" / "archive"))
         second = subprocess.Popen(daemon, cwd=scratch, stderr=log)
+        wait_for_samples(port, 1)
+        down_s = time.monotonic() - killed
         wait_for_samples(port, 2000)
         second.send_signal(signal.SIGTERM)
         demand("the restarted daemon ends cleanly", second.wait(timeout=30) == 0)
@@ -105,11 +109,17 @@ def round_of(number, scratch):
         demand(f"{name}: nothing altered or duplicated",
                counted["altered"] == counted["duplicated"] == 0)
         kept = counted["archived"]
-        first_run = counted["archived"] - runs[1]["frames"]
-        demand(f"{name}: one gap, of the {runs[0]['frames'] - first_run:.0f} samples that were sent "
-               "after the last chunk written and before the restart",
+        first_run = counted["first_missing"]
+        demand(f"{name}: one gap, from the last chunk written to the last frame the emulator sent "
+               "before the restart",
                counted["missing_runs"] == 1
-               and counted["missing"] == runs[0]["frames"] - first_run)
+               and first_run + counted["missing"] == runs[0]["frames"])
+        demand(f"{name}: times within 0.2 s of the truth ({counted['largest_time_error_s']:.3f})",
+               counted["largest_time_error_s"] < 0.2)
+        # Before the kill at most 0.2 s of real time; after it no more than the daemon was away.
+        bound = (0.2 + down_s) * 50 * SPEED
+        demand(f"{name}: {counted['missing']:.0f} missing within the {bound:.0f} of 0.2 s and "
+               f"{down_s:.2f} s of absence", counted["missing"] <= bound)
         demand(f"{name}: {first_run:.0f} samples of the first run are there, {last_published + 1} "
                "were published as journaled", first_run >= last_published + 1)
 

@@ -9,8 +9,9 @@ with Scratch() as scratch:
     run(BIN / "a351-sim", "survey", "--scenario", "tsukuba", "--seed", 11, "--out", root)
     run(BIN / "a351-correct", "survey", root / "survey.toml", "--out", scratch / "first")
     run("sh", "-c", f"rm -f {root}/truth*")
+    run("localedef", "-i", "de_DE", "-f", "UTF-8", scratch / "de_DE.UTF-8")
     run(BIN / "a351-correct", "survey", root / "survey.toml", "--out", scratch / "second",
-        env={"TZ": "Asia/Tokyo", "LC_ALL": "de_DE.UTF-8"})
+        env={"TZ": "Asia/Tokyo", "LOCPATH": str(scratch), "LC_ALL": "de_DE.UTF-8"})
     run("taskset", "1", BIN / "a351-correct", "survey", root / "survey.toml", "--out",
         scratch / "third")
     names = ["occupations.csv", "stations.csv", "models.csv", "result.json"]

@@ -10,10 +10,11 @@ speed = "500" if IS_SANITIZED else "1000"
 
 with Scratch() as scratch:
     out = scratch / "day"
-    model = "paper" if scenario == "tsukuba" else "auto"
-    demo = run(TOP / "sim" / "demo", scenario, "--seed", "7", "--speed", speed, "--model", model,
-               "--out", out)
+    demo = run(TOP / "sim" / "demo", scenario, "--seed", "7", "--speed", speed, "--out", out)
     print(demo.stdout)
+    demand("the demo prints its own day's RMS of Error_1",
+           "RMS of Error (1), before the drift step: " in demo.stdout)
+    demand("the demo prints the table beside the truth", "Beside the simulated truth" in demo.stdout)
 
     truth = {(row["site"], row["occupation"]): row for row in rows(out / "truth.csv")}
     table = rows(out / "result" / "occupations.csv")

@@ -195,4 +195,10 @@ TEST_CASE("events of other kinds change no occupation", "[record][event_log]") {
                  stop("09:10")}) == Lines{"A#1 09:00-09:10"});
 }
 
+TEST_CASE("an occupation without a stop is known as running", "[record][event_log]") {
+    CHECK(running_site({start("09:00", "A"), stop("09:10"), start("09:20", "B")}) == "B");
+    CHECK_FALSE(running_site({start("09:00", "A"), stop("09:10")}).has_value());
+    CHECK_FALSE(running_site({start("09:00", "A"), event_of("discard", "09:05")}).has_value());
+}
+
 }  // namespace a351::record

@@ -53,3 +53,21 @@ TEST_CASE("a bad table of occupations is refused with line, column and value",
     CHECK_THROWS_WITH(read(rows), Catch::Contains(message));
     CHECK_THROWS_AS(read(rows), InputError);
 }
+
+TEST_CASE("a slip in the field costs its own occupation and is named, not the day",
+          "[survey][occupations]") {
+    const ScratchFolder folder;
+    const auto file =
+        folder.write("2020-01.jsonl",
+                     "{\"type\":\"start\",\"utc\":\"2020-01-01T00:00:00Z\",\"site\":\"A\"}\n"
+                     "{\"type\":\"stop\",\"utc\":\"2020-01-01T00:10:00Z\"}\n"
+                     "{\"type\":\"start\",\"utc\":\"2020-01-01T01:00:00Z\",\"site\":\"AA\"}\n"
+                     "{\"type\":\"stop\",\"utc\":\"2020-01-01T01:10:00Z\"}\n"
+                     "{\"type\":\"start\",\"utc\":\"2020-01-01T02:00:00Z\",\"site\":\"B\"}\n");
+    const auto list = read_logged_occupations(file.parent_path(), kSites);
+    REQUIRE(list.windows.size() == 1);
+    CHECK(list.windows[0].site == "A");
+    REQUIRE(list.warnings.size() == 2);
+    CHECK_THAT(list.warnings[0], Catch::Contains("site = AA, started 2020-01-01T01:00:00Z"));
+    CHECK_THAT(list.warnings[1], Catch::Contains("of B, has no stop"));
+}

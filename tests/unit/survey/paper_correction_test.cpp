@@ -39,7 +39,15 @@ TEST_CASE("the drift step is refused with one occupation of the base", "[survey]
     const auto rows = made_up::day();
     const auto step = find_end_point_drift(rows, kAll, corrected1(rows), "S1");
     CHECK_FALSE(step.drift.has_value());
-    CHECK(step.refusal == "base S1 has 1 occupation(s), two are needed");
+    CHECK(step.refusal == "base S1 has fewer than two occupations, two are needed");
+}
+
+TEST_CASE("two set-ups of one stay are no two occupations of the base", "[survey][paper]") {
+    auto rows = made_up::day();
+    for (SurveyRow& row : rows) {
+        if (row.site == "S2") row.occupation = 1;
+    }
+    CHECK_FALSE(find_end_point_drift(rows, kAll, corrected1(rows), "S2").drift.has_value());
 }
 
 TEST_CASE("the drift step is refused with both ends of the base flagged", "[survey][paper]") {

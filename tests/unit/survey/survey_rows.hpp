@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,12 @@ inline std::vector<SurveyRow> day() {
                                          "S5", "S6", "S7", "S2", "S3", "B"};
     const std::vector<double> temperatures_degc{42.30, 42.41, 42.38, 42.55, 42.61, 42.70,
                                                 42.64, 42.77, 42.90, 42.86, 42.71, 42.66};
+    std::map<std::string, int> stays;
     std::vector<SurveyRow> rows;
     for (std::size_t i = 0; i < sites.size(); ++i) {
         SurveyRow row;
         row.site = sites[i];
+        row.occupation = ++stays[sites[i]];
         row.time = kMorning + std::chrono::minutes(45 * i + 3 * (i % 3));
         row.temperature = DegC(temperatures_degc[i]);
         row.tide = MilliGal(0.01 * static_cast<double>(i) - 0.05);

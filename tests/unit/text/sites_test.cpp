@@ -49,4 +49,7 @@ TEST_CASE("a bad sites file is refused with its line", "[text][sites]") {
                       Catch::Contains(":3: site = X: stands twice"));
     CHECK_THROWS_WITH(read_sites(written(kHeader + ",1,36,0,\n")),
                       Catch::Contains(":2: site = : empty"));
+    // m/s2 instead of mGal.
+    CHECK_THROWS_WITH(read_sites(written(kHeader + "X,1,36,0,9.799\n")),
+                      Catch::Contains(":2: gravity_mgal = 9.799: out of range"));
 }

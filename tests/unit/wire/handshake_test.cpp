@@ -299,7 +299,11 @@ TEST_CASE("settings that the profile does not know are a broken promise", "[wire
 }
 
 TEST_CASE("the commands that stop sampling are right in any window", "[wire][handshake]") {
-    CHECK(stop_sampling_commands() == to_bytes({0xFE, 0x00, 0x0D, 0x83, 0x02, 0x0D}));
+    std::vector<std::byte> bytes;
+    for (const Command& command : stop_sampling()) {
+        bytes.insert(bytes.end(), command.begin(), command.end());
+    }
+    CHECK(bytes == to_bytes({0xFE, 0x00, 0x0D, 0x83, 0x02, 0x0D}));
 }
 
 }  // namespace a351::wire
