@@ -33,7 +33,7 @@ struct Status {
     Nanoseconds timing_uncertainty{0};
 
     std::string port;
-    std::string link_state;  ///< searching, handshake, sampling, stalled ...
+    std::string link_state;  ///< searching, handshake, sampling, waiting, stopped.
     std::string link_trouble;
     std::string profile, product_id, serial_number, filter;
     int output_rate_hz = 0;
@@ -43,7 +43,7 @@ struct Status {
     DegC temperature;
 
     record::ArchiverCounters counters;
-    std::map<std::string, std::uint64_t> more_counters;  ///< reconnects, queue_overruns ...
+    std::map<std::string, std::uint64_t> more_counters;  ///< Of link and store, by name.
 
     std::uint64_t disk_free_bytes = 0;
 };

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
 /// The archive thread: journal chunks -> samples, times, miniSEED records.  A slow or full disk
-/// holds it up without harm; the journal has everything.
+/// holds it up without harm until ChunkQueue is full; from then on the journal waits for it.
 
 #include <chrono>
 #include <condition_variable>

@@ -20,7 +20,8 @@ struct NumberedChunk {
 /// From the journal thread to the archive thread.
 class ChunkQueue {
 public:
-    /// 32 MiB of chunks: 5 h at 50 Hz with their stamps.
+    /// 32 MiB of chunks: about three quarters of an hour at 50 Hz, 20 chunks a
+    /// second of some 600 bytes.
     static constexpr std::size_t kCapacityBytes = std::size_t{32} << 20;
 
     explicit ChunkQueue(std::size_t capacity_bytes = kCapacityBytes);

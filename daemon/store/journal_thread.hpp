@@ -1,7 +1,8 @@
 #pragma once
 /// @file
 /// The journal thread: what was read goes to disk within 100 ms and survives a power cut after
-/// one second, both of real time.  It waits for nobody but the disk.
+/// one second, both of real time.  It waits for the disk, and for the archive
+/// thread when ChunkQueue is full.
 
 #include <atomic>
 #include <chrono>

@@ -10,20 +10,9 @@ import time
 import urllib.request
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "system"))
-from programs import BIN, TOP, Scratch, read_json, run
+from programs import BIN, TOP, Scratch, daemon_config, read_json, run
 
 REAL_TIME_SECONDS = 60
-CONFIG = """[station]
-latitude = 36.2
-longitude = 140.1
-elevation_m = 400.0
-[sensor]
-port = "sensor"
-[storage]
-root = "data"
-[page]
-listen = "127.0.0.1:28351"
-"""
 
 
 def cpu_seconds(pid):
@@ -48,7 +37,7 @@ def row(name, value, promise):
 
 
 with Scratch() as scratch:
-    (scratch / "a351d.toml").write_text(CONFIG)
+    (scratch / "a351d.toml").write_text(daemon_config(28351))
     sim = subprocess.Popen([BIN / "a351-sim", "device", "--link", "sensor"], cwd=scratch,
                            stderr=subprocess.DEVNULL)
     daemon = subprocess.Popen([BIN / "a351d", "--config", "a351d.toml"], cwd=scratch,

@@ -9,20 +9,9 @@ import threading
 import time
 import urllib.request
 
-from programs import BIN, IS_LONG, Scratch, compare_truth, demand, read_json, run
+from programs import BIN, IS_LONG, Scratch, compare_truth, daemon_config, demand, read_json, run
 
 SPEED = 20
-CONFIG = """[station]
-latitude = 36.2
-longitude = 140.1
-elevation_m = 400.0
-[sensor]
-port = "sensor"
-[storage]
-root = "data"
-[page]
-listen = "127.0.0.1:{port}"
-"""
 
 
 def status(port):
@@ -58,7 +47,7 @@ def archive_is_whole(archive):
 def round_of(number, scratch):
     generator = random.Random(number)
     port = generator.randrange(20000, 40000)
-    (scratch / "a351d.toml").write_text(CONFIG.format(port=port))
+    (scratch / "a351d.toml").write_text(daemon_config(port))
     plan = run(BIN / "a351-sim", "plan", "--scenario", "tsukuba", "--seed", number, "--out", scratch)
     start = dict(part.split("=", 1) for part in plan.stdout.split())["start_utc"]
     host = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%S.%fZ")

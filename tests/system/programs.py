@@ -27,6 +27,21 @@ def run(*command, check=True, env=None, cwd=None):
     return result
 
 
+def daemon_config(port):
+    """The least a daemon needs to record the emulated sensor linked as `sensor`."""
+    return f"""[station]
+latitude = 36.2
+longitude = 140.1
+elevation_m = 400.0
+[sensor]
+port = "sensor"
+[storage]
+root = "data"
+[page]
+listen = "127.0.0.1:{port}"
+"""
+
+
 def rows(file):
     with open(file, newline="") as text:
         return list(csv.DictReader(text))
