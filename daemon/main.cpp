@@ -13,7 +13,6 @@
 #include <string>
 
 #include "daemon/config/config.hpp"
-#include "daemon/page/listen_address.hpp"
 #include "daemon/page/server.hpp"
 #include "daemon/page/status.hpp"
 #include "daemon/source/host_clock.hpp"
@@ -213,7 +212,6 @@ int main(int argc, char** argv) {
             }
         }
         const Config config = read_config(config_file);
-        (void)parse_listen(config.page.listen, config.page.token);
         if (is_check) {
             std::puts("ok");
             return kDone;

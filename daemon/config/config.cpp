@@ -172,9 +172,22 @@ StorageConfig read_storage(TomlTable table, int output_rate_hz) {
 
 PageConfig read_page(TomlTable table) {
     PageConfig page;
-    page.listen = table.string_or("listen", "127.0.0.1:8351");
+    const std::string listen = table.string_or("listen", to_string(page.listen));
+    const auto address = parse_listen(listen);
+    if (!address) {
+        table.refuse("listen", "not an address and a port",
+                     "\"127.0.0.1:8351\", \"[::1]:8351\" and the like");
+    }
+    page.listen = *address;
     page.hosts = table.strings("hosts");
     page.token = table.string_or("token", "");
+    if (!page.token.empty() && !is_token(page.token)) {
+        table.refuse("token", "too weak", "16 or more visible ASCII characters, or \"\"");
+    }
+    if (!page.listen.is_loopback && page.token.empty()) {
+        table.refuse("listen", "others can connect there",
+                     "an address of this host, or a token beside");
+    }
     table.require_all_read();
     return page;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/config/listen_address.hpp"
 #include "daemon/source/port.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/record/journal.hpp"
@@ -39,9 +40,9 @@ struct StorageConfig {
 };
 
 struct PageConfig {
-    std::string listen;
+    ListenAddress listen;
     std::vector<std::string> hosts;
-    std::string token;
+    std::string token;  ///< Never empty where others than this host can connect.
 };
 
 struct SurveyConfig {

@@ -8,7 +8,6 @@
 
 #include "daemon/page/asio.hpp"
 #include "daemon/page/guard.hpp"
-#include "daemon/page/listen_address.hpp"
 
 namespace a351::daemon {
 namespace {
@@ -83,7 +82,7 @@ class Server::Impl {
 public:
     Impl(const ServerOptions& options, ApiSources sources)
         : options_(options),
-          listen_(parse_listen(options.listen, options.token)),
+          listen_(options.listen),
           sources_(std::move(sources)) {
         bind();
         const std::string token = options.token.empty() ? random_token() : options.token;
@@ -115,7 +114,7 @@ private:
     void bind() {
         const auto ip = asio::ip::make_address(listen_.ip);
         error_code error = listen_on({ip, listen_.port});
-        if (error) throw std::system_error(error, "[page] listen = " + options_.listen);
+        if (error) throw std::system_error(error, "[page] listen = " + to_string(listen_));
         port_ = acceptors_.front().local_endpoint().port();
 
         asio::ip::address other;

@@ -19,14 +19,15 @@
 #include <string>
 #include <vector>
 
+#include "daemon/config/listen_address.hpp"
 #include "daemon/page/api.hpp"
 
 namespace a351::daemon {
 
 struct ServerOptions {
-    std::string listen = "127.0.0.1:8351";  ///< See parse_listen(); port 0 takes a free one.
-    std::vector<std::string> hosts = {};    ///< Further names (name or name:port) it answers to.
-    std::string token = {};                 ///< Empty: a random one per start.
+    ListenAddress listen = {};
+    std::vector<std::string> hosts = {};  ///< Further names (name or name:port) it answers to.
+    std::string token = {};               ///< Empty: a random one per start.
 
     std::size_t connection_limit = 32;
     std::chrono::milliseconds request_limit{10'000};  ///< Real time to complete a request.
@@ -36,7 +37,6 @@ class Server {
 public:
     /// Binds and listens, so that a port in use is known at once.  A loopback address of one
     /// family also brings that of the other, where the host has it.
-    /// @throws InputError         the address or the token is not allowed.
     /// @throws std::system_error  the address cannot be bound.
     Server(const ServerOptions& options, ApiSources sources);
     ~Server();

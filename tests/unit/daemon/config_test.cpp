@@ -58,7 +58,7 @@ TEST_CASE_METHOD(Fixture, "the least configuration has the documented defaults",
     CHECK(config.storage.root == directory.path() / "data");
     CHECK(config.storage.journal_keep_days == 30);
     CHECK_FALSE(config.storage.declared_rate_hz);
-    CHECK(config.page.listen == "127.0.0.1:8351");
+    CHECK(to_string(config.page.listen) == "127.0.0.1:8351");
     CHECK(config.survey.sites.empty());
 }
 
@@ -78,7 +78,7 @@ TEST_CASE_METHOD(Fixture, "every key that is documented is accepted and read", "
         "output_rate_hz=100\nfilter=\"k512_fc16\"\nserial_number=\"00000042\"\naxes=\"Z,1,2\"\n"
         "[oven]\nenabled=false\nport=\"\"\nbaud=9600\nparity=\"N\"\nunit=1\npoll_s=1\ndecimals=1\n"
         "[storage]\nroot=\"/var/lib/a351\"\ndeclared_rate_hz=100.0005\njournal_keep_days=0\n"
-        "[page]\nlisten=\"127.0.0.1:0\"\nhosts=[\"box\"]\ntoken=\"t\"\n"
+        "[page]\nlisten=\"127.0.0.1:0\"\nhosts=[\"box\"]\ntoken=\"sixteen-or-longer\"\n"
         "[survey]\nsites=\"sites.csv\"\ncalibration=\"\"\n[verdict]\n");
     CHECK(config.station.codes == record::StationCodes{"JP", "TKB", "", {"Z", "1", "2"}});
     CHECK(config.sensor.address.usb == UsbAddress{0x0403, 0x6001, "A:5"});
@@ -139,4 +139,33 @@ TEST_CASE_METHOD(Fixture, "a line too slow for the output rate is refused", "[da
                   "filter = \"k512_fc210\"\n" + kStorage) ==
           "a351d.toml:7: sensor.baud = 115200: too slow for the output rate; allowed: at least "
           "120000 bit/s");
+}
+
+TEST_CASE_METHOD(Fixture, "beyond loopback a token is a must", "[daemon][config]") {
+    const std::string all = kStation + kSensor + kStorage;
+    const std::string token = "\ntoken = \"sixteen-or-longer\"\n";
+    const auto page = [&](const std::string& listen) {
+        return all + "[page]\nlisten = \"" + listen + "\"";
+    };
+    for (const char* own : {"127.0.0.1:8351", "127.0.0.2:1", "[::1]:8351", "localhost:8351"}) {
+        CHECK(read(page(own) + "\n").page.listen.is_loopback);
+    }
+    for (const char* open : {"0.0.0.0:8351", "192.168.7.2:8351", "[::]:8351", "[fe80::1]:8351"}) {
+        CAPTURE(open);
+        CHECK_THAT(
+            refusal(page(open) + "\n"),
+            Catch::Contains("page.listen = '" + std::string(open)) && Catch::Contains("token"));
+        CHECK_FALSE(read(page(open) + token).page.listen.is_loopback);
+    }
+    CHECK(read(page("[::1]:65535") + "\n").page.listen.port == 65535);
+    CHECK(read(page("localhost:0") + "\n").page.listen.ip == "127.0.0.1");
+    for (const char* odd : {"8351", ":8351", "127.0.0.1", "127.0.0.1:", "127.0.0.1:65536",
+                            "127.0.0.1:-1", "127.0.0.1:80 ", "::1:8351", "[::1]", "gravbox:8351"}) {
+        CAPTURE(odd);
+        CHECK_THAT(refusal(page(odd) + token), Catch::Contains("page.listen"));
+    }
+    for (const char* weak : {"short", "with blank and more"}) {
+        CHECK_THAT(refusal(all + "[page]\ntoken = \"" + std::string(weak) + "\"\n"),
+                   Catch::Contains("page.token = "));
+    }
 }

@@ -51,7 +51,7 @@ struct FakeDaemon {
     FakeRecorder recorder;
     Occupations occupations{recorder, two_sites(), {}};
     Status status;
-    Server server{{.listen = "127.0.0.1:0"},
+    Server server{{.listen = {.port = 0}},
                   {.status = [this] { return status; },
                    .occupations = occupations,
                    .sites = two_sites(),

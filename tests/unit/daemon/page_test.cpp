@@ -6,7 +6,6 @@
 
 #include "daemon/page/api.hpp"
 #include "daemon/page/guard.hpp"
-#include "daemon/page/listen_address.hpp"
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/daemon/fake_recorder.hpp"
 
@@ -163,25 +162,6 @@ TEST_CASE("no header opens the interface to other origins", "[daemon][page]") {
     for (const char* name : {"Content-Security-Policy", "X-Frame-Options", "X-Content-Type-Options",
                              "Cross-Origin-Resource-Policy", "Cache-Control"}) {
         CHECK(names.contains(name));
-    }
-}
-
-TEST_CASE("beyond loopback a token is a must", "[daemon][page]") {
-    for (const char* own : {"127.0.0.1:8351", "127.0.0.2:1", "[::1]:8351", "localhost:8351"}) {
-        CHECK(parse_listen(own, "").is_loopback);
-    }
-    for (const char* open : {"0.0.0.0:8351", "192.168.7.2:8351", "[::]:8351", "[fe80::1]:8351"}) {
-        CHECK_THROWS_AS(parse_listen(open, ""), InputError);
-        CHECK_THROWS_AS(parse_listen(open, "short"), InputError);
-        CHECK_FALSE(parse_listen(open, kToken).is_loopback);
-    }
-    CHECK_THROWS_AS(parse_listen("127.0.0.1:8351", "with blank and more"), InputError);
-    CHECK(parse_listen("[::1]:65535", "").port == 65535);
-    CHECK(parse_listen("localhost:0", "").ip == "127.0.0.1");
-    for (const char* odd : {"", "8351", ":8351", "127.0.0.1", "127.0.0.1:", "127.0.0.1:65536",
-                            "127.0.0.1:-1", "127.0.0.1:80 ", "::1:8351", "[::1]", "gravbox:8351"}) {
-        CAPTURE(odd);
-        CHECK_THROWS_WITH(parse_listen(odd, kToken), Catch::Contains("[page] listen"));
     }
 }
 

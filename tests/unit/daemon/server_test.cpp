@@ -24,7 +24,7 @@ struct Served {
     }
 
     static ServerOptions own(ServerOptions options) {
-        options.listen = "127.0.0.1:0";
+        options.listen.port = 0;
         options.token = kToken;
         return options;
     }
@@ -259,11 +259,8 @@ TEST_CASE("the server stops with connections open and before it was started", "[
 TEST_CASE("a port in use is known before the start", "[daemon][server]") {
     Served served;
     auto options = Served::own({});
-    options.listen = "127.0.0.1:" + std::to_string(served.server.port());
+    options.listen.port = served.server.port();
     CHECK_THROWS_AS(Server(options, served.sources()), std::system_error);
-    options.listen = "0.0.0.0:0";
-    options.token = "";
-    CHECK_THROWS_AS(Server(options, served.sources()), InputError);
 }
 
 TEST_CASE("loopback is served in both families", "[daemon][server]") {
