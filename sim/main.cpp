@@ -4,9 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/core/input_error.hpp"
-#include "sim/direct_survey.hpp"
-#include "sim/pty_device.hpp"
-#include "sim/survey_plan.hpp"
+#include "sim/line/pty_device.hpp"
+#include "sim/scenario/survey_plan.hpp"
+#include "sim/signal/signal_source.hpp"
+#include "sim/survey/direct_survey.hpp"
 
 namespace {
 

@@ -21,7 +21,7 @@
 
 namespace {
 
-// Layout of the truth file: sim/truth-format.md.
+// Layout of the truth file: sim/truth/truth-format.md.
 struct TruthRow {
     std::int64_t utc_ns;
     std::int32_t axes[3];

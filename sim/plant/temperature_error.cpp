@@ -1,0 +1,25 @@
+#include "sim/plant/temperature_error.hpp"
+
+#include <cmath>
+
+namespace a351::sim {
+
+TemperatureError::TemperatureError(const TemperatureErrorParameters& parameters, DegC body,
+                                   double step_s)
+    : p_(parameters),
+      crystal_gain_(1.0 - std::exp(-step_s / p_.crystal_tau_s)),
+      clock_gain_(1.0 - std::exp(-step_s / p_.clock_tau_s)),
+      crystal_degc_(body.value()),
+      clock_degc_(body.value()) {}
+
+MilliGal TemperatureError::next(DegC body, double since_power_on_s) noexcept {
+    const double body_degc = body.value();
+    crystal_degc_ += crystal_gain_ * (body_degc - crystal_degc_);
+    clock_degc_ += clock_gain_ * (body_degc - clock_degc_);
+    return MilliGal(p_.crystal_static_mgal_per_degc * (body_degc - p_.reference_degc) +
+                    p_.crystal_dynamic_mgal_per_degc * (crystal_degc_ - body_degc) +
+                    p_.clock_mgal_per_degc * (clock_degc_ - p_.reference_degc) +
+                    p_.warm_up_mgal * std::exp(-since_power_on_s / (3600.0 * p_.warm_up_tau_h)));
+}
+
+}  // namespace a351::sim

@@ -1,0 +1,255 @@
+#include <algorithm>
+#include <limits>
+
+#include "protocol/core/input_error.hpp"
+#include "protocol/text/strict_toml.hpp"
+#include "protocol/text/text_file.hpp"
+#include "sim/scenario/embedded_scenarios.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace a351::sim {
+namespace {
+
+/// One table of the file.  Without a base every key must be there, so that no value of a scenario
+/// hides in the code.
+class Section {
+public:
+    Section(text::TomlTable& document, std::string_view name, bool has_base)
+        : table_(document.table(name)), has_base_(has_base) {}
+
+    void number(std::string_view key, double& value, double low, double high) {
+        require(key);
+        value = table_.number_or(key, value, low, high);
+    }
+
+    /// Two ascending numbers.
+    void range(std::string_view key, Range& value, double low, double high) {
+        require(key);
+        if (!table_.has(key)) return;
+        const std::vector<double> ends = table_.numbers(key, low, high);
+        if (ends.size() != 2 || ends[0] > ends[1]) {
+            table_.refuse(key, "not a range", "two ascending numbers");
+        }
+        value = {ends[0], ends[1]};
+    }
+
+    void done() const { table_.require_all_read(); }
+
+private:
+    void require(std::string_view key) const {
+        if (!has_base_ && !table_.has(key)) table_.refuse(key, "missing", "a value, or a base");
+    }
+
+    text::TomlTable table_;
+    bool has_base_;
+};
+
+void read_schedule(Section s, ScheduleParameters& p) {
+    s.number("lead_in_h", p.lead_in_h, 0.0, 1000.0);
+    s.number("lead_out_min", p.lead_out_min, 0.0, 1e5);
+    s.number("length_s", p.length_s, 60.0, 1e6);
+    s.number("jitter_s", p.jitter_s, 0.0, 1e5);
+    s.number("shortest_s", p.shortest_s, 60.0, 1e6);
+    s.number("ambient_before_degc", p.ambient_before_degc, -40.0, 42.0);
+    s.number("ambient_after_degc", p.ambient_after_degc, -40.0, 42.0);
+    s.done();
+}
+
+void read_oven(Section s, OvenParameters& p) {
+    s.number("heater_capacity_j_per_k", p.heater_capacity_j_per_k, 1.0, 1e6);
+    s.number("body_capacity_j_per_k", p.body_capacity_j_per_k, 1.0, 1e6);
+    s.number("heater_body_k_per_w", p.heater_body_k_per_w, 0.01, 1e4);
+    s.number("heater_ambient_k_per_w", p.heater_ambient_k_per_w, 0.01, 1e4);
+    s.number("body_ambient_k_per_w", p.body_ambient_k_per_w, 0.01, 1e4);
+    s.number("self_heating_w", p.self_heating_w, 0.0, 10.0);
+    s.number("heater_power_w", p.heater_power_w, 0.1, 1000.0);
+    s.number("thermocouple_tau_s", p.thermocouple_tau_s, 1.0, 1e4);
+    s.number("dead_time_s", p.dead_time_s, 1.0, 1e4);
+    s.number("set_point_degc", p.set_point_degc, 0.0, 80.0);
+    s.number("resolution_degc", p.resolution_degc, 0.001, 10.0);
+    s.number("proportional_per_degc", p.proportional_per_degc, 0.0, 1000.0);
+    s.number("integral_per_degc_s", p.integral_per_degc_s, 0.0, 1000.0);
+    s.done();
+}
+
+void read_error(Section s, TemperatureErrorParameters& p) {
+    s.number("reference_degc", p.reference_degc, 0.0, 80.0);
+    s.number("crystal_static_mgal_per_degc", p.crystal_static_mgal_per_degc, -1e5, 1e5);
+    s.number("crystal_dynamic_mgal_per_degc", p.crystal_dynamic_mgal_per_degc, -1e5, 1e5);
+    s.number("crystal_tau_s", p.crystal_tau_s, 1.0, 1e6);
+    s.number("clock_mgal_per_degc", p.clock_mgal_per_degc, -1e5, 1e5);
+    s.number("clock_tau_s", p.clock_tau_s, 1.0, 1e6);
+    s.number("warm_up_mgal", p.warm_up_mgal, -1e4, 1e4);
+    s.number("warm_up_tau_h", p.warm_up_tau_h, 0.01, 1000.0);
+    s.done();
+}
+
+void read_sensor(Section s, SensorParameters& p) {
+    s.number("bias_mgal", p.bias_mgal, -1e5, 1e5);
+    s.number("horizontal_bias_max_mgal", p.horizontal_bias_max_mgal, 0.0, 1e5);
+    s.number("levelling_sigma_deg", p.levelling_sigma_deg, 0.0, 10.0);
+    s.number("white_mgal", p.white_mgal, 0.0, 1e5);
+    s.number("temperature_white_degc", p.temperature_white_degc, 0.0, 10.0);
+    s.number("power_on_before_start_h", p.power_on_before_start_h, 0.0, 1e4);
+    s.number("temperature_warm_up_degc", p.temperature_warm_up_degc, -10.0, 10.0);
+    s.number("temperature_warm_up_tau_h", p.temperature_warm_up_tau_h, 0.01, 1000.0);
+    s.done();
+}
+
+void read_slow_noise(Section s, SlowNoiseParameters& p) {
+    s.number("flicker_mgal", p.flicker_mgal, 0.0, 1000.0);
+    s.number("flicker_shortest_s", p.flicker_shortest_s, 10.0, 1e6);
+    s.number("flicker_longest_s", p.flicker_longest_s, 10.0, 1e7);
+    s.number("resonant_mgal", p.resonant_mgal, 0.0, 1000.0);
+    s.number("resonant_period_s", p.resonant_period_s, 10.0, 1e5);
+    s.number("resonant_quality", p.resonant_quality, 0.5, 1000.0);
+    s.number("white_20s_mgal", p.white_mgal, 0.0, 1000.0);
+    s.number("placement_mgal", p.placement_mgal, 0.0, 1000.0);
+    s.number("drift_linear_mgal_per_h", p.drift_linear_mgal_per_h, -1000.0, 1000.0);
+    s.number("drift_quadratic_mgal_per_h2", p.drift_quadratic_mgal_per_h2, -1000.0, 1000.0);
+    s.number("drift_walk_mgal_per_sqrt_h", p.drift_walk_mgal_per_sqrt_h, 0.0, 1000.0);
+    s.number("ripple_mgal", p.ripple_mgal, 0.0, 1000.0);
+    s.number("ripple_period_s", p.ripple_period_s, 10.0, 1e5);
+    s.number("ripple_wander", p.ripple_wander, 0.0, 0.3);
+    s.done();
+}
+
+void read_vibration(Section s, VibrationParameters& p) {
+    s.number("ground_mgal", p.ground_mgal, 0.0, 1e5);
+    s.number("ground_low_hz", p.ground_low_hz, 0.1, 20.0);
+    s.number("ground_high_hz", p.ground_high_hz, 0.1, 20.0);
+    s.number("vehicles_per_h", p.vehicles_per_h, 0.0, 60.0);
+    s.range("vehicle_s", p.vehicle_s, 0.1, 60.0);
+    s.range("vehicle_hz", p.vehicle_hz, 0.1, 20.0);
+    s.range("vehicle_gal", p.vehicle_gal, 0.0, 1000.0);
+    s.number("handling_probability", p.handling_probability, 0.0, 1.0);
+    s.range("handling_s", p.handling_s, 0.1, 60.0);
+    s.range("handling_hz", p.handling_hz, 0.1, 20.0);
+    s.range("handling_gal", p.handling_gal, 0.0, 1000.0);
+    s.number("knock_probability", p.knock_probability, 0.0, 1.0);
+    s.range("knock_s", p.knock_s, 0.1, 60.0);
+    s.range("knock_gal", p.knock_gal, 0.0, 1000.0);
+    s.number("spike_probability", p.spike_probability, 0.0, 1.0);
+    s.range("spike_gal", p.spike_gal, 0.0, 1000.0);
+    s.done();
+}
+
+double required(text::TomlTable& table, std::string_view key, double low, double high) {
+    const std::optional<double> value = table.number(key, low, high);
+    if (!value) table.refuse(key, "missing", "a number");
+    return *value;
+}
+
+text::Site read_site(text::TomlTable& table) {
+    text::Site site;
+    site.name = table.string_or("name", "");
+    if (site.name.empty()) table.refuse("name", "missing", "a name");
+    site.longitude = Degrees(required(table, "longitude_deg", -180.0, 360.0));
+    site.latitude = Degrees(required(table, "latitude_deg", -90.0, 90.0));
+    site.altitude = Metres(required(table, "altitude_m", -500.0, 9000.0));
+    site.gravity = MilliGal(required(table, "gravity_mgal", 970000.0, 990000.0));
+    table.require_all_read();
+    return site;
+}
+
+ListedOccupation read_occupation(text::TomlTable& table, const Scenario& scenario) {
+    ListedOccupation occupation;
+    occupation.site = table.string_or("site", "");
+    if (text::find_site(scenario.sites, occupation.site) == nullptr) {
+        table.refuse("site", "no such site", "the name of a [[site]]");
+    }
+    occupation.number =
+        static_cast<int>(table.integer_or("number", 1, 1, std::numeric_limits<int>::max()));
+    const auto centre = parse_rfc3339(table.string_or("centre_utc", ""));
+    if (!centre) table.refuse("centre_utc", "not an instant", "RFC 3339");
+    occupation.centre = *centre;
+    occupation.ambient_degc = required(table, "ambient_degc", -40.0, 42.0);
+    occupation.is_outlier = table.boolean_or("outlier", false);
+    table.require_all_read();
+    return occupation;
+}
+
+/// Sites and occupations replace those of the base as a whole.
+void read_places(text::TomlTable& document, Scenario& scenario) {
+    if (document.has("site")) scenario.sites.clear();
+    for (text::TomlTable& table : document.tables("site")) {
+        const text::Site site = read_site(table);
+        if (text::find_site(scenario.sites, site.name) != nullptr) {
+            table.refuse("name", "stands twice", "each site once");
+        }
+        scenario.sites.push_back(site);
+    }
+    if (document.has("occupation")) scenario.occupations.clear();
+    for (text::TomlTable& table : document.tables("occupation")) {
+        const ListedOccupation occupation = read_occupation(table, scenario);
+        if (!scenario.occupations.empty() &&
+            occupation.centre <= scenario.occupations.back().centre) {
+            table.refuse("centre_utc", "not after the one before", "rising instants");
+        }
+        scenario.occupations.push_back(occupation);
+    }
+    if (scenario.occupations.empty()) {
+        document.refuse("occupation", "missing", "at least one [[occupation]]");
+    }
+}
+
+const EmbeddedScenario* find_embedded(std::string_view name) {
+    const auto all = embedded_scenarios();
+    const auto found =
+        std::find_if(all.begin(), all.end(), [name](const auto& s) { return s.name == name; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+std::string name_list() {
+    std::string list;
+    for (const std::string_view name : scenario_names()) {
+        list += (list.empty() ? "" : ", ") + std::string(name);
+    }
+    return list;
+}
+
+}  // namespace
+
+Scenario parse_scenario(std::string toml, const std::filesystem::path& origin) {
+    text::TomlTable document = text::parse_toml(std::move(toml), origin);
+    const std::string base = document.string_or("base", "");
+    Scenario scenario;
+    if (!base.empty()) {
+        const EmbeddedScenario* found = find_embedded(base);
+        if (found == nullptr) document.refuse("base", "no such scenario", name_list());
+        scenario = parse_scenario(std::string(found->toml), base + ".toml");
+    }
+    scenario.name = document.string_or("name", "");
+    if (scenario.name.empty()) document.refuse("name", "missing", "a name");
+    const auto section = [&](std::string_view name) {
+        return Section(document, name, !base.empty());
+    };
+    read_schedule(section("schedule"), scenario.schedule);
+    read_oven(section("oven"), scenario.oven);
+    read_error(section("temperature_error"), scenario.error);
+    read_sensor(section("sensor"), scenario.sensor);
+    read_slow_noise(section("slow_noise"), scenario.slow_noise);
+    read_vibration(section("vibration"), scenario.vibration);
+    read_places(document, scenario);
+    document.require_all_read();
+    return scenario;
+}
+
+Scenario load_scenario(const std::string& name_or_file) {
+    if (const EmbeddedScenario* found = find_embedded(name_or_file)) {
+        return parse_scenario(std::string(found->toml), name_or_file + ".toml");
+    }
+    if (!std::filesystem::is_regular_file(name_or_file)) {
+        throw InputError("--scenario " + name_or_file +
+                         ": neither a scenario nor a file; allowed: " + name_list() + ", a file");
+    }
+    return parse_scenario(text::read_text_file(name_or_file), name_or_file);
+}
+
+std::vector<std::string_view> scenario_names() {
+    std::vector<std::string_view> names;
+    for (const EmbeddedScenario& scenario : embedded_scenarios()) names.push_back(scenario.name);
+    return names;
+}
+
+}  // namespace a351::sim

@@ -1,0 +1,116 @@
+#include "sim/signal/disturbance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim/noise/random.hpp"
+
+namespace a351::sim {
+namespace {
+
+constexpr double kMilliGalPerGal = 1000.0;
+
+double draw(RandomStream& stream, Range range) { return stream.uniform(range.low, range.high); }
+
+/// Length and strength are drawn once; frequency, phase and 0.5 to 1 of the strength per axis.
+Burst draw_burst(RandomStream& stream, Burst::Envelope envelope, Range length_s, Range hz,
+                 Range peak_gal) {
+    Burst burst;
+    burst.envelope = envelope;
+    burst.length_s = draw(stream, length_s);
+    const double peak_mgal = kMilliGalPerGal * draw(stream, peak_gal);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        burst.peak_mgal[axis] = peak_mgal * stream.uniform(0.5, 1.0);
+        burst.frequency_hz[axis] = draw(stream, hz);
+        burst.phase_rad[axis] = stream.uniform(0.0, 2.0 * std::numbers::pi);
+    }
+    return burst;
+}
+
+double envelope_at(const Burst& burst, double u) {
+    switch (burst.envelope) {
+        case Burst::Envelope::swell: {
+            const double s = std::sin(std::numbers::pi * u);
+            return s * s;
+        }
+        case Burst::Envelope::decay:
+            return (1.0 - u) * (1.0 - u) * (1.0 - u);
+        case Burst::Envelope::growth:
+            return u * u * u;
+    }
+    return 0.0;
+}
+
+}  // namespace
+
+std::vector<Burst> draw_bursts(const Scenario& scenario, const std::vector<PlannedOccupation>& plan,
+                               std::uint64_t seed) {
+    const VibrationParameters& p = scenario.vibration;
+    const double record_s = seconds_between(scenario.start(), scenario.end());
+    std::vector<Burst> bursts;
+
+    RandomStream vehicles(seed, "vehicles");
+    if (p.vehicles_per_h > 0.0) {
+        const double mean_wait_s = 3600.0 / p.vehicles_per_h;
+        for (double t = mean_wait_s * vehicles.exponential(); t < record_s;
+             t += mean_wait_s * vehicles.exponential()) {
+            Burst burst = draw_burst(vehicles, Burst::Envelope::swell, p.vehicle_s, p.vehicle_hz,
+                                     p.vehicle_gal);
+            burst.start_s = t;
+            bursts.push_back(burst);
+        }
+    }
+
+    RandomStream handling(seed, "handling");
+    RandomStream knocks(seed, "knocks");
+    for (const PlannedOccupation& occupation : plan) {
+        const double start_s = seconds_between(scenario.start(), occupation.start);
+        const double end_s = seconds_between(scenario.start(), occupation.end);
+        if (handling.uniform() < p.handling_probability) {
+            Burst burst = draw_burst(handling, Burst::Envelope::decay, p.handling_s, p.handling_hz,
+                                     p.handling_gal);
+            burst.start_s = start_s;
+            bursts.push_back(burst);
+        }
+        if (handling.uniform() < p.handling_probability) {
+            Burst burst = draw_burst(handling, Burst::Envelope::growth, p.handling_s, p.handling_hz,
+                                     p.handling_gal);
+            burst.start_s = end_s - burst.length_s;
+            bursts.push_back(burst);
+        }
+        if (knocks.uniform() < p.knock_probability) {
+            Burst burst =
+                draw_burst(knocks, Burst::Envelope::decay, p.knock_s, p.handling_hz, p.knock_gal);
+            burst.start_s = start_s + (end_s - start_s) * knocks.uniform(0.25, 0.75);
+            bursts.push_back(burst);
+        }
+    }
+    std::stable_sort(bursts.begin(), bursts.end(),
+                     [](const Burst& a, const Burst& b) { return a.start_s < b.start_s; });
+    return bursts;
+}
+
+Disturbances::Disturbances(std::vector<Burst> bursts) : bursts_(std::move(bursts)) {}
+
+void Disturbances::add_to(std::array<double, 3>& axes_mgal, double elapsed_s) {
+    while (next_ < bursts_.size() && bursts_[next_].start_s <= elapsed_s) {
+        active_.push_back(bursts_[next_++]);
+    }
+    if (active_.empty()) return;
+    std::erase_if(active_, [elapsed_s](const Burst& burst) {
+        return elapsed_s >= burst.start_s + burst.length_s;
+    });
+    for (const Burst& burst : active_) {
+        const double since_s = elapsed_s - burst.start_s;
+        const double envelope = envelope_at(burst, since_s / burst.length_s);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            axes_mgal[axis] +=
+                envelope * burst.peak_mgal[axis] *
+                std::sin(2.0 * std::numbers::pi * burst.frequency_hz[axis] * since_s +
+                         burst.phase_rad[axis]);
+        }
+    }
+}
+
+}  // namespace a351::sim

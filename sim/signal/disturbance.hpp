@@ -1,0 +1,45 @@
+#pragma once
+/// @file
+/// What shakes the box for a while: passing vehicles, handling at both ends of an occupation, and
+/// the occasional knock in the middle of one.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sim/scenario/scenario.hpp"
+#include "sim/scenario/survey_plan.hpp"
+
+namespace a351::sim {
+
+/// An oscillation on all axes under an envelope.
+struct Burst {
+    enum class Envelope { swell, decay, growth };  ///< Hann; (1 - u)^3; u^3 with u = 0 ... 1.
+    Envelope envelope = Envelope::swell;
+    double start_s = 0.0;  ///< Since the start of the record.
+    double length_s = 0.0;
+    std::array<double, 3> peak_mgal{};
+    std::array<double, 3> frequency_hz{};
+    std::array<double, 3> phase_rad{};
+};
+
+/// All bursts of a record, in the order of their starts.
+[[nodiscard]] std::vector<Burst> draw_bursts(const Scenario& scenario,
+                                             const std::vector<PlannedOccupation>& plan,
+                                             std::uint64_t seed);
+
+/// Adds up the bursts at rising instants.
+class Disturbances {
+public:
+    explicit Disturbances(std::vector<Burst> bursts);
+
+    /// @param elapsed_s  since the start of the record; not before that of the last call.
+    void add_to(std::array<double, 3>& axes_mgal, double elapsed_s);
+
+private:
+    std::vector<Burst> bursts_;
+    std::size_t next_ = 0;
+    std::vector<Burst> active_;
+};
+
+}  // namespace a351::sim

@@ -1,0 +1,128 @@
+#include "sim/signal/signal_source.hpp"
+
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace a351::sim {
+namespace {
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+
+std::int32_t rounded(double counts) noexcept {
+    return static_cast<std::int32_t>(std::floor(counts + 0.5));
+}
+
+/// The vertical as the axes see it, after turning about y by one angle and about x by another.
+std::array<double, 3> tilted_vertical(double about_y_rad, double about_x_rad) {
+    return {std::sin(about_y_rad), -std::cos(about_y_rad) * std::sin(about_x_rad),
+            std::cos(about_y_rad) * std::cos(about_x_rad)};
+}
+
+}  // namespace
+
+BandNoise::BandNoise(double rms, double low_hz, double high_hz, double rate_hz)
+    : low_gain_(1.0 - std::exp(-2.0 * std::numbers::pi * low_hz / rate_hz)),
+      high_gain_(1.0 - std::exp(-2.0 * std::numbers::pi * high_hz / rate_hz)) {
+    // The variance of filtered white noise is the energy of the impulse response, which has died
+    // out after 20 time constants of the high-pass.
+    const int length = static_cast<int>(20.0 / low_gain_) + 1;
+    double energy = 0.0;
+    for (int i = 0; i < length; ++i) {
+        const double y = filter(i == 0 ? 1.0 : 0.0);
+        energy += y * y;
+    }
+    slow_ = fast_ = 0.0;
+    gain_ = rms / std::sqrt(energy);
+}
+
+double BandNoise::filter(double x) noexcept {
+    fast_ += high_gain_ * (x - fast_);
+    slow_ += low_gain_ * (fast_ - slow_);
+    return fast_ - slow_;
+}
+
+double BandNoise::next(double white) noexcept { return gain_ * filter(white); }
+
+SignalSource::SignalSource(const Scenario& scenario, const wire::DeviceProfile& profile,
+                           std::uint64_t seed)
+    : scenario_(scenario),
+      profile_(profile),
+      plan_(plan_survey(scenario_, seed)),
+      slow_(scenario_, plan_, seed),
+      disturbances_(draw_bursts(scenario_, plan_, seed)),
+      white_(seed, "sensor white"),
+      ground_(seed, "ground"),
+      spikes_(seed, "spikes"),
+      temperature_(seed, "temperature white"),
+      ground_filter_{BandNoise(scenario.vibration.ground_mgal, scenario.vibration.ground_low_hz,
+                               scenario.vibration.ground_high_hz, kRateHz),
+                     BandNoise(scenario.vibration.ground_mgal, scenario.vibration.ground_low_hz,
+                               scenario.vibration.ground_high_hz, kRateHz),
+                     BandNoise(scenario.vibration.ground_mgal, scenario.vibration.ground_low_hz,
+                               scenario.vibration.ground_high_hz, kRateHz)},
+      sample_count_(static_cast<std::int64_t>(
+          std::floor(seconds_between(scenario_.start(), scenario_.end()) * kRateHz))) {
+    RandomStream bias(seed, "axis bias");
+    const double most = scenario_.sensor.horizontal_bias_max_mgal;
+    bias_mgal_[0] = bias.uniform(-most, most);
+    bias_mgal_[1] = bias.uniform(-most, most);
+    RandomStream levelling(seed, "levelling");
+    const double sigma_rad = scenario_.sensor.levelling_sigma_deg * kRadiansPerDegree;
+    for (std::size_t i = 0; i < plan_.size(); ++i) {
+        const double about_y_rad = sigma_rad * levelling.normal();
+        vertical_.push_back(tilted_vertical(about_y_rad, sigma_rad * levelling.normal()));
+    }
+    from_ = slow_.next();
+    to_ = slow_.next();
+}
+
+std::optional<UtcTime> SignalSource::next_instant() const {
+    if (index_ == sample_count_) return std::nullopt;
+    return scenario_.start() + Nanoseconds(index_ * (1'000'000'000 / kRateHz));
+}
+
+void SignalSource::add_noise(std::array<double, 3>& axes_mgal) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        axes_mgal[axis] += bias_mgal_[axis] + ground_filter_[axis].next(ground_.normal()) +
+                           scenario_.sensor.white_mgal * white_.normal();
+    }
+    if (spikes_.uniform() < scenario_.vibration.spike_probability) {
+        const Range gal = scenario_.vibration.spike_gal;
+        const std::size_t axis = spikes_.bits() % 3;
+        const double sign = spikes_.uniform() < 0.5 ? -1.0 : 1.0;
+        axes_mgal[axis] += sign * 1000.0 * spikes_.uniform(gal.low, gal.high);
+    }
+}
+
+TimedSample SignalSource::next() {
+    assert(index_ < sample_count_);
+    TimedSample sample{*next_instant(), index_, {}};
+    const std::int64_t within = index_ % kRateHz;
+    if (within == 0 && index_ > 0) {
+        from_ = to_;
+        to_ = slow_.next();
+    }
+    const double share = static_cast<double>(within) / kRateHz;
+    const double vertical_mgal =
+        from_.vertical.value() + share * (to_.vertical - from_.vertical).value();
+    std::array<double, 3> axes_mgal = vertical_[from_.occupation];
+    for (double& axis : axes_mgal) axis *= vertical_mgal;
+    disturbances_.add_to(axes_mgal, static_cast<double>(index_) / kRateHz);
+    add_noise(axes_mgal);
+
+    const double counts_per_mgal =
+        std::ldexp(1.0, profile_.acceleration_fraction_bits) / kMilliGalPerStandardGravity;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        sample.values.axes_counts[axis] = rounded(axes_mgal[axis] * counts_per_mgal);
+    }
+    const double temperature_degc = from_.temperature.value() +
+                                    share * (to_.temperature - from_.temperature).value() +
+                                    scenario_.sensor.temperature_white_degc * temperature_.normal();
+    sample.values.temperature_counts = rounded(
+        (temperature_degc - profile_.temperature_offset_degc) / profile_.temperature_slope_degc);
+    ++index_;
+    return sample;
+}
+
+}  // namespace a351::sim

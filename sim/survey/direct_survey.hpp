@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "protocol/wire/device_profile.hpp"
+#include "sim/device/register_machine.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace a351::sim {
+
+struct DirectSurvey {
+    std::int64_t frames = 0;
+    std::int64_t records = 0;  ///< miniSEED records written.
+};
+
+/// Writes a simulated day to a data root as the daemon would have: journal, archive, metadata,
+/// events; beside them sites.csv, schedule.csv, survey.toml and the truth (truth.csv, truth.bin).
+/// The frames arrive without any delay beyond the device's own.
+///
+/// @throws InputError         `root` already holds a journal.
+/// @throws std::system_error  a file cannot be written.
+DirectSurvey write_survey(const Scenario& scenario, const wire::DeviceProfile& profile,
+                          std::uint64_t seed, const std::filesystem::path& root);
+
+}  // namespace a351::sim
