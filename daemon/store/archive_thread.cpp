@@ -15,6 +15,8 @@ constexpr seconds kSyncInterval{30};
 constexpr seconds kModelInterval{10};  // Of instrument time, and
 constexpr milliseconds kShortestModelInterval{100};
 constexpr seconds kRetryInterval{10};
+constexpr std::size_t kMostWaitingBytes = std::size_t{64} << 20;
+constexpr std::size_t kSessionsRemembered = 16;  // Each with 24 h of times, some 100 kB.
 
 }  // namespace
 
@@ -57,87 +59,99 @@ bool ArchiveThread::join() {
 
 void ArchiveThread::run() noexcept {
     while (const auto numbered = chunks_.pop()) {
-        take(*numbered);
-        persist([this] { write_outbox(); });
-        if (steady_clock::now() - last_sync_ >= kSyncInterval) persist([this] { sync(); });
-        post_model();
+        try {
+            take(*numbered);
+            post_model();
+        } catch (const std::exception& error) {
+            note_fault(error.what());
+        }
+        if (may_write()) put_away(false);
     }
     {
         const std::lock_guard lock(mutex_);
         archiver_.close_records();
     }
-    persist([this] { write_outbox(); });
-    persist([this] { sync(); });
+    if (!put_away(true)) put_away(true);
 }
 
 void ArchiveThread::take(const NumberedChunk& numbered) {
     const auto* const header = std::get_if<record::JournalHeader>(&numbered.chunk);
-    {
-        const std::lock_guard lock(mutex_);
-        if (header != nullptr) {
-            session_ = header->session;
-            outbox_.last_sample.reset();
-        }
-        archiver_.take(numbered.chunk);
-        status_.counters = archiver_.counters();
-        status_.last_sample = outbox_.last_sample;
-        if (session_) progress_.parsed(numbered.number, *session_, archiver_.last_index());
+    const std::lock_guard lock(mutex_);
+    if (header != nullptr) begin_session(*header);
+    archiver_.take(numbered.chunk);
+    if (header != nullptr) outbox_.session = header->session;
+    status_.counters = archiver_.counters();
+    status_.last_sample = outbox_.last_sample;
+    status_.records_waiting = outbox_.entries.size();
+    if (outbox_.session) {
+        progress_.parsed(numbered.number, *outbox_.session, archiver_.last_index());
     }
-    if (header == nullptr) return;
-    persist([&] { hooks_.session_began(*header); });
-    if (marked_ && marked_ != session_) end_session();
-    marked_ = session_;
 }
 
-/// The new header has closed the records of the session before; marks never mix sessions.
-void ArchiveThread::end_session() {
-    persist([this] { write_outbox(); });
-    persist([this] { sync(); });
-    persist([this] { reopen(); });
+/// A segment's header: of the running session again, or of a new one.
+void ArchiveThread::begin_session(const record::JournalHeader& header) {
+    undescribed_ = header;
+    if (outbox_.session == header.session) return;
+    outbox_.last_sample.reset();
+    const auto last_index = archiver_.last_index();
+    if (!last_index || !outbox_.session) return;
+    ended_.push_back({*outbox_.session, *archiver_.clock(), *last_index});
+    if (ended_.size() > kSessionsRemembered) ended_.pop_front();
 }
 
-/// Tries until it works, or once more when in a hurry.
-void ArchiveThread::persist(const std::function<void()>& step) {
-    while (true) {
-        try {
-            step();
-            const std::lock_guard lock(mutex_);
-            status_.is_faulty = false;
-            return;
-        } catch (const std::exception& error) {
-            std::unique_lock lock(mutex_);
-            status_.is_faulty = true;
-            status_.trouble = error.what();
-            ++status_.faults;
-            if (is_hurried_) return;
-            hurried_.wait_for(lock, kRetryInterval, [this] { return is_hurried_; });
-        }
-        try {
-            reopen();
-        } catch (const std::exception&) {
-            continue;  // The step fails again and says why.
-        }
+/// While the archive is in trouble, only now and then; that is waited for only with memory full.
+bool ArchiveThread::may_write() {
+    if (!retry_at_) return true;
+    if (outbox_.bytes > kMostWaitingBytes) {
+        std::unique_lock lock(mutex_);
+        hurried_.wait_until(lock, *retry_at_, [this] { return is_hurried_; });
     }
+    return steady_clock::now() >= *retry_at_;
+}
+
+/// @return false when the disk did not take everything; the rest waits.
+bool ArchiveThread::put_away(bool is_last) {
+    try {
+        if (retry_at_) reopen();
+        if (undescribed_) hooks_.session_began(*undescribed_);
+        undescribed_.reset();
+        write_outbox();
+        if (is_last || steady_clock::now() - last_sync_ >= kSyncInterval) sync();
+    } catch (const std::exception& error) {
+        note_fault(error.what());
+        retry_at_ = steady_clock::now() + kRetryInterval;
+        return false;
+    }
+    retry_at_.reset();
+    const std::lock_guard lock(mutex_);
+    status_.is_faulty = false;
+    return true;
+}
+
+void ArchiveThread::note_fault(const std::string& trouble) {
+    const std::lock_guard lock(mutex_);
+    status_.is_faulty = true;
+    status_.trouble = trouble;
+    ++status_.faults;
 }
 
 void ArchiveThread::write_outbox() {
     auto& entries = outbox_.entries;  // Only this thread fills it, within take().
-    std::size_t written = 0;
-    const auto forget_written = [&] {
-        entries.erase(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(written));
-    };
-    try {
-        for (const Outbox::Entry& entry : entries) {
-            writer_->record(entry.channel, entry.record, entry.last_index);
-            ++written;
+    while (!entries.empty()) {
+        const Outbox::Entry& entry = entries.front();
+        if (entry.session != marked_) {  // Marks never mix sessions.
+            if (marked_) sync();
+            reopen();
+            are_marks_true_ = true;
+            marked_ = entry.session;
         }
-    } catch (...) {
-        forget_written();
-        throw;
+        writer_->record(entry.channel, entry.record, entry.last_index);
+        outbox_.bytes -= entry.record.bytes.size();
+        entries.pop_front();
+        const std::lock_guard lock(mutex_);
+        ++status_.records;
+        status_.records_waiting = entries.size();
     }
-    forget_written();
-    const std::lock_guard lock(mutex_);
-    status_.records += written;
 }
 
 void ArchiveThread::sync() {
@@ -146,6 +160,7 @@ void ArchiveThread::sync() {
     try {
         marks = writer_->sync();
     } catch (...) {
+        // What the kernel dropped cannot be told from what it kept.
         are_marks_true_ = false;
         throw;
     }
@@ -178,6 +193,13 @@ void ArchiveThread::post_model() {
 
 /// A fault may have torn the end of a day file: nothing may be appended behind a torn record.
 void ArchiveThread::reopen() {
+    if (retry_at_ && are_marks_true_) {
+        try {
+            static_cast<void>(writer_->sync());
+        } catch (const std::system_error&) {
+            are_marks_true_ = false;
+        }
+    }
     for (const std::string& channel : record::channels_in(archive_, codes_)) {
         if (const auto file = record::newest_day_file(archive_, codes_, channel)) {
             record::repair_tail(files_, *file);
@@ -186,31 +208,40 @@ void ArchiveThread::reopen() {
     writer_ = std::make_unique<record::ArchiveWriter>(files_, archive_, codes_);
 }
 
-std::optional<Instant> ArchiveThread::instant_of(std::int64_t index) {
-    const timing::SampleClock* const sample_clock = archiver_.clock();
-    if (!session_ || sample_clock == nullptr) return std::nullopt;
-    const auto time = sample_clock->time_of(index);
-    if (!time) return std::nullopt;
-    return Instant{*session_, index, time->utc};
-}
-
 std::optional<Instant> ArchiveThread::latest() {
     const std::lock_guard lock(mutex_);
-    const auto index = archiver_.last_index();
-    return index ? instant_of(*index) : std::nullopt;
+    const auto instant = [](const record::SessionId& session, const timing::SampleClock& clock,
+                            std::int64_t index) -> std::optional<Instant> {
+        const auto time = clock.time_of(index);
+        return time ? std::optional(Instant{session, index, time->utc}) : std::nullopt;
+    };
+    if (const auto index = archiver_.last_index(); index && outbox_.session) {
+        return instant(*outbox_.session, *archiver_.clock(), *index);
+    }
+    if (ended_.empty()) return std::nullopt;
+    return instant(ended_.back().session, ended_.back().clock, ended_.back().last_index);
 }
 
 std::optional<Instant> ArchiveThread::at(UtcTime utc) {
     const std::lock_guard lock(mutex_);
-    const timing::SampleClock* const sample_clock = archiver_.clock();
-    if (sample_clock == nullptr) return std::nullopt;
-    const auto index = sample_clock->index_at(utc);
-    return index ? instant_of(*index) : std::nullopt;
+    const auto find = [utc](const record::SessionId& session,
+                            const timing::SampleClock& clock) -> std::optional<Instant> {
+        const auto index = clock.index_at(utc);
+        const auto time = index ? clock.time_of(*index) : std::nullopt;
+        return time ? std::optional(Instant{session, *index, time->utc}) : std::nullopt;
+    };
+    for (const Ended& one : ended_) {
+        if (const auto instant = find(one.session, one.clock)) return instant;
+    }
+    const timing::SampleClock* const clock = archiver_.clock();
+    if (clock == nullptr || !outbox_.session) return std::nullopt;
+    return find(*outbox_.session, *clock);
 }
 
 ArchiveStatus ArchiveThread::status() {
     const std::lock_guard lock(mutex_);
     ArchiveStatus status = status_;
+    status.is_marking = are_marks_true_;
     if (const timing::SampleClock* const sample_clock = archiver_.clock()) {
         status.timing_state = sample_clock->state();
         status.timing_uncertainty = sample_clock->uncertainty();

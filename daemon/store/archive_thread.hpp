@@ -1,10 +1,13 @@
 #pragma once
 /// @file
-/// The archive thread: journal chunks -> samples, times, miniSEED records.  A slow or full disk
-/// holds it up without harm until ChunkQueue is full; from then on the journal waits for it.
+/// The archive thread: journal chunks -> samples, times, miniSEED records.  While the archive
+/// cannot be written, records wait in memory, tried every 10 s, and the journal goes on: 64 MiB
+/// here, 18 h at 50 Hz, then what ChunkQueue holds; from then on the journal waits.
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -12,7 +15,6 @@
 #include <optional>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "daemon/source/host_clock.hpp"
 #include "daemon/store/chunk_queue.hpp"
@@ -28,7 +30,9 @@ struct ArchiveStatus {
     bool is_faulty = false;
     std::string trouble;
     std::uint64_t faults = 0;
+    bool is_marking = true;  ///< False once a sync failed: until a new session nothing is marked.
     std::uint64_t records = 0;
+    std::uint64_t records_waiting = 0;
     record::ArchiverCounters counters;
     std::optional<record::Sample> last_sample;
     timing::TimingState timing_state = timing::TimingState::unlocked;
@@ -52,7 +56,7 @@ public:
 
     void start();
 
-    /// From now on a fault is retried once, not for ever.
+    /// From now on nothing is waited for: a fault at the end is retried once.
     void hurry();
 
     /// Waits until the queue was closed and everything is in the archive, synced and marked.
@@ -68,29 +72,41 @@ private:
     class Outbox : public record::ArchiveSink {
     public:
         struct Entry {
+            std::optional<record::SessionId> session;
             std::string channel;
             record::PackedRecord record;
             std::int64_t last_index = 0;
         };
         void record(const std::string& channel, const record::PackedRecord& record,
                     std::int64_t last_index) override {
-            entries.push_back({channel, record, last_index});
+            bytes += record.bytes.size();
+            entries.push_back({session, channel, record, last_index});
         }
         void sample(const record::Sample& sample) override { last_sample = sample; }
 
-        std::vector<Entry> entries;
+        std::optional<record::SessionId> session;  ///< Of what comes.
+        std::deque<Entry> entries;
+        std::size_t bytes = 0;
         std::optional<record::Sample> last_sample;
+    };
+
+    /// A session that is over but still remembered.
+    struct Ended {
+        record::SessionId session;
+        timing::SampleClock clock;
+        std::int64_t last_index = 0;
     };
 
     void run() noexcept;
     void take(const NumberedChunk& numbered);
-    void persist(const std::function<void()>& step);
+    void begin_session(const record::JournalHeader& header);
+    [[nodiscard]] bool may_write();
+    bool put_away(bool is_last);
     void write_outbox();
-    void end_session();
     void sync();
+    void note_fault(const std::string& trouble);
     void post_model();
     void reopen();
-    [[nodiscard]] std::optional<Instant> instant_of(std::int64_t index);
 
     record::FileLayer& files_;
     std::filesystem::path archive_;
@@ -100,11 +116,16 @@ private:
     Progress& progress_;
     Hooks hooks_;
 
+    using steady_time = std::chrono::steady_clock::time_point;
+
     // Of the archive thread.
     std::unique_ptr<record::ArchiveWriter> writer_;
-    std::chrono::steady_clock::time_point last_sync_, last_model_real_;
+    steady_time last_sync_, last_model_real_;
     RawTime last_model_;
-    bool are_marks_true_ = true;
+    std::optional<steady_time> retry_at_;  ///< Set while the archive is in trouble.
+    std::optional<record::JournalHeader>
+        undescribed_;  ///< Session whose metadata is to be written.
+    std::atomic<bool> are_marks_true_{true};
     std::optional<record::SessionId> marked_;  ///< Session of the writer's records.
 
     mutable std::mutex mutex_;  ///< Of archiver_ and what it feeds; short, no disk below it.
@@ -112,7 +133,7 @@ private:
     bool is_hurried_ = false;
     Outbox outbox_;
     record::Archiver archiver_;
-    std::optional<record::SessionId> session_;
+    std::deque<Ended> ended_;
     ArchiveStatus status_;
     std::thread thread_;
 };

@@ -64,11 +64,22 @@ void JournalThread::post(record::JournalChunk chunk) {
     posted_.push_back(std::move(chunk));
 }
 
-std::future<void> JournalThread::commit(const record::Event& event) {
-    const std::lock_guard lock(mutex_);
-    commits_.push_back({event, {}});
-    woken_.notify_all();
-    return commits_.back().done.get_future();
+void JournalThread::commit(const record::Event& event, milliseconds patience) {
+    const auto commit = std::make_shared<Commit>(Commit{event, {}});
+    std::future<void> done = commit->done.get_future();
+    {
+        const std::lock_guard lock(mutex_);
+        commits_.push_back(commit);
+        woken_.notify_all();
+    }
+    if (done.wait_for(patience) != std::future_status::ready) {
+        const std::lock_guard lock(mutex_);
+        if (std::erase(commits_, commit) > 0) {
+            throw std::system_error(std::make_error_code(std::errc::timed_out),
+                                    "the journal thread is held up");
+        }
+    }
+    done.get();  // Once begun it is waited for: nobody may be told the opposite of what happens.
 }
 
 JournalStatus JournalThread::status() const {
@@ -113,12 +124,7 @@ void JournalThread::work() {
         }
         for (record::JournalChunk& chunk : posted) write(std::move(chunk));
     }
-    std::deque<Commit> commits;
-    {
-        const std::lock_guard lock(mutex_);
-        commits.swap(commits_);
-    }
-    for (Commit& commit : commits) carry_out(commit);
+    carry_out_commits();
     if (is_dirty_ && steady_clock::now() - last_sync_ >= kSyncInterval) sync();
 }
 
@@ -206,10 +212,23 @@ void JournalThread::hand_over(record::JournalChunk chunk) {
     ++status_.archive_waits;
 }
 
+void JournalThread::carry_out_commits() {
+    while (true) {
+        std::shared_ptr<Commit> commit;
+        {
+            const std::lock_guard lock(mutex_);
+            if (commits_.empty()) return;
+            commit = std::move(commits_.front());
+            commits_.pop_front();
+        }
+        carry_out(*commit);
+    }
+}
+
 // Without a session there is no journal to write to: then the event log alone keeps the event.
 void JournalThread::carry_out(Commit& commit) {
     try {
-        if (!may_try_again()) {
+        if (unwritten_ || !may_try_again()) {
             throw std::system_error(std::make_error_code(std::errc::io_error),
                                     "the journal is not being written");
         }
@@ -218,15 +237,16 @@ void JournalThread::carry_out(Commit& commit) {
             sync();
         }
         record::append_event(files_, events_, commit.event);
-        commit.done.set_value();
     } catch (const std::exception& error) {
-        commit.done.set_exception(std::current_exception());
-        // Whoever asked was told that it did not happen.
+        // Whoever asked is told that it did not happen.
         if (unwritten_ && std::holds_alternative<record::EventChunk>(*unwritten_)) {
             unwritten_.reset();
         }
         note_fault(error.what());
+        commit.done.set_exception(std::current_exception());
+        return;
     }
+    commit.done.set_value();
 }
 
 void JournalThread::sync() {

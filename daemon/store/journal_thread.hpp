@@ -11,6 +11,7 @@
 #include <deque>
 #include <filesystem>
 #include <future>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -54,9 +55,10 @@ public:
     /// A chunk to be written soon: MARK, MODEL.
     void post(record::JournalChunk chunk);
 
-    /// Journal and event log hold the event, synced, once the future is ready; or it throws what
-    /// prevented that.
-    [[nodiscard]] std::future<void> commit(const record::Event& event);
+    /// Waits until journal and event log hold the event, synced.
+    /// @throws std::system_error  what prevented that; timed_out when its turn did not come within
+    ///                            `patience`: then it is withdrawn and never written.
+    void commit(const record::Event& event, std::chrono::milliseconds patience);
 
     [[nodiscard]] JournalStatus status() const;
 
@@ -73,6 +75,7 @@ private:
     void write(record::JournalChunk chunk);
     void retry_unwritten();
     void hand_over(record::JournalChunk chunk);
+    void carry_out_commits();
     void carry_out(Commit& commit);
     void sync();
     void lose_unsynced();
@@ -103,7 +106,7 @@ private:
     Phase phase_ = Phase::running;
     bool is_drained_ = false;
     std::vector<record::JournalChunk> posted_;
-    std::deque<Commit> commits_;
+    std::deque<std::shared_ptr<Commit>> commits_;
     JournalStatus status_;
     std::thread thread_;
 };

@@ -46,14 +46,7 @@ std::optional<Instant> Store::latest() { return archive_.latest(); }
 
 std::optional<Instant> Store::at(UtcTime utc) { return archive_.at(utc); }
 
-void Store::commit(const record::Event& event) {
-    std::future<void> done = journal_.commit(event);
-    if (done.wait_for(kCommitPatience) != std::future_status::ready) {
-        throw std::system_error(std::make_error_code(std::errc::timed_out),
-                                "the event is not on disk after 10 s");
-    }
-    done.get();
-}
+void Store::commit(const record::Event& event) { journal_.commit(event, kCommitPatience); }
 
 void Store::describe(const record::JournalHeader& header) {
     record::StationDescription description = options_.station;
@@ -89,9 +82,16 @@ void Store::fill(Status& status) {
     status.more_counters["journal_faults"] = journal.faults;
     status.more_counters["archive_faults"] = archive.faults;
     status.more_counters["archive_records"] = archive.records;
+    status.more_counters["archive_records_waiting"] = archive.records_waiting;
     status.more_counters["archive_waits"] = journal.archive_waits;
     if (journal.is_faulty) complain(status, Status::Level::fault, "journal: " + journal.trouble);
     if (archive.is_faulty) complain(status, Status::Level::fault, "archive: " + archive.trouble);
+
+    if (!archive.is_marking) {
+        complain(status, Status::Level::warning,
+                 "archive: a sync failed, so nothing is called archived until the next session; "
+                 "the journal holds it");
+    }
 
     std::error_code error;
     const auto space = std::filesystem::space(options_.root, error);
