@@ -4,11 +4,15 @@
 
 namespace a351::sim {
 
-DeviceStream::DeviceStream(SampleSource& source, RegisterMachine& machine, SentHandler on_sent)
-    : source_(source), machine_(machine), on_sent_(std::move(on_sent)) {}
+DeviceStream::DeviceStream(SampleSource& source, RegisterMachine& machine)
+    : source_(source), machine_(machine) {}
 
 int DeviceStream::repeats() const {
     return std::max(1, machine_.output_rate_hz() / source_.rate_hz());
+}
+
+int DeviceStream::stride() const {
+    return std::max(1, source_.rate_hz() / machine_.output_rate_hz());
 }
 
 UtcTime DeviceStream::instant() const {
@@ -21,19 +25,19 @@ std::optional<UtcTime> DeviceStream::next_due() const {
     return machine_.is_sampling() ? instant() + machine_.frame_delay() : instant();
 }
 
-void DeviceStream::advance_to(UtcTime simulated) {
-    while (pending().size() < kMostPending) {
+void DeviceStream::receive(std::span<const std::byte> bytes, const Instant& now, LineSink& line) {
+    bytes_.clear();
+    machine_.receive(bytes, now.steady, bytes_);
+    if (!bytes_.empty()) line.send(bytes_, now.simulated, nullptr);
+}
+
+void DeviceStream::advance_to(const Instant& now, LineSink& line) {
+    machine_.pass_time(now.steady);
+    while (!line.is_full()) {
         const std::optional<UtcTime> due = next_due();
-        if (!due || *due > simulated) return;
-        TruthRecord truth;
-        truth.utc = instant();
-        if (!held_) held_ = source_.next();
-        truth.grid_index = static_cast<std::uint32_t>(held_->index);
-        if (const auto values = machine_.sample(held_->values, queue_)) {
-            truth.values = *values;
-            truth.sampling_run = static_cast<std::uint16_t>(machine_.sampling_run());
-            frames_.push_back({handed_over_ + pending().size(), *due, truth});
-        }
+        if (!due || *due > now.simulated) return;
+        if (!held_) take_sample();
+        if (held_->index % stride() == 0) send_sample(*due, line);
         if (++repeat_ >= repeats()) {
             held_.reset();
             repeat_ = 0;
@@ -41,33 +45,25 @@ void DeviceStream::advance_to(UtcTime simulated) {
     }
 }
 
-void DeviceStream::receive(std::span<const std::byte> bytes, Nanoseconds now) {
-    machine_.receive(bytes, now, queue_);
-}
-
-std::span<const std::byte> DeviceStream::pending() const noexcept {
-    return std::span(queue_).subspan(queue_start_);
-}
-
-void DeviceStream::handed_over(std::size_t byte_count, UtcTime simulated) {
-    queue_start_ += byte_count;
-    handed_over_ += byte_count;
-    while (!frames_.empty() && frames_.front().end <= handed_over_) {
-        const Queued& frame = frames_.front();
-        if (frame.truth.sampling_run != last_run_) {
-            last_run_ = frame.truth.sampling_run;
-            report_.runs.push_back({frame.truth.grid_index, 0});
-        }
-        ++report_.runs.back().frames;
-        ++report_.frames_sent;
-        report_.largest_lateness =
-            std::max<Nanoseconds>(report_.largest_lateness, simulated - frame.due);
-        on_sent_(frame.truth);
-        frames_.pop_front();
+void DeviceStream::take_sample() {
+    held_ = source_.next();
+    for (; next_index_ < held_->index; ++next_index_) {
+        if (next_index_ % stride() != 0) continue;
+        for (int i = 0; i < repeats(); ++i) machine_.skip_sample();
     }
-    if (queue_start_ < queue_.size() && queue_start_ < kMostPending) return;
-    queue_.erase(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(queue_start_));
-    queue_start_ = 0;
+    ++next_index_;
+}
+
+void DeviceStream::send_sample(UtcTime due, LineSink& line) {
+    bytes_.clear();
+    const auto values = machine_.sample(held_->values, bytes_);
+    if (!values) return;
+    TruthRecord truth;
+    truth.utc = instant();
+    truth.values = *values;
+    truth.sampling_run = static_cast<std::uint16_t>(machine_.sampling_run());
+    truth.grid_index = static_cast<std::uint32_t>(held_->index);
+    line.send(bytes_, due, &truth);
 }
 
 }  // namespace a351::sim

@@ -1,97 +1,171 @@
 #include "sim/line/pty.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
 #include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
+#include <stdexcept>
 #include <system_error>
+#include <utility>
+
+#include "protocol/core/input_error.hpp"
 
 namespace a351::sim {
 namespace {
+
+namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& operation) {
     throw std::system_error(errno, std::generic_category(), operation);
 }
 
+struct Speed {
+    int baud;
+    speed_t code;
+};
+constexpr std::array kSpeeds{
+    Speed{1200, B1200},     Speed{2400, B2400},     Speed{4800, B4800},     Speed{9600, B9600},
+    Speed{19200, B19200},   Speed{38400, B38400},   Speed{57600, B57600},   Speed{115200, B115200},
+    Speed{230400, B230400}, Speed{460800, B460800}, Speed{921600, B921600},
+};
+
+speed_t speed_code(int baud) {
+    const auto found = std::ranges::find(kSpeeds, baud, &Speed::baud);
+    if (found == kSpeeds.end()) {
+        throw std::invalid_argument("no terminal has a speed of " + std::to_string(baud) + " baud");
+    }
+    return found->code;
+}
+
+/// Makes room for the link, or says why not.
+void require_place(const fs::path& link) {
+    const fs::path directory = link.has_parent_path() ? link.parent_path() : fs::path(".");
+    if (!fs::is_directory(directory)) {
+        throw InputError(link.string() + ": " + directory.string() +
+                         " is no directory; allowed: a link in a directory that exists");
+    }
+    const fs::file_status status = fs::symlink_status(link);
+    if (!fs::exists(status)) return;
+    if (!fs::is_symlink(status)) {
+        throw InputError(link.string() +
+                         ": exists and is no link; allowed: a new path, or a link left behind");
+    }
+    const fs::path target = fs::read_symlink(link);
+    if (target.parent_path() != "/dev/pts" || fs::exists(target)) {
+        throw InputError(link.string() + ": leads to " + target.string() +
+                         "; allowed: a new path, or a link to a terminal that is gone");
+    }
+    fs::remove(link);
+}
+
 }  // namespace
 
-Pty::Pty(std::filesystem::path link) : link_(std::move(link)) {
-    namespace fs = std::filesystem;
-    if (fs::exists(fs::symlink_status(link_)) && !fs::is_symlink(link_)) {
-        throw std::system_error(EEXIST, std::generic_category(),
-                                link_.string() + " is no symbolic link");
+Pty::Terminal::Terminal(int baud) : master(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
+    if (master < 0) fail("open a pseudo-terminal");
+    try {
+        open_slave(baud);
+    } catch (...) {
+        if (slave >= 0) ::close(slave);
+        ::close(master);
+        throw;
     }
-    master_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
-    if (master_ < 0) fail("open a pseudo-terminal");
+}
+
+void Pty::Terminal::open_slave(int baud) {
     std::array<char, 128> name{};
-    if (::grantpt(master_) != 0 || ::unlockpt(master_) != 0 ||
-        ::ptsname_r(master_, name.data(), name.size()) != 0) {
-        ::close(master_);
+    if (::fcntl(master, F_SETFL, O_NONBLOCK) != 0 || ::grantpt(master) != 0 ||
+        ::unlockpt(master) != 0 || ::ptsname_r(master, name.data(), name.size()) != 0) {
         fail("unlock the pseudo-terminal");
     }
-    slave_path_ = name.data();
-    slave_ = ::open(slave_path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+    path = name.data();
+    slave = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
     termios settings{};
-    if (slave_ < 0 || ::tcgetattr(slave_, &settings) != 0) {
-        ::close(master_);
-        fail("open " + slave_path_);
-    }
+    if (slave < 0 || ::tcgetattr(slave, &settings) != 0) fail("open " + path);
     ::cfmakeraw(&settings);
-    ::cfsetspeed(&settings, B460800);
-    if (::tcsetattr(slave_, TCSANOW, &settings) != 0) fail("set up " + slave_path_);
+    ::cfsetspeed(&settings, speed_code(baud));
+    if (::tcsetattr(slave, TCSANOW, &settings) != 0) fail("set up " + path);
+}
+
+Pty::Terminal::~Terminal() {
+    ::close(slave);
+    ::close(master);
+}
+
+void Pty::Terminal::swap(Terminal& other) noexcept {
+    std::swap(master, other.master);
+    std::swap(slave, other.slave);
+    std::swap(path, other.path);
+}
+
+Pty::Pty(fs::path link, int baud)
+    : link_((require_place(link), std::move(link))), baud_(baud), terminal_(baud) {
     make_link();
 }
 
+Pty::~Pty() { remove_link(); }
+
 void Pty::make_link() {
-    namespace fs = std::filesystem;
-    const fs::path fresh = link_.string() + "." + std::to_string(::getpid());
-    fs::remove(fresh);
-    fs::create_symlink(slave_path_, fresh);
-    fs::rename(fresh, link_);
+    std::error_code error;
+    fs::create_symlink(terminal_.path, link_, error);
+    if (error == std::errc::file_exists) {
+        throw InputError(link_.string() + ": somebody else has just made it; allowed: a new path");
+    }
+    if (error) throw std::system_error(error, "make the link " + link_.string());
 }
 
-Pty::~Pty() {
+void Pty::remove_link() noexcept {
     std::error_code ignored;
-    if (std::filesystem::read_symlink(link_, ignored) == slave_path_) {
-        std::filesystem::remove(link_, ignored);
-    }
-    ::close(slave_);
-    ::close(master_);
+    if (fs::read_symlink(link_, ignored) == terminal_.path) fs::remove(link_, ignored);
+}
+
+void Pty::hang_up() {
+    Terminal next(baud_);  // Opened while the old one is: its name differs.
+    remove_link();
+    terminal_.swap(next);
+}
+
+void Pty::come_back() {
+    require_place(link_);
+    make_link();
 }
 
 std::vector<std::byte> Pty::read() {
     std::array<std::byte, 4096> buffer;
-    const ssize_t got = ::read(master_, buffer.data(), buffer.size());
+    const ssize_t got = ::read(terminal_.master, buffer.data(), buffer.size());
     if (got < 0) {
         if (errno == EAGAIN || errno == EINTR) return {};
-        fail("read " + slave_path_);
+        fail("read " + terminal_.path);
     }
     return {buffer.begin(), buffer.begin() + got};
 }
 
 std::size_t Pty::write(std::span<const std::byte> bytes) {
-    const ssize_t taken = ::write(master_, bytes.data(), bytes.size());
+    const ssize_t taken = ::write(terminal_.master, bytes.data(), bytes.size());
     if (taken >= 0) return static_cast<std::size_t>(taken);
     if (errno == EAGAIN || errno == EINTR) return 0;
-    fail("write " + slave_path_);
+    fail("write " + terminal_.path);
 }
 
-void Pty::wait(bool for_space, std::chrono::nanoseconds timeout) {
-    pollfd watched{master_, static_cast<short>(for_space ? POLLIN | POLLOUT : POLLIN), 0};
-    const auto seconds = std::chrono::floor<std::chrono::seconds>(timeout);
-    const timespec limit{seconds.count(), (timeout - seconds).count()};
-    if (::ppoll(&watched, 1, &limit, nullptr) < 0 && errno != EINTR) fail("poll " + slave_path_);
+pollfd Pty::watched(bool for_space) const noexcept {
+    return {terminal_.master, static_cast<short>(for_space ? POLLIN | POLLOUT : POLLIN), 0};
 }
 
-bool Pty::is_drained() const {
+int Pty::baud() const {
+    termios settings{};
+    if (::tcgetattr(terminal_.slave, &settings) != 0) fail("ask " + terminal_.path);
+    const auto found = std::ranges::find(kSpeeds, ::cfgetospeed(&settings), &Speed::code);
+    return found == kSpeeds.end() ? 0 : found->baud;
+}
+
+std::size_t Pty::unread() const {
     int waiting = 0;
-    if (::ioctl(slave_, FIONREAD, &waiting) != 0) fail("ask " + slave_path_);
-    return waiting == 0;
+    if (::ioctl(terminal_.slave, FIONREAD, &waiting) != 0) fail("ask " + terminal_.path);
+    return static_cast<std::size_t>(waiting);
 }
 
 }  // namespace a351::sim

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <chrono>
+#include <poll.h>
+
 #include <cstddef>
 #include <filesystem>
 #include <span>
@@ -10,18 +11,21 @@
 namespace a351::sim {
 
 /// A pseudo-terminal whose other side plays the serial port: raw, never blocking, named by a
-/// symbolic link that is put in place atomically and removed at the end.  It holds its own slave
-/// descriptor open, so that a host may come and go.
+/// symbolic link.  It holds its own slave descriptor open, so that a host may come and go.
+///
+/// The link is removed at the end, if it is still ours.  An older link in its place is replaced if
+/// it dangles and points into /dev/pts: somebody was killed.  Anything else there stays.
 class Pty {
 public:
-    /// @throws std::system_error  naming the operation and the path; also when `link` exists and
-    ///                            is not a symbolic link.
-    explicit Pty(std::filesystem::path link);
+    /// @param baud  speed until a host sets another.
+    /// @throws InputError         `link` exists and is not ours, or its directory does not.
+    /// @throws std::system_error  naming the operation and the path.
+    explicit Pty(std::filesystem::path link, int baud = 460800);
     ~Pty();
     Pty(const Pty&) = delete;
     Pty& operator=(const Pty&) = delete;
 
-    [[nodiscard]] const std::string& slave_path() const noexcept { return slave_path_; }
+    [[nodiscard]] const std::string& slave_path() const noexcept { return terminal_.path; }
 
     /// What the host has written so far; empty if nothing.
     [[nodiscard]] std::vector<std::byte> read();
@@ -29,20 +33,45 @@ public:
     /// @return how many bytes the terminal took, 0 when it is full.
     [[nodiscard]] std::size_t write(std::span<const std::byte> bytes);
 
-    /// Waits until the host has written something, until the terminal takes bytes again if
-    /// `for_space`, or until the time is over.
-    void wait(bool for_space, std::chrono::nanoseconds timeout);
+    /// What stirs when the host has written something or, if `for_space`, when the terminal takes
+    /// bytes again.
+    [[nodiscard]] pollfd watched(bool for_space) const noexcept;
 
-    /// The host has read everything that was written, as far as the kernel tells.
-    [[nodiscard]] bool is_drained() const;
+    /// Speed that the host has set; 0 when it is none of the usual ones.
+    [[nodiscard]] int baud() const;
+
+    /// Bytes written that the host has not read, as far as the kernel tells: those written last may
+    /// not count yet.
+    [[nodiscard]] std::size_t unread() const;
+
+    /// The adapter is pulled out: the host sees its terminal hang up, and the link is gone.
+    void hang_up();
+
+    /// The adapter is back, as a terminal of another name.
+    /// @throws InputError  something else has taken the place of the link.
+    void come_back();
 
 private:
-    void make_link();
+    /// Both ends; closed with it.
+    struct Terminal {
+        explicit Terminal(int baud);
+        ~Terminal();
+        Terminal(const Terminal&) = delete;
+        Terminal& operator=(const Terminal&) = delete;
+        void swap(Terminal& other) noexcept;
+        void open_slave(int baud);
 
-    int master_ = -1;
-    int slave_ = -1;
-    std::string slave_path_;
+        int master = -1;
+        int slave = -1;
+        std::string path;
+    };
+
+    void make_link();
+    void remove_link() noexcept;
+
     std::filesystem::path link_;
+    int baud_;
+    Terminal terminal_;
 };
 
 }  // namespace a351::sim

@@ -16,10 +16,13 @@ MilliGal TemperatureError::next(DegC body, double since_power_on_s) noexcept {
     const double body_degc = body.value();
     crystal_degc_ += crystal_gain_ * (body_degc - crystal_degc_);
     clock_degc_ += clock_gain_ * (body_degc - clock_degc_);
-    return MilliGal(p_.crystal_static_mgal_per_degc * (body_degc - p_.reference_degc) +
-                    p_.crystal_dynamic_mgal_per_degc * (crystal_degc_ - body_degc) +
-                    p_.clock_mgal_per_degc * (clock_degc_ - p_.reference_degc) +
-                    p_.warm_up_mgal * std::exp(-since_power_on_s / (3600.0 * p_.warm_up_tau_h)));
+    terms_.static_mgal = p_.crystal_static_mgal_per_degc * (body_degc - p_.reference_degc);
+    terms_.dynamic_mgal = p_.crystal_dynamic_mgal_per_degc * (crystal_degc_ - body_degc);
+    terms_.clock_mgal = p_.clock_mgal_per_degc * (clock_degc_ - p_.reference_degc);
+    terms_.warm_up_mgal =
+        p_.warm_up_mgal * std::exp(-since_power_on_s / (3600.0 * p_.warm_up_tau_h));
+    return MilliGal(terms_.static_mgal + terms_.dynamic_mgal + terms_.clock_mgal +
+                    terms_.warm_up_mgal);
 }
 
 }  // namespace a351::sim

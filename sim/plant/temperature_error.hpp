@@ -15,6 +15,14 @@ struct TemperatureErrorParameters {
     double warm_up_tau_h = 0.0;
 };
 
+/// The four addends of the temperature error.
+struct TemperatureErrorTerms {
+    double static_mgal = 0.0;
+    double dynamic_mgal = 0.0;
+    double clock_mgal = 0.0;
+    double warm_up_mgal = 0.0;
+};
+
 /// What temperature does to the reading, beyond the sensor's own compensation:
 ///
 ///     err = rA (Tb - T0) + kA (lag(Tb, tauA) - Tb) + rC (lag(Tb, tauC) - T0) + B exp(-t/tauW)
@@ -29,10 +37,14 @@ public:
     /// Advances one step to this body temperature.
     [[nodiscard]] MilliGal next(DegC body, double since_power_on_s) noexcept;
 
+    /// Of the last step; next() returned their sum.
+    [[nodiscard]] const TemperatureErrorTerms& terms() const noexcept { return terms_; }
+
 private:
     TemperatureErrorParameters p_;
     double crystal_gain_, clock_gain_;
     double crystal_degc_, clock_degc_;  ///< Lagged body temperatures.
+    TemperatureErrorTerms terms_;
 };
 
 }  // namespace a351::sim

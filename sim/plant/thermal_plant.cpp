@@ -22,14 +22,42 @@ ThermalPlant::ThermalPlant(const OvenParameters& parameters, DegC ambient)
     delay_line_degc_.assign(static_cast<std::size_t>(std::max(1.0, steps)), thermocouple_degc_);
 }
 
+ControllerTuning ThermalPlant::tuning() const noexcept {
+    ControllerTuning tuning;
+    if (p_.proportional_per_degc > 0.0) {
+        tuning.proportional_band_degc = 1.0 / p_.proportional_per_degc;
+    }
+    if (p_.integral_per_degc_s > 0.0) {
+        tuning.integral_time_s = p_.proportional_per_degc / p_.integral_per_degc_s;
+    }
+    return tuning;
+}
+
+void ThermalPlant::set_tuning(const ControllerTuning& tuning) {
+    p_.proportional_per_degc = 1.0 / tuning.proportional_band_degc;
+    p_.integral_per_degc_s =
+        tuning.integral_time_s > 0.0 ? p_.proportional_per_degc / tuning.integral_time_s : 0.0;
+}
+
+double ThermalPlant::next_drive() {
+    const double error = p_.set_point_degc - reading_degc_;
+    if (!is_running_ || is_sensor_broken_) return 0.0;
+    if (p_.controller == ControllerKind::on_off) {
+        // A set point between two steps leaves readings at which the drive stays as it is.
+        const double rounding_degc = 1e-6 * p_.resolution_degc;
+        if (error > p_.resolution_degc - rounding_degc) return 1.0;
+        return error < rounding_degc ? 0.0 : std::round(drive_);
+    }
+    integral_ = std::clamp(integral_ + p_.integral_per_degc_s * error * kStepSeconds, 0.0, 1.0);
+    return std::clamp(integral_ + p_.proportional_per_degc * error, 0.0, 1.0);
+}
+
 void ThermalPlant::step(DegC ambient) {
     constexpr double dt = kStepSeconds;
     const double delayed_degc = std::exchange(delay_line_degc_[oldest_], thermocouple_degc_);
     oldest_ = (oldest_ + 1) % delay_line_degc_.size();
     reading_degc_ = std::round(delayed_degc / p_.resolution_degc) * p_.resolution_degc;
-    const double error = p_.set_point_degc - reading_degc_;
-    integral_ = std::clamp(integral_ + p_.integral_per_degc_s * error * dt, 0.0, 1.0);
-    drive_ = std::clamp(integral_ + p_.proportional_per_degc * error, 0.0, 1.0);
+    drive_ = next_drive();
 
     const double a = ambient.value();
     const double to_body_w = (heater_degc_ - body_degc_) / p_.heater_body_k_per_w;

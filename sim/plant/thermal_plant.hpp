@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "protocol/core/units.hpp"
+#include "sim/plant/oven_plant.hpp"
 
 namespace a351::sim {
 
@@ -24,6 +25,7 @@ struct OvenParameters {
     double resolution_degc = 0.0;
     double proportional_per_degc = 0.0;
     double integral_per_degc_s = 0.0;
+    ControllerKind controller = ControllerKind::pi;
 };
 
 /// Explicit Euler, step 1 s:
@@ -32,7 +34,10 @@ struct OvenParameters {
 ///     Cb dTb/dt = (Th - Tb)/Rhb - (Tb - a)/Rba + Pself
 ///     dTc/dt    = (Th - Tc)/tau_c,   m = Tc(t - t_dead) rounded to the resolution
 ///     e = set point - m,   I <- clip(I + Ki e dt, 0, 1),   q = Pmax clip(I + Kp e, 0, 1)
-class ThermalPlant {
+///
+/// On/off instead of PI: full drive from e = one step of the resolution on, none from e = 0 on.
+/// Stopped or without its sensor the controller gives q = 0 and keeps I.
+class ThermalPlant final : public OvenPlant {
 public:
     static constexpr double kStepSeconds = 1.0;
 
@@ -45,10 +50,23 @@ public:
 
     [[nodiscard]] DegC body() const noexcept { return DegC(body_degc_); }
     [[nodiscard]] DegC heater() const noexcept { return DegC(heater_degc_); }
-    [[nodiscard]] DegC controller_reading() const noexcept { return DegC(reading_degc_); }
-    [[nodiscard]] double drive() const noexcept { return drive_; }  ///< 0 ... 1.
+
+    [[nodiscard]] DegC controller_reading() const noexcept override { return DegC(reading_degc_); }
+    [[nodiscard]] double drive() const noexcept override { return drive_; }
+    [[nodiscard]] DegC set_point() const noexcept override { return DegC(p_.set_point_degc); }
+    [[nodiscard]] bool is_running() const noexcept override { return is_running_; }
+    [[nodiscard]] bool is_sensor_broken() const noexcept override { return is_sensor_broken_; }
+    [[nodiscard]] ControllerKind controller() const noexcept override { return p_.controller; }
+    [[nodiscard]] ControllerTuning tuning() const noexcept override;
+    void set_set_point(DegC set_point) override { p_.set_point_degc = set_point.value(); }
+    void set_running(bool is_running) override { is_running_ = is_running; }
+    void break_sensor(bool is_broken) override { is_sensor_broken_ = is_broken; }
+    void set_controller(ControllerKind kind) override { p_.controller = kind; }
+    void set_tuning(const ControllerTuning& tuning) override;
 
 private:
+    [[nodiscard]] double next_drive();
+
     OvenParameters p_;
     double heater_degc_;
     double body_degc_;
@@ -58,6 +76,8 @@ private:
     double drive_;
     std::vector<double> delay_line_degc_;  ///< Thermocouple, one value per step of dead time.
     std::size_t oldest_ = 0;
+    bool is_running_ = true;
+    bool is_sensor_broken_ = false;
 };
 
 }  // namespace a351::sim

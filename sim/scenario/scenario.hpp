@@ -4,6 +4,7 @@
 /// say which values are published, fitted or assumed.  Named scenarios are compiled in.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,13 +17,27 @@
 
 namespace a351::sim {
 
+/// Angles by which the box is off the vertical.
+struct Levelling {
+    double about_y_deg = 0.0;  ///< Turned first; positive: the x axis sees part of gravity.
+    double about_x_deg = 0.0;  ///< Then this; positive: the y axis sees part of it, negatively.
+};
+
 /// One stay at a site as listed, before its start and length are drawn.
 struct ListedOccupation {
     std::string site;
     int number = 1;  ///< Counts the stays at this site.
     UtcTime centre;
-    double ambient_degc = 0.0;  ///< Air inside the cool box at that time.
-    bool is_outlier = false;    ///< Left out by the publication.
+    std::optional<double> length_s;      ///< Instead of the schedule's.
+    std::optional<double> ambient_degc;  ///< Air inside the cool box at that time.
+    bool is_outlier = false;             ///< Left out by the publication.
+    std::vector<Levelling> levelling;    ///< One per set-up; empty: drawn, and as many as usual.
+};
+
+/// A record at one point, without occupations.
+struct FixedRecord {
+    UtcTime start;
+    double duration_h = 0.0;
 };
 
 struct ScheduleParameters {
@@ -31,8 +46,35 @@ struct ScheduleParameters {
     double length_s = 0.0;
     double jitter_s = 0.0;  ///< Centre and length are uniform within +- this.
     double shortest_s = 0.0;
+    int set_ups = 1;                   ///< Parts of equal length; between them the box is lifted.
     double ambient_before_degc = 0.0;  ///< At the start of the record.
     double ambient_after_degc = 0.0;   ///< At its end.
+};
+
+/// Air inside the cool box at an instant, or so many hours after the start of the record.
+struct ListedAmbient {
+    std::optional<double> hours;
+    UtcTime utc;  ///< Unless `hours`.
+    double degc = 0.0;
+};
+
+struct AmbientKnot {
+    UtcTime time;
+    double degc = 0.0;
+};
+
+/// The lid stands open during a stay, or between two instants.
+struct ListedOpenLid {
+    std::string site;  ///< Empty: from ... to.
+    int number = 1;
+    UtcTime from, to;
+    double outside_degc = 0.0;
+};
+
+struct CoolBoxParameters {
+    double walk_degc_per_sqrt_h = 0.0;  ///< Random walk of the air inside.
+    double open_tau_s = 0.0;    ///< With which the air inside follows the outside, lid open ...
+    double closed_tau_s = 0.0;  ///< ... and returns to its own course, lid closed.
 };
 
 struct SensorParameters {
@@ -46,6 +88,13 @@ struct SensorParameters {
     double temperature_warm_up_tau_h = 0.0;
 };
 
+/// Rate of the sensor's sample clock against true time; positive: fast.
+struct ClockParameters {
+    double error_ppm = 0.0;
+    double wander_ppm_per_sqrt_h = 0.0;     ///< Random walk.
+    double temperature_ppm_per_degc = 0.0;  ///< Per degC above the temperature error's reference.
+};
+
 struct SlowNoiseParameters {
     double flicker_mgal = 0.0;  ///< Rms over the day.
     double flicker_shortest_s = 0.0;
@@ -53,8 +102,9 @@ struct SlowNoiseParameters {
     double resonant_mgal = 0.0;
     double resonant_period_s = 0.0;
     double resonant_quality = 0.0;
-    double white_mgal = 0.0;      ///< Rms of 20 s means.
-    double placement_mgal = 0.0;  ///< One draw per set-up.
+    double white_mgal = 0.0;        ///< Rms of 20 s means.
+    double temperature_degc = 0.0;  ///< White, rms of 20 s means of the reported temperature.
+    double placement_mgal = 0.0;    ///< One draw per set-up.
     double drift_linear_mgal_per_h = 0.0;
     double drift_quadratic_mgal_per_h2 = 0.0;
     double drift_walk_mgal_per_sqrt_h = 0.0;
@@ -72,7 +122,7 @@ struct VibrationParameters {
     double ground_low_hz = 0.0, ground_high_hz = 0.0;
     double vehicles_per_h = 0.0;
     Range vehicle_s, vehicle_hz, vehicle_gal;
-    double handling_probability = 0.0;  ///< At each end of an occupation.
+    double handling_probability = 0.0;  ///< At each end of a set-up.
     Range handling_s, handling_hz, handling_gal;
     double knock_probability = 0.0;  ///< Per occupation.
     Range knock_s, knock_gal;        ///< Frequency: as handling.
@@ -80,28 +130,51 @@ struct VibrationParameters {
     Range spike_gal;
 };
 
+/// What the adapter and the host's driver do to the bytes on their way; zero: nothing, at once.
+struct LineParameters {
+    double latency_timer_ms = 0.0;   ///< The adapter hands bytes over on this grid.
+    double latency_timer_ppm = 0.0;  ///< How much faster than simulated time its grid runs.
+    double usb_poll_ms = 0.0;        ///< The host asks the adapter on this grid.
+    double jitter_ms = 0.0;          ///< Further delay, uniform between 0 and this.
+    double stall_per_h = 0.0;        ///< Mean number of stalls, at random instants.
+    Range stall_s;                   ///< Length of one.
+    bool is_bytewise = false;        ///< Every byte is handed over by itself.
+    bool is_paced = false;           ///< Bytes take their time on the wire, by the baud rate.
+};
+
 struct Scenario {
     std::string name;
     std::vector<text::Site> sites;
-    std::vector<ListedOccupation> occupations;  ///< In time order.
+    std::vector<ListedOccupation> occupations;  ///< In time order; none in a fixed record.
+    std::optional<FixedRecord> fixed_record;
+    std::vector<ListedAmbient> ambient;  ///< Instead of the occupations' values.
+    std::vector<ListedOpenLid> open_lids;
     ScheduleParameters schedule;
+    CoolBoxParameters cool_box;
     OvenParameters oven;
     TemperatureErrorParameters error;
+    double unit_scatter = 0.0;  ///< `error` is drawn for each unit within +- this share.
     SensorParameters sensor;
+    ClockParameters clock;
     SlowNoiseParameters slow_noise;
     VibrationParameters vibration;
+    LineParameters line;
 
     /// The record's limits; the sample grid starts at start().
     [[nodiscard]] UtcTime start() const;
     [[nodiscard]] UtcTime end() const;
 
-    /// Air around the oven: linear between the occupations' values, constant outside.
-    [[nodiscard]] DegC ambient(UtcTime time) const;
+    /// Course of the air inside the cool box, in time order: ambient_at() reads it.
+    [[nodiscard]] std::vector<AmbientKnot> ambient_knots() const;
 };
+
+/// Linear between the knots, constant outside.
+[[nodiscard]] DegC ambient_at(const std::vector<AmbientKnot>& knots, UtcTime time);
 
 /// A compiled-in scenario by name, or a TOML file.
 /// @throws InputError  neither; or the file is not a scenario.  A key that is missing without
-///                     `base` is refused, as is an unknown one.
+///                     `base` is refused, as is an unknown one; only [clock], [line] and their
+///                     keys may always be missing: nothing then happens.
 [[nodiscard]] Scenario load_scenario(const std::string& name_or_file);
 
 /// As load_scenario, from text.  `origin` stands for the file name in messages.

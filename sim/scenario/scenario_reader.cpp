@@ -6,6 +6,7 @@
 #include "protocol/text/text_file.hpp"
 #include "sim/scenario/embedded_scenarios.hpp"
 #include "sim/scenario/scenario.hpp"
+#include "sim/scenario/scenario_places.hpp"
 
 namespace a351::sim {
 namespace {
@@ -33,6 +34,22 @@ public:
         value = {ends[0], ends[1]};
     }
 
+    void integer(std::string_view key, int& value, int low, int high) {
+        require(key);
+        value = static_cast<int>(table_.integer_or(key, value, low, high));
+    }
+
+    void boolean(std::string_view key, bool& value) {
+        require(key);
+        value = table_.boolean_or(key, value);
+    }
+
+    /// May be missing even without a base.
+    [[nodiscard]] std::string optional_word(std::string_view key, std::string fallback,
+                                            const std::vector<std::string>& allowed) {
+        return table_.choice_or(key, std::move(fallback), allowed);
+    }
+
     void done() const { table_.require_all_read(); }
 
 private:
@@ -50,8 +67,27 @@ void read_schedule(Section s, ScheduleParameters& p) {
     s.number("length_s", p.length_s, 60.0, 1e6);
     s.number("jitter_s", p.jitter_s, 0.0, 1e5);
     s.number("shortest_s", p.shortest_s, 60.0, 1e6);
+    s.integer("setups", p.set_ups, 1, 10);
     s.number("ambient_before_degc", p.ambient_before_degc, -40.0, 42.0);
     s.number("ambient_after_degc", p.ambient_after_degc, -40.0, 42.0);
+    s.done();
+}
+
+/// What `base`, if any, already says may be missing.
+FixedRecord read_fixed_record(text::TomlTable table, const std::optional<FixedRecord>& base) {
+    FixedRecord record = base.value_or(FixedRecord{});
+    if (!base || table.has("start_utc")) record.start = required_instant(table, "start_utc");
+    if (!base || table.has("duration_h")) {
+        record.duration_h = required_number(table, "duration_h", 0.01, 10'000.0);
+    }
+    table.require_all_read();
+    return record;
+}
+
+void read_cool_box(Section s, CoolBoxParameters& p) {
+    s.number("walk_degc_per_sqrt_h", p.walk_degc_per_sqrt_h, 0.0, 10.0);
+    s.number("open_tau_s", p.open_tau_s, 1.0, 1e5);
+    s.number("closed_tau_s", p.closed_tau_s, 1.0, 1e5);
     s.done();
 }
 
@@ -69,10 +105,13 @@ void read_oven(Section s, OvenParameters& p) {
     s.number("resolution_degc", p.resolution_degc, 0.001, 10.0);
     s.number("proportional_per_degc", p.proportional_per_degc, 0.0, 1000.0);
     s.number("integral_per_degc_s", p.integral_per_degc_s, 0.0, 1000.0);
+    const std::string now = p.controller == ControllerKind::on_off ? "onoff" : "pi";
+    const bool is_on_off = s.optional_word("controller", now, {"pi", "onoff"}) == "onoff";
+    p.controller = is_on_off ? ControllerKind::on_off : ControllerKind::pi;
     s.done();
 }
 
-void read_error(Section s, TemperatureErrorParameters& p) {
+void read_error(Section s, TemperatureErrorParameters& p, double& unit_scatter) {
     s.number("reference_degc", p.reference_degc, 0.0, 80.0);
     s.number("crystal_static_mgal_per_degc", p.crystal_static_mgal_per_degc, -1e5, 1e5);
     s.number("crystal_dynamic_mgal_per_degc", p.crystal_dynamic_mgal_per_degc, -1e5, 1e5);
@@ -81,6 +120,7 @@ void read_error(Section s, TemperatureErrorParameters& p) {
     s.number("clock_tau_s", p.clock_tau_s, 1.0, 1e6);
     s.number("warm_up_mgal", p.warm_up_mgal, -1e4, 1e4);
     s.number("warm_up_tau_h", p.warm_up_tau_h, 0.01, 1000.0);
+    s.number("unit_scatter", unit_scatter, 0.0, 0.9);
     s.done();
 }
 
@@ -96,6 +136,13 @@ void read_sensor(Section s, SensorParameters& p) {
     s.done();
 }
 
+void read_clock(Section s, ClockParameters& p) {
+    s.number("error_ppm", p.error_ppm, -1e4, 1e4);
+    s.number("wander_ppm_per_sqrt_h", p.wander_ppm_per_sqrt_h, 0.0, 100.0);
+    s.number("temperature_ppm_per_degc", p.temperature_ppm_per_degc, -100.0, 100.0);
+    s.done();
+}
+
 void read_slow_noise(Section s, SlowNoiseParameters& p) {
     s.number("flicker_mgal", p.flicker_mgal, 0.0, 1000.0);
     s.number("flicker_shortest_s", p.flicker_shortest_s, 10.0, 1e6);
@@ -104,6 +151,7 @@ void read_slow_noise(Section s, SlowNoiseParameters& p) {
     s.number("resonant_period_s", p.resonant_period_s, 10.0, 1e5);
     s.number("resonant_quality", p.resonant_quality, 0.5, 1000.0);
     s.number("white_20s_mgal", p.white_mgal, 0.0, 1000.0);
+    s.number("temperature_20s_degc", p.temperature_degc, 0.0, 10.0);
     s.number("placement_mgal", p.placement_mgal, 0.0, 1000.0);
     s.number("drift_linear_mgal_per_h", p.drift_linear_mgal_per_h, -1000.0, 1000.0);
     s.number("drift_quadratic_mgal_per_h2", p.drift_quadratic_mgal_per_h2, -1000.0, 1000.0);
@@ -134,63 +182,16 @@ void read_vibration(Section s, VibrationParameters& p) {
     s.done();
 }
 
-double required(text::TomlTable& table, std::string_view key, double low, double high) {
-    const std::optional<double> value = table.number(key, low, high);
-    if (!value) table.refuse(key, "missing", "a number");
-    return *value;
-}
-
-text::Site read_site(text::TomlTable& table) {
-    text::Site site;
-    site.name = table.string_or("name", "");
-    if (site.name.empty()) table.refuse("name", "missing", "a name");
-    site.longitude = Degrees(required(table, "longitude_deg", -180.0, 360.0));
-    site.latitude = Degrees(required(table, "latitude_deg", -90.0, 90.0));
-    site.altitude = Metres(required(table, "altitude_m", -500.0, 9000.0));
-    site.gravity = MilliGal(required(table, "gravity_mgal", 970000.0, 990000.0));
-    table.require_all_read();
-    return site;
-}
-
-ListedOccupation read_occupation(text::TomlTable& table, const Scenario& scenario) {
-    ListedOccupation occupation;
-    occupation.site = table.string_or("site", "");
-    if (text::find_site(scenario.sites, occupation.site) == nullptr) {
-        table.refuse("site", "no such site", "the name of a [[site]]");
-    }
-    occupation.number =
-        static_cast<int>(table.integer_or("number", 1, 1, std::numeric_limits<int>::max()));
-    const auto centre = parse_rfc3339(table.string_or("centre_utc", ""));
-    if (!centre) table.refuse("centre_utc", "not an instant", "RFC 3339");
-    occupation.centre = *centre;
-    occupation.ambient_degc = required(table, "ambient_degc", -40.0, 42.0);
-    occupation.is_outlier = table.boolean_or("outlier", false);
-    table.require_all_read();
-    return occupation;
-}
-
-/// Sites and occupations replace those of the base as a whole.
-void read_places(text::TomlTable& document, Scenario& scenario) {
-    if (document.has("site")) scenario.sites.clear();
-    for (text::TomlTable& table : document.tables("site")) {
-        const text::Site site = read_site(table);
-        if (text::find_site(scenario.sites, site.name) != nullptr) {
-            table.refuse("name", "stands twice", "each site once");
-        }
-        scenario.sites.push_back(site);
-    }
-    if (document.has("occupation")) scenario.occupations.clear();
-    for (text::TomlTable& table : document.tables("occupation")) {
-        const ListedOccupation occupation = read_occupation(table, scenario);
-        if (!scenario.occupations.empty() &&
-            occupation.centre <= scenario.occupations.back().centre) {
-            table.refuse("centre_utc", "not after the one before", "rising instants");
-        }
-        scenario.occupations.push_back(occupation);
-    }
-    if (scenario.occupations.empty()) {
-        document.refuse("occupation", "missing", "at least one [[occupation]]");
-    }
+void read_line(Section s, LineParameters& p) {
+    s.number("latency_timer_ms", p.latency_timer_ms, 0.0, 255.0);
+    s.number("latency_timer_ppm", p.latency_timer_ppm, -1e4, 1e4);
+    s.number("usb_poll_ms", p.usb_poll_ms, 0.0, 100.0);
+    s.number("jitter_ms", p.jitter_ms, 0.0, 1000.0);
+    s.number("stall_per_h", p.stall_per_h, 0.0, 3600.0);
+    s.range("stall_s", p.stall_s, 0.0, 60.0);
+    s.boolean("is_bytewise", p.is_bytewise);
+    s.boolean("is_paced", p.is_paced);
+    s.done();
 }
 
 const EmbeddedScenario* find_embedded(std::string_view name) {
@@ -224,12 +225,24 @@ Scenario parse_scenario(std::string toml, const std::filesystem::path& origin) {
     const auto section = [&](std::string_view name) {
         return Section(document, name, !base.empty());
     };
-    read_schedule(section("schedule"), scenario.schedule);
+    const bool has_own_record = document.table("schedule").has("start_utc");
+    if (has_own_record || (scenario.fixed_record && !document.has("occupation"))) {
+        scenario.fixed_record =
+            read_fixed_record(document.table("schedule"), scenario.fixed_record);
+        scenario.occupations.clear();
+        if (has_own_record) scenario.open_lids.clear();
+    } else {
+        scenario.fixed_record.reset();
+        read_schedule(section("schedule"), scenario.schedule);
+    }
+    read_cool_box(section("cool_box"), scenario.cool_box);
     read_oven(section("oven"), scenario.oven);
-    read_error(section("temperature_error"), scenario.error);
+    read_error(section("temperature_error"), scenario.error, scenario.unit_scatter);
     read_sensor(section("sensor"), scenario.sensor);
+    read_clock(Section(document, "clock", true), scenario.clock);
     read_slow_noise(section("slow_noise"), scenario.slow_noise);
     read_vibration(section("vibration"), scenario.vibration);
+    read_line(Section(document, "line", true), scenario.line);
     read_places(document, scenario);
     document.require_all_read();
     return scenario;

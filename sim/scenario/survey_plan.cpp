@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <numbers>
 #include <system_error>
 
+#include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 #include "sim/noise/random.hpp"
 
@@ -16,38 +18,131 @@ using text::shortest;
 /// The box has to be carried at least this long; only a scenario with very close times needs it.
 constexpr double kShortestDriveSeconds = 60.0;
 
-std::string interval(const PlannedOccupation& occupation) {
-    return occupation.site.name + "," + std::to_string(occupation.number) + "," +
-           to_rfc3339(occupation.start, 3) + "," + to_rfc3339(occupation.end, 3);
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+
+UtcTime whole_milliseconds(UtcTime time) {
+    return std::chrono::floor<std::chrono::milliseconds>(time);
+}
+
+struct Interval {
+    UtcTime from, start, end;
+};
+
+/// When each occupation takes place, and from when on its site's gravity acts.
+std::vector<Interval> draw_intervals(const Scenario& scenario, std::uint64_t seed) {
+    RandomStream stream(seed, "schedule");
+    const ScheduleParameters& p = scenario.schedule;
+    std::vector<Interval> intervals;
+    for (const ListedOccupation& listed : scenario.occupations) {
+        const double shift_s = stream.uniform(-p.jitter_s, p.jitter_s);
+        const double listed_s = listed.length_s.value_or(p.length_s);
+        const double length_s = std::max(std::min(p.shortest_s, listed_s),
+                                         listed_s + stream.uniform(-p.jitter_s, p.jitter_s));
+        Interval interval{scenario.start(), {}, {}};
+        interval.start = listed.centre + from_seconds(shift_s - 0.5 * length_s);
+        if (intervals.empty()) {
+            interval.start = std::max(interval.start, scenario.start());
+        } else {
+            const UtcTime left = intervals.back().end;
+            interval.start = std::max(interval.start, left + from_seconds(kShortestDriveSeconds));
+            interval.from = left + (interval.start - left) / 2;
+        }
+        interval.start = whole_milliseconds(interval.start);
+        interval.end = std::min(whole_milliseconds(interval.start + from_seconds(length_s)),
+                                whole_milliseconds(scenario.end()));
+        if (seconds_between(interval.start, interval.end) <
+            0.5 * std::min(p.shortest_s, listed_s)) {
+            throw InputError("scenario " + scenario.name + ": occupation of " + listed.site + " (" +
+                             std::to_string(listed.number) +
+                             "): no room before the record ends; allowed: occupations further "
+                             "apart, or a larger schedule.lead_out_min");
+        }
+        intervals.push_back(interval);
+    }
+    return intervals;
+}
+
+/// Draws what differs from one set-up to the next.
+class SetUpDraws {
+public:
+    SetUpDraws(const Scenario& scenario, std::uint64_t seed)
+        : sigma_rad_(scenario.sensor.levelling_sigma_deg * kRadiansPerDegree),
+          placement_rms_mgal_(scenario.slow_noise.placement_mgal),
+          levelling_(seed, "levelling"),
+          placement_(seed, "placement") {}
+
+    void draw(PlannedSetUp& set_up) {
+        set_up.about_y_rad = sigma_rad_ * levelling_.normal();
+        set_up.about_x_rad = sigma_rad_ * levelling_.normal();
+        set_up.placement_mgal = placement_rms_mgal_ * placement_.normal();
+    }
+
+private:
+    double sigma_rad_, placement_rms_mgal_;
+    RandomStream levelling_, placement_;
+};
+
+PlannedSetUp whole_record(const Scenario& scenario) {
+    PlannedSetUp set_up;
+    set_up.site = scenario.sites.front();
+    set_up.start = set_up.from = scenario.start();
+    set_up.end = scenario.end();
+    set_up.is_occupied = false;
+    return set_up;
+}
+
+std::string row_start(const PlannedSetUp& set_up) {
+    return set_up.site.name + "," + std::to_string(set_up.number) + "," +
+           to_rfc3339(set_up.start, 3) + "," + to_rfc3339(set_up.end, 3);
 }
 
 }  // namespace
 
-std::vector<PlannedOccupation> plan_survey(const Scenario& scenario, std::uint64_t seed) {
-    RandomStream stream(seed, "schedule");
-    const ScheduleParameters& p = scenario.schedule;
-    std::vector<PlannedOccupation> plan;
-    for (const ListedOccupation& listed : scenario.occupations) {
-        PlannedOccupation planned;
-        planned.site = *text::find_site(scenario.sites, listed.site);
-        planned.number = listed.number;
-        planned.is_outlier = listed.is_outlier;
-        const double shift_s = stream.uniform(-p.jitter_s, p.jitter_s);
-        const double length_s =
-            std::max(p.shortest_s, p.length_s + stream.uniform(-p.jitter_s, p.jitter_s));
-        planned.start = listed.centre + from_seconds(shift_s - 0.5 * length_s);
-        planned.arrival = scenario.start();
-        if (!plan.empty()) {
-            const UtcTime left = plan.back().end;
-            planned.start = std::max(planned.start, left + from_seconds(kShortestDriveSeconds));
-            planned.arrival = left + (planned.start - left) / 2;
+std::vector<PlannedSetUp> plan_survey(const Scenario& scenario, std::uint64_t seed) {
+    SetUpDraws draws(scenario, seed);
+    if (scenario.fixed_record) {
+        std::vector<PlannedSetUp> plan{whole_record(scenario)};
+        draws.draw(plan.front());
+        return plan;
+    }
+    const std::vector<Interval> intervals = draw_intervals(scenario, seed);
+    std::vector<PlannedSetUp> plan;
+    for (std::size_t i = 0; i < intervals.size(); ++i) {
+        const ListedOccupation& listed = scenario.occupations[i];
+        const auto [from, start, end] = intervals[i];
+        PlannedSetUp set_up;
+        set_up.site = *text::find_site(scenario.sites, listed.site);
+        set_up.number = listed.number;
+        set_up.is_outlier = listed.is_outlier;
+        set_up.parts = listed.levelling.empty() ? scenario.schedule.set_ups
+                                                : static_cast<int>(listed.levelling.size());
+        for (int part = 1; part <= set_up.parts; ++part) {
+            set_up.part = part;
+            set_up.start = whole_milliseconds(start + (end - start) * (part - 1) / set_up.parts);
+            set_up.end = whole_milliseconds(start + (end - start) * part / set_up.parts);
+            set_up.from = part == 1 ? from : set_up.start;
+            draws.draw(set_up);
+            if (!listed.levelling.empty()) {
+                const Levelling& angles = listed.levelling[static_cast<std::size_t>(part - 1)];
+                set_up.about_y_rad = angles.about_y_deg * kRadiansPerDegree;
+                set_up.about_x_rad = angles.about_x_deg * kRadiansPerDegree;
+            }
+            plan.push_back(set_up);
         }
-        planned.start = std::chrono::floor<std::chrono::milliseconds>(planned.start);
-        planned.end =
-            std::chrono::floor<std::chrono::milliseconds>(planned.start + from_seconds(length_s));
-        plan.push_back(planned);
     }
     return plan;
+}
+
+TemperatureErrorParameters drawn_unit(const Scenario& scenario, std::uint64_t seed) {
+    TemperatureErrorParameters unit = scenario.error;
+    if (scenario.unit_scatter == 0.0) return unit;
+    RandomStream stream(seed, "unit");
+    for (double* value : {&unit.crystal_static_mgal_per_degc, &unit.crystal_dynamic_mgal_per_degc,
+                          &unit.crystal_tau_s, &unit.clock_mgal_per_degc, &unit.clock_tau_s,
+                          &unit.warm_up_mgal, &unit.warm_up_tau_h}) {
+        *value *= stream.uniform(1.0 - scenario.unit_scatter, 1.0 + scenario.unit_scatter);
+    }
+    return unit;
 }
 
 std::string sites_csv(const Scenario& scenario) {
@@ -60,20 +155,12 @@ std::string sites_csv(const Scenario& scenario) {
     return csv;
 }
 
-std::string schedule_csv(const std::vector<PlannedOccupation>& plan) {
+std::string schedule_csv(const std::vector<PlannedSetUp>& plan) {
     std::string csv = "site,occupation,start_utc,end_utc,used,note\n";
-    for (const PlannedOccupation& occupation : plan) {
-        csv += interval(occupation) +
-               (occupation.is_outlier ? ",0,left out by the publication\n" : ",1,\n");
-    }
-    return csv;
-}
-
-std::string truth_csv(const std::vector<PlannedOccupation>& plan) {
-    std::string csv = "site,occupation,start_utc,end_utc,gravity_mgal,used\n";
-    for (const PlannedOccupation& occupation : plan) {
-        csv += interval(occupation) + "," + shortest(occupation.site.gravity->value()) +
-               (occupation.is_outlier ? ",0\n" : ",1\n");
+    for (const PlannedSetUp& set_up : plan) {
+        if (!set_up.is_occupied) continue;
+        csv +=
+            row_start(set_up) + (set_up.is_outlier ? ",0,left out by the publication\n" : ",1,\n");
     }
     return csv;
 }
@@ -83,13 +170,6 @@ void write_text_file(const std::filesystem::path& file, const std::string& text)
     out << text;
     out.close();
     if (!out) throw std::system_error(errno, std::generic_category(), file.string());
-}
-
-void write_plan(const Scenario& scenario, const std::vector<PlannedOccupation>& plan,
-                const std::filesystem::path& directory) {
-    write_text_file(directory / "sites.csv", sites_csv(scenario));
-    write_text_file(directory / "schedule.csv", schedule_csv(plan));
-    write_text_file(directory / "truth.csv", truth_csv(plan));
 }
 
 }  // namespace a351::sim

@@ -44,7 +44,7 @@ double envelope_at(const Burst& burst, double u) {
 
 }  // namespace
 
-std::vector<Burst> draw_bursts(const Scenario& scenario, const std::vector<PlannedOccupation>& plan,
+std::vector<Burst> draw_bursts(const Scenario& scenario, const std::vector<PlannedSetUp>& plan,
                                std::uint64_t seed) {
     const VibrationParameters& p = scenario.vibration;
     const double record_s = seconds_between(scenario.start(), scenario.end());
@@ -64,9 +64,10 @@ std::vector<Burst> draw_bursts(const Scenario& scenario, const std::vector<Plann
 
     RandomStream handling(seed, "handling");
     RandomStream knocks(seed, "knocks");
-    for (const PlannedOccupation& occupation : plan) {
-        const double start_s = seconds_between(scenario.start(), occupation.start);
-        const double end_s = seconds_between(scenario.start(), occupation.end);
+    for (const PlannedSetUp& set_up : plan) {
+        if (!set_up.is_occupied) continue;
+        const double start_s = seconds_between(scenario.start(), set_up.start);
+        const double end_s = seconds_between(scenario.start(), set_up.end);
         if (handling.uniform() < p.handling_probability) {
             Burst burst = draw_burst(handling, Burst::Envelope::decay, p.handling_s, p.handling_hz,
                                      p.handling_gal);
@@ -79,7 +80,7 @@ std::vector<Burst> draw_bursts(const Scenario& scenario, const std::vector<Plann
             burst.start_s = end_s - burst.length_s;
             bursts.push_back(burst);
         }
-        if (knocks.uniform() < p.knock_probability) {
+        if (knocks.uniform() < p.knock_probability / set_up.parts) {
             Burst burst =
                 draw_burst(knocks, Burst::Envelope::decay, p.knock_s, p.handling_hz, p.knock_gal);
             burst.start_s = start_s + (end_s - start_s) * knocks.uniform(0.25, 0.75);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What shakes the box for a while: passing vehicles, handling at both ends of an occupation, and
+/// What shakes the box for a while: passing vehicles, handling at both ends of a set-up, and
 /// the occasional knock in the middle of one.
 
 #include <array>
@@ -25,7 +25,7 @@ struct Burst {
 
 /// All bursts of a record, in the order of their starts.
 [[nodiscard]] std::vector<Burst> draw_bursts(const Scenario& scenario,
-                                             const std::vector<PlannedOccupation>& plan,
+                                             const std::vector<PlannedSetUp>& plan,
                                              std::uint64_t seed);
 
 /// Adds up the bursts at rising instants.

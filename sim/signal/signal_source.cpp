@@ -7,19 +7,23 @@
 namespace a351::sim {
 namespace {
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-
 std::int32_t rounded(double counts) noexcept {
     return static_cast<std::int32_t>(std::floor(counts + 0.5));
 }
 
-/// The vertical as the axes see it, after turning about y by one angle and about x by another.
-std::array<double, 3> tilted_vertical(double about_y_rad, double about_x_rad) {
-    return {std::sin(about_y_rad), -std::cos(about_y_rad) * std::sin(about_x_rad),
-            std::cos(about_y_rad) * std::cos(about_x_rad)};
+}  // namespace
+
+std::array<double, 3> tilted_vertical(const PlannedSetUp& set_up) {
+    const double y = set_up.about_y_rad, x = set_up.about_x_rad;
+    return {std::sin(y), -std::cos(y) * std::sin(x), std::cos(y) * std::cos(x)};
 }
 
-}  // namespace
+std::array<double, 3> axis_bias_mgal(const Scenario& scenario, std::uint64_t seed) {
+    RandomStream stream(seed, "axis bias");
+    const double most = scenario.sensor.horizontal_bias_max_mgal;
+    const double x_mgal = stream.uniform(-most, most);
+    return {x_mgal, stream.uniform(-most, most), 0.0};
+}
 
 BandNoise::BandNoise(double rms, double low_hz, double high_hz, double rate_hz)
     : low_gain_(1.0 - std::exp(-2.0 * std::numbers::pi * low_hz / rate_hz)),
@@ -61,25 +65,23 @@ SignalSource::SignalSource(const Scenario& scenario, const wire::DeviceProfile& 
                                scenario.vibration.ground_high_hz, kRateHz),
                      BandNoise(scenario.vibration.ground_mgal, scenario.vibration.ground_low_hz,
                                scenario.vibration.ground_high_hz, kRateHz)},
+      bias_mgal_(axis_bias_mgal(scenario_, seed)),
+      clock_(scenario_.clock, DegC(scenario_.error.reference_degc), scenario_.start(), seed),
       sample_count_(static_cast<std::int64_t>(
           std::floor(seconds_between(scenario_.start(), scenario_.end()) * kRateHz))) {
-    RandomStream bias(seed, "axis bias");
-    const double most = scenario_.sensor.horizontal_bias_max_mgal;
-    bias_mgal_[0] = bias.uniform(-most, most);
-    bias_mgal_[1] = bias.uniform(-most, most);
-    RandomStream levelling(seed, "levelling");
-    const double sigma_rad = scenario_.sensor.levelling_sigma_deg * kRadiansPerDegree;
-    for (std::size_t i = 0; i < plan_.size(); ++i) {
-        const double about_y_rad = sigma_rad * levelling.normal();
-        vertical_.push_back(tilted_vertical(about_y_rad, sigma_rad * levelling.normal()));
-    }
+    for (const PlannedSetUp& set_up : plan_) vertical_.push_back(tilted_vertical(set_up));
     from_ = slow_.next();
     to_ = slow_.next();
+    clock_.begin_second(from_.temperature);
+}
+
+double SignalSource::share_of_second() const noexcept {
+    return static_cast<double>(index_ % kRateHz) / kRateHz;
 }
 
 std::optional<UtcTime> SignalSource::next_instant() const {
     if (index_ == sample_count_) return std::nullopt;
-    return scenario_.start() + Nanoseconds(index_ * (1'000'000'000 / kRateHz));
+    return clock_.at(share_of_second());
 }
 
 void SignalSource::add_noise(std::array<double, 3>& axes_mgal) {
@@ -98,15 +100,10 @@ void SignalSource::add_noise(std::array<double, 3>& axes_mgal) {
 TimedSample SignalSource::next() {
     assert(index_ < sample_count_);
     TimedSample sample{*next_instant(), index_, {}};
-    const std::int64_t within = index_ % kRateHz;
-    if (within == 0 && index_ > 0) {
-        from_ = to_;
-        to_ = slow_.next();
-    }
-    const double share = static_cast<double>(within) / kRateHz;
+    const double share = share_of_second();
     const double vertical_mgal =
         from_.vertical.value() + share * (to_.vertical - from_.vertical).value();
-    std::array<double, 3> axes_mgal = vertical_[from_.occupation];
+    std::array<double, 3> axes_mgal = vertical_[from_.set_up];
     for (double& axis : axes_mgal) axis *= vertical_mgal;
     disturbances_.add_to(axes_mgal, static_cast<double>(index_) / kRateHz);
     add_noise(axes_mgal);
@@ -121,7 +118,11 @@ TimedSample SignalSource::next() {
                                     scenario_.sensor.temperature_white_degc * temperature_.normal();
     sample.values.temperature_counts = rounded(
         (temperature_degc - profile_.temperature_offset_degc) / profile_.temperature_slope_degc);
-    ++index_;
+    if (++index_ % kRateHz == 0) {
+        from_ = to_;
+        to_ = slow_.next();
+        clock_.begin_second(from_.temperature);
+    }
     return sample;
 }
 

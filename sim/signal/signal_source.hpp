@@ -12,9 +12,16 @@
 #include "sim/scenario/survey_plan.hpp"
 #include "sim/signal/disturbance.hpp"
 #include "sim/signal/sample_source.hpp"
+#include "sim/signal/sensor_clock.hpp"
 #include "sim/signal/slow_signal.hpp"
 
 namespace a351::sim {
+
+/// The vertical as the axes see it, after turning about y by one angle and then about x.
+[[nodiscard]] std::array<double, 3> tilted_vertical(const PlannedSetUp& set_up);
+
+/// Of x and y, fixed for a unit; that of the vertical is a Term.
+[[nodiscard]] std::array<double, 3> axis_bias_mgal(const Scenario& scenario, std::uint64_t seed);
 
 /// Noise between two frequencies: white noise through a first-order high-pass and low-pass.
 class BandNoise {
@@ -30,8 +37,8 @@ private:
     double slow_ = 0.0, fast_ = 0.0;
 };
 
-/// The samples of a simulated day, 50 a second on a fixed grid: sample k belongs to
-/// scenario start + k/50 s and depends on (scenario, profile, seed, k) only.
+/// The samples of a simulated day, 50 a second by the sensor's clock: sample k depends on
+/// (scenario, profile, seed, k) only, and with a true clock belongs to scenario start + k/50 s.
 ///
 /// The vertical specific force is turned into the axes by the levelling angles of the set-up,
 /// then come axis biases, ground noise, bursts, spikes, white noise and rounding to counts.
@@ -48,20 +55,26 @@ public:
     [[nodiscard]] std::optional<UtcTime> next_instant() const override;
     [[nodiscard]] TimedSample next() override;
 
-    [[nodiscard]] const std::vector<PlannedOccupation>& plan() const noexcept { return plan_; }
+    /// The plant behind the temperature, up to two seconds ahead of the samples.  What is set there
+    /// changes the samples from then on; otherwise they do not depend on who looks.
+    [[nodiscard]] OvenPlant& oven() noexcept { return slow_.oven(); }
+
+    [[nodiscard]] const std::vector<PlannedSetUp>& plan() const noexcept { return plan_; }
 
 private:
+    [[nodiscard]] double share_of_second() const noexcept;
     void add_noise(std::array<double, 3>& axes_mgal);
 
     Scenario scenario_;
     const wire::DeviceProfile& profile_;
-    std::vector<PlannedOccupation> plan_;
+    std::vector<PlannedSetUp> plan_;
     SlowSignal slow_;
     Disturbances disturbances_;
     RandomStream white_, ground_, spikes_, temperature_;
     std::array<BandNoise, 3> ground_filter_;
     std::array<double, 3> bias_mgal_{};
-    std::vector<std::array<double, 3>> vertical_;  ///< Unit vector per occupation.
+    std::vector<std::array<double, 3>> vertical_;  ///< Unit vector per set-up.
+    SensorClock clock_;
     SlowValue from_, to_;
     std::int64_t sample_count_;
     std::int64_t index_ = 0;

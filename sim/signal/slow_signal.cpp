@@ -17,21 +17,22 @@ constexpr double kWhiteMeanSeconds = 20.0;
 /// The oven has been running for hours when the record starts: its cycle is established after two.
 constexpr int kRunInSteps = 7200;
 
-ThermalPlant running_plant(const Scenario& scenario) {
-    const DegC ambient = scenario.ambient(scenario.start());
-    ThermalPlant plant(scenario.oven, ambient);
+ThermalPlant running_plant(const OvenParameters& oven, DegC ambient) {
+    ThermalPlant plant(oven, ambient);
     for (int i = 0; i < kRunInSteps; ++i) plant.step(ambient);
     return plant;
 }
 
 }  // namespace
 
-SlowSignal::SlowSignal(const Scenario& scenario, const std::vector<PlannedOccupation>& plan,
+SlowSignal::SlowSignal(const Scenario& scenario, const std::vector<PlannedSetUp>& plan,
                        std::uint64_t seed)
     : scenario_(scenario),
       plan_(plan),
-      plant_(running_plant(scenario)),
-      error_(scenario.error, plant_.body(), kStepSeconds),
+      cool_box_(scenario, plan, seed),
+      ambient_(cool_box_.next()),
+      plant_(running_plant(scenario.oven, ambient_)),
+      error_(drawn_unit(scenario, seed), plant_.body(), kStepSeconds),
       flicker_(RandomStream(seed, "flicker"), scenario.slow_noise.flicker_mgal,
                scenario.slow_noise.flicker_shortest_s, scenario.slow_noise.flicker_longest_s,
                kStepSeconds),
@@ -40,12 +41,8 @@ SlowSignal::SlowSignal(const Scenario& scenario, const std::vector<PlannedOccupa
                 kStepSeconds),
       white_(seed, "slow white"),
       walk_(seed, "random walk"),
-      wander_(seed, "ripple wander") {
-    RandomStream placement(seed, "placement");
-    for (std::size_t i = 0; i < plan_.size(); ++i) {
-        placement_mgal_.push_back(scenario.slow_noise.placement_mgal * placement.normal());
-    }
-}
+      wander_(seed, "ripple wander"),
+      temperature_(seed, "slow temperature") {}
 
 double SlowSignal::drift_mgal(double elapsed_h) {
     const SlowNoiseParameters& p = scenario_.slow_noise;
@@ -66,25 +63,49 @@ double SlowSignal::ripple_mgal() {
 SlowValue SlowSignal::next() {
     const double elapsed_s = static_cast<double>(step_) * kStepSeconds;
     const UtcTime now = scenario_.start() + from_seconds(elapsed_s);
-    while (occupation_ + 1 < plan_.size() && plan_[occupation_ + 1].arrival <= now) ++occupation_;
-    const text::Site& site = plan_[occupation_].site;
+    while (set_up_ + 1 < plan_.size() && plan_[set_up_ + 1].from <= now) ++set_up_;
+    const PlannedSetUp& set_up = plan_[set_up_];
     const double since_power_on_s = elapsed_s + 3600.0 * scenario_.sensor.power_on_before_start_h;
-    if (step_ > 0) plant_.step(scenario_.ambient(now));
+    if (step_ > 0) {
+        ambient_ = cool_box_.next();
+        plant_.step(ambient_);
+    }
     ++step_;
 
     SlowValue value;
-    value.occupation = occupation_;
-    value.vertical = *site.gravity + earth_tide(site.latitude, site.longitude, site.altitude, now) +
-                     MilliGal(scenario_.sensor.bias_mgal) +
-                     error_.next(plant_.body(), since_power_on_s) +
-                     MilliGal(placement_mgal_[occupation_] + flicker_.next() + resonant_.next() +
-                              scenario_.slow_noise.white_mgal *
-                                  std::sqrt(kWhiteMeanSeconds / kStepSeconds) * white_.normal() +
-                              drift_mgal(elapsed_s / 3600.0) + ripple_mgal());
+    value.set_up = set_up_;
+    value.ambient = ambient_;
+    const auto term = [&value](Term t) -> double& {
+        return value.terms_mgal[static_cast<std::size_t>(t)];
+    };
+    const text::Site& site = set_up.site;
+    const MilliGal tide = earth_tide(site.latitude, site.longitude, site.altitude, now);
+    const MilliGal temperature_error = error_.next(plant_.body(), since_power_on_s);
+    const double white_gain = std::sqrt(kWhiteMeanSeconds / kStepSeconds);
+    term(Term::tide) = tide.value();
+    term(Term::bias) = scenario_.sensor.bias_mgal;
+    term(Term::crystal_static) = error_.terms().static_mgal;
+    term(Term::crystal_dynamic) = error_.terms().dynamic_mgal;
+    term(Term::clock) = error_.terms().clock_mgal;
+    term(Term::warm_up) = error_.terms().warm_up_mgal;
+    term(Term::placement) = set_up.placement_mgal;
+    term(Term::flicker) = flicker_.next();
+    term(Term::resonant) = resonant_.next();
+    term(Term::white) = scenario_.slow_noise.white_mgal * white_gain * white_.normal();
+    term(Term::drift) = drift_mgal(elapsed_s / 3600.0);
+    term(Term::ripple) = ripple_mgal();
+    value.vertical = *site.gravity + tide + MilliGal(scenario_.sensor.bias_mgal) +
+                     temperature_error +
+                     MilliGal(term(Term::placement) + term(Term::flicker) + term(Term::resonant) +
+                              term(Term::white) + term(Term::drift) + term(Term::ripple));
     value.temperature =
         plant_.body() +
         DegC(scenario_.sensor.temperature_warm_up_degc *
              std::exp(-since_power_on_s / (3600.0 * scenario_.sensor.temperature_warm_up_tau_h)));
+    if (scenario_.slow_noise.temperature_degc > 0.0) {
+        value.temperature = value.temperature + DegC(scenario_.slow_noise.temperature_degc *
+                                                     white_gain * temperature_.normal());
+    }
     return value;
 }
 

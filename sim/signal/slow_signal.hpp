@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -9,14 +10,34 @@
 #include "sim/plant/thermal_plant.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/scenario/survey_plan.hpp"
+#include "sim/signal/cool_box.hpp"
 
 namespace a351::sim {
 
+/// What stands between the reading of the vertical and gravity.
+enum class Term : std::size_t {
+    tide,
+    bias,
+    crystal_static,
+    crystal_dynamic,
+    clock,
+    warm_up,
+    placement,
+    flicker,
+    resonant,
+    white,
+    drift,
+    ripple
+};
+inline constexpr std::size_t kTermCount = 12;
+
 /// What changes slowly, at one instant.
 struct SlowValue {
-    MilliGal vertical;  ///< Specific force along the vertical as read: gravity, tide, all errors.
-    DegC temperature;   ///< As the sensor reports it, without its white noise.
-    std::size_t occupation = 0;  ///< Index in the plan: the site that is or was next.
+    MilliGal vertical;       ///< Specific force along the vertical as read: gravity and all terms.
+    DegC temperature;        ///< As the sensor reports it, without its white noise of samples.
+    DegC ambient;            ///< Air inside the cool box.
+    std::size_t set_up = 0;  ///< Index in the plan: the one that is, was or comes next.
+    std::array<double, kTermCount> terms_mgal{};  ///< By Term.
 };
 
 /// Gravity, tide, temperature error, drift, slow noise and ripple, once a second from the start of
@@ -25,25 +46,28 @@ class SlowSignal {
 public:
     static constexpr double kStepSeconds = ThermalPlant::kStepSeconds;
 
-    SlowSignal(const Scenario& scenario, const std::vector<PlannedOccupation>& plan,
-               std::uint64_t seed);
+    SlowSignal(const Scenario& scenario, const std::vector<PlannedSetUp>& plan, std::uint64_t seed);
 
     [[nodiscard]] SlowValue next();
+
+    /// What is set there changes the values from the next one on.
+    [[nodiscard]] OvenPlant& oven() noexcept { return plant_; }
 
 private:
     [[nodiscard]] double drift_mgal(double elapsed_h);
     [[nodiscard]] double ripple_mgal();
 
     const Scenario& scenario_;
-    const std::vector<PlannedOccupation>& plan_;
+    const std::vector<PlannedSetUp>& plan_;
+    CoolBox cool_box_;
+    DegC ambient_;
     ThermalPlant plant_;
     TemperatureError error_;
     FlickerNoise flicker_;
     ResonantNoise resonant_;
-    RandomStream white_, walk_, wander_;
-    std::vector<double> placement_mgal_;  ///< One per occupation.
+    RandomStream white_, walk_, wander_, temperature_;
     std::int64_t step_ = 0;
-    std::size_t occupation_ = 0;
+    std::size_t set_up_ = 0;
     double walk_mgal_ = 0.0;
     double wander_value_ = 0.0;
     double ripple_phase_rad_ = 0.0;

@@ -1,6 +1,8 @@
 #include "sim/survey/direct_survey.hpp"
 
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/record/archive_writer.hpp"
@@ -13,6 +15,7 @@
 #include "sim/noise/random.hpp"
 #include "sim/scenario/survey_plan.hpp"
 #include "sim/signal/signal_source.hpp"
+#include "sim/survey/plan_files.hpp"
 #include "sim/truth/truth_file.hpp"
 
 namespace a351::sim {
@@ -102,24 +105,56 @@ void write_station_xml(const Scenario& scenario, const wire::DeviceProfile& prof
     write_text_file(root / "metadata" / "station.xml", record::to_station_xml(station));
 }
 
-/// Start and stop of every occupation, at the first sample at or after the instant.
-void write_events(const std::vector<PlannedOccupation>& plan, const record::SessionId& session,
+/// Start, further set-ups and stop of every occupation, at the first sample at or after the instant.
+void write_events(const std::vector<PlannedSetUp>& plan, const record::SessionId& session,
                   UtcTime first_sample, const fs::path& root) {
-    const auto append = [&](std::string type, const PlannedOccupation& occupation, UtcTime utc) {
+    const auto append = [&](std::string type, const PlannedSetUp& set_up, UtcTime utc) {
         record::Event event;
         event.type = std::move(type);
         event.session = session;
         const Nanoseconds spacing = Nanoseconds(1s) / SignalSource::kRateHz;
         event.index = (utc - first_sample + spacing - Nanoseconds(1)) / spacing;
         event.utc = first_sample + *event.index * spacing;
-        event.details = {{"site", occupation.site.name}};
+        event.details = {{"site", set_up.site.name}};
         record::append_event(record::posix_files(), root / "events", event);
     };
-    for (const PlannedOccupation& occupation : plan) {
-        append("start", occupation, occupation.start);
-        append("stop", occupation, occupation.end);
+    for (const PlannedSetUp& set_up : plan) {
+        if (!set_up.is_occupied) continue;
+        append(set_up.part == 1 ? "start" : "setup", set_up, set_up.start);
+        if (set_up.part == set_up.parts) append("stop", set_up, set_up.end);
     }
 }
+
+/// The daemon's end of a line without delay: frames are gathered until a chunk is taken.
+class Collected final : public LineSink {
+public:
+    Collected(TruthWriter& truth, const Scenario& scenario) : truth_(truth), scenario_(scenario) {}
+
+    void send(std::span<const std::byte> bytes, UtcTime leaves, const TruthRecord* frame) override {
+        chunk_.bytes.insert(chunk_.bytes.end(), bytes.begin(), bytes.end());
+        chunk_.reads.push_back(
+            {static_cast<std::uint32_t>(chunk_.bytes.size()), raw_at(scenario_, leaves)});
+        if (frame == nullptr) return;
+        truth_.append(*frame);
+        if (!first_sample_) first_sample_ = frame->utc;
+        ++frames_;
+    }
+
+    [[nodiscard]] bool is_full() const override { return false; }
+
+    [[nodiscard]] bool is_empty() const noexcept { return chunk_.bytes.empty(); }
+    [[nodiscard]] record::RxChunk take() { return std::exchange(chunk_, record::RxChunk{}); }
+
+    [[nodiscard]] std::optional<UtcTime> first_sample() const noexcept { return first_sample_; }
+    [[nodiscard]] std::int64_t frames() const noexcept { return frames_; }
+
+private:
+    TruthWriter& truth_;
+    const Scenario& scenario_;
+    record::RxChunk chunk_;
+    std::optional<UtcTime> first_sample_;
+    std::int64_t frames_ = 0;
+};
 
 void write_survey_file(const Scenario& scenario, const fs::path& root) {
     write_text_file(
@@ -148,21 +183,16 @@ DirectSurvey write_survey(const Scenario& scenario, const wire::DeviceProfile& p
         throw InputError("--out " + root.string() +
                          ": already holds a journal; allowed: a directory without one");
     }
+    SignalSource source(scenario, profile, seed);
     fs::create_directories(root);
     MachineIdentity identity;
     identity.product_id = product_id_of(profile);
-    SignalSource source(scenario, profile, seed);
     RegisterMachine machine(profile, identity, Nanoseconds(0));
     start_logging(machine, RegisterMachine::kPowerOnTime);
 
     TruthWriter truth(root / "truth.bin");
-    std::vector<UtcTime> sent;
-    std::optional<UtcTime> first_sample;
-    DeviceStream stream(source, machine, [&](const TruthRecord& record) {
-        truth.append(record);
-        sent.push_back(record.utc);
-        if (!first_sample) first_sample = record.utc;
-    });
+    Collected collected(truth, scenario);
+    DeviceStream stream(source, machine);
 
     record::FileLayer& files = record::posix_files();
     const record::JournalHeader header = journal_header(scenario, profile, identity, seed);
@@ -176,32 +206,21 @@ DirectSurvey write_survey(const Scenario& scenario, const wire::DeviceProfile& p
         archiver.take(chunk);
     };
 
-    const std::size_t frame_size = wire::BurstLayout::recommended().frame_size();
-    for (UtcTime now = scenario.start() + 1s; !stream.is_finished(); now += 1s) {
+    for (UtcTime now = scenario.start() + 1s; stream.next_due(); now += 1s) {
         take(clock_at(scenario, now - 1s), now - 1s);
-        stream.advance_to(now);
-        const auto bytes = stream.pending();
-        if (bytes.empty()) continue;
-        record::RxChunk chunk;
-        chunk.bytes.assign(bytes.begin(), bytes.end());
-        sent.clear();
-        stream.handed_over(bytes.size(), now);
-        for (std::size_t i = 0; i < sent.size(); ++i) {
-            chunk.reads.push_back({static_cast<std::uint32_t>((i + 1) * frame_size),
-                                   raw_at(scenario, sent[i] + machine.frame_delay())});
-        }
-        take(chunk, now);
+        stream.advance_to({now, RegisterMachine::kPowerOnTime}, collected);
+        if (!collected.is_empty()) take(collected.take(), now);
     }
     archiver.close_records();
     journal.sync();
     static_cast<void>(archive.sync());
     truth.close();
 
-    write_plan(scenario, source.plan(), root);
+    write_plan(scenario, seed, root);
     write_station_xml(scenario, profile, header, root);
-    write_events(source.plan(), header.session, *first_sample, root);
-    write_survey_file(scenario, root);
-    return {stream.report().frames_sent, static_cast<std::int64_t>(archive.records_written())};
+    write_events(source.plan(), header.session, *collected.first_sample(), root);
+    if (!scenario.fixed_record) write_survey_file(scenario, root);
+    return {collected.frames(), static_cast<std::int64_t>(archive.records_written())};
 }
 
 }  // namespace a351::sim

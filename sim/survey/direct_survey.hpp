@@ -16,9 +16,11 @@ struct DirectSurvey {
 
 /// Writes a simulated day to a data root as the daemon would have: journal, archive, metadata,
 /// events; beside them sites.csv, schedule.csv, survey.toml and the truth (truth.csv, truth.bin).
-/// The frames arrive without any delay beyond the device's own.
+/// The frames arrive without any delay beyond the device's own.  A record without occupations has no
+/// survey.toml.
 ///
-/// @throws InputError         `root` already holds a journal.
+/// @throws InputError         `root` already holds a journal; the occupations do not fit into the
+///                            record.
 /// @throws std::system_error  a file cannot be written.
 DirectSurvey write_survey(const Scenario& scenario, const wire::DeviceProfile& profile,
                           std::uint64_t seed, const std::filesystem::path& root);

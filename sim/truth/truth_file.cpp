@@ -13,9 +13,10 @@
 namespace a351::sim {
 namespace {
 
-constexpr std::string_view kMagic = "A351TRU1";
+constexpr std::string_view kMagic = "A351TRU2";
 constexpr std::size_t kHeaderSize = 16;
-constexpr std::size_t kRecordSize = 32;
+constexpr std::size_t kRecordSize = 40;
+constexpr std::size_t kReserved = 7;
 
 template <class Integer>
 void put(char*& at, Integer value) {
@@ -61,6 +62,7 @@ void TruthWriter::append(const TruthRecord& record) {
     put(at, record.values.count);
     put(at, record.sampling_run);
     put(at, record.grid_index);
+    put(at, static_cast<std::uint8_t>(record.fate));
     out_.write(bytes.data(), bytes.size());
     require_good();
 }
@@ -75,7 +77,7 @@ std::vector<TruthRecord> read_truth(const std::filesystem::path& file) {
     if (bytes.size() < kHeaderSize || !bytes.starts_with(kMagic) ||
         (bytes.size() - kHeaderSize) % kRecordSize != 0) {
         throw InputError(file.string() + ": no truth file; allowed: " + std::string(kMagic) +
-                         ", then records of 32 bytes");
+                         ", then records of " + std::to_string(kRecordSize) + " bytes");
     }
     std::vector<TruthRecord> records;
     const char* at = bytes.data() + kHeaderSize;
@@ -87,6 +89,13 @@ std::vector<TruthRecord> read_truth(const std::filesystem::path& file) {
         record.values.count = take<std::uint16_t>(at);
         record.sampling_run = take<std::uint16_t>(at);
         record.grid_index = take<std::uint32_t>(at);
+        const auto fate = take<std::uint8_t>(at);
+        if (fate > static_cast<std::uint8_t>(Fate::misplaced)) {
+            throw InputError(file.string() + ": record " + std::to_string(records.size()) +
+                             ": fate = " + std::to_string(fate) + "; allowed: 0 to 4");
+        }
+        record.fate = static_cast<Fate>(fate);
+        at += kReserved;
         records.push_back(record);
     }
     return records;

@@ -12,11 +12,21 @@
 
 namespace a351::sim {
 
+/// What became of a frame on its way to the host.
+enum class Fate : std::uint8_t {
+    intact = 0,     ///< Arrived as the device made it: exactly once in the archive.
+    damaged = 1,    ///< Arrived, but no receiver can use it.
+    lost = 2,       ///< Nothing of it arrived.
+    repeated = 3,   ///< Arrived whole with the COUNT of the frame before: no new sample.
+    misplaced = 4,  ///< Arrived whole with a COUNT that fits no sample: the receiver decides.
+};
+
 struct TruthRecord {
     UtcTime utc;  ///< Instant the sample stands for.
     wire::BurstValues values;
     std::uint16_t sampling_run = 0;
     std::uint32_t grid_index = 0;  ///< Sample of the scenario's grid.
+    Fate fate = Fate::intact;
 };
 
 class TruthWriter {

@@ -3,9 +3,11 @@
 ///
 ///     compare-truth ARCHIVE TRUTH
 ///
-/// Prints one line per channel and exits 0 when nothing was altered or duplicated; samples of the
-/// truth that the archive lacks are counted in runs, and so are record boundaries that show a step
-/// of more than half a sample without a missing sample.
+/// Every frame that arrived intact belongs into the archive exactly once, none that was damaged, lost
+/// or a repetition; one with a misplaced counter may be there or not.  Prints one line per channel
+/// and exits 0 when nothing was altered or duplicated, which a damaged or repeated frame in the
+/// archive would count as; samples of the truth that the archive lacks are counted in runs, and so
+/// are record boundaries whose step is not the truth's to half a sample.
 
 #include <libmseed.h>
 
@@ -22,6 +24,7 @@
 namespace {
 
 // Layout of the truth file: sim/truth/truth-format.md.
+enum Fate : std::uint8_t { intact, damaged, lost, repeated, misplaced };
 struct TruthRow {
     std::int64_t utc_ns;
     std::int32_t axes[3];
@@ -29,17 +32,34 @@ struct TruthRow {
     std::uint16_t count;
     std::uint16_t run;
     std::uint32_t grid_index;
+    Fate fate;
+    std::uint8_t reserved[7];
 };
-static_assert(sizeof(TruthRow) == 32);
+static_assert(sizeof(TruthRow) == 40);
 
-std::vector<TruthRow> read_truth(const char* file) {
+struct Truth {
+    std::vector<TruthRow> rows;  ///< That may be in the archive, in order.
+    std::size_t intact = 0, damaged = 0, lost = 0, repeated = 0, misplaced = 0;
+};
+
+Truth read_truth(const char* file) {
     std::ifstream in(file, std::ios::binary);
     char header[16];
-    in.read(header, sizeof header);
-    std::vector<TruthRow> rows;
+    if (!in.read(header, sizeof header) || std::memcmp(header, "A351TRU2", 8) != 0) {
+        std::fprintf(stderr, "compare-truth: %s is no truth file of version 2\n", file);
+        std::exit(1);
+    }
+    Truth truth;
     TruthRow row;
-    while (in.read(reinterpret_cast<char*>(&row), sizeof row)) rows.push_back(row);
-    return rows;
+    while (in.read(reinterpret_cast<char*>(&row), sizeof row)) {
+        truth.intact += row.fate == intact;
+        truth.damaged += row.fate == damaged;
+        truth.lost += row.fate == lost;
+        truth.repeated += row.fate == repeated;
+        truth.misplaced += row.fate == misplaced;
+        if (row.fate == intact || row.fate == misplaced) truth.rows.push_back(row);
+    }
+    return truth;
 }
 
 struct ArchivedSample {
@@ -91,25 +111,38 @@ Comparison compare(const std::vector<ArchivedSample>& archived, const std::vecto
                    std::int32_t (*value)(const TruthRow&)) {
     constexpr std::size_t kRun = 24;
     Comparison result;
+    const auto may_be_absent = [&](std::size_t j) { return truth[j].fate == misplaced; };
+    const auto count_missing = [&](std::size_t from, std::size_t to) {
+        std::size_t missing = 0;
+        for (std::size_t j = from; j < to; ++j) missing += !may_be_absent(j);
+        if (missing == 0) return;
+        if (result.missing_runs == 0) result.first_missing = from;
+        result.missing += missing;
+        ++result.missing_runs;
+    };
     const auto matches_at = [&](std::size_t i, std::size_t j) {
         std::size_t n = 0;
-        for (; n < kRun && i + n < archived.size() && j + n < truth.size(); ++n) {
-            if (archived[i + n].counts != value(truth[j + n])) return false;
+        for (; n < kRun && i + n < archived.size() && j < truth.size(); ++n, ++j) {
+            while (j + 1 < truth.size() && may_be_absent(j) &&
+                   archived[i + n].counts != value(truth[j])) {
+                ++j;
+            }
+            if (archived[i + n].counts != value(truth[j])) return false;
         }
         return n > 0;
     };
-    std::size_t j = 0;
+    std::size_t j = 0, before = 0;
     bool joined = false;
     for (std::size_t i = 0; i < archived.size(); ++i) {
+        while (j < truth.size() && may_be_absent(j) && archived[i].counts != value(truth[j])) ++j;
         if (j >= truth.size() || archived[i].counts != value(truth[j])) {
             std::size_t k = j;
             while (k < truth.size() && !matches_at(i, k)) ++k;
             if (k < truth.size()) {
-                if (result.missing_runs == 0) result.first_missing = j;
-                result.missing += k - j;
-                ++result.missing_runs;
+                count_missing(j, k);
                 joined = false;
                 j = k;
+                while (archived[i].counts != value(truth[j])) ++j;
             } else {
                 const std::size_t from = j > 5000 ? j - 5000 : 0;
                 std::size_t back = from;
@@ -123,22 +156,20 @@ Comparison compare(const std::vector<ArchivedSample>& archived, const std::vecto
                 continue;
             }
         }
-        if (archived[i].starts_record && joined) {
+        if (archived[i].starts_record && joined && truth[j].run == truth[before].run) {
             const double step_s = archived[i].time_s - archived[i - 1].time_s;
-            if (std::abs(step_s - 0.02) > 0.01) ++result.steps;
+            const double true_s =
+                static_cast<double>(truth[j].utc_ns - truth[before].utc_ns) * 1e-9;
+            if (std::abs(step_s - true_s) > 0.01) ++result.steps;
         }
         const double truth_s = static_cast<double>(truth[j].utc_ns - truth[0].utc_ns) * 1e-9;
         result.largest_time_error_s =
             std::max(result.largest_time_error_s, std::abs(archived[i].time_s - truth_s));
         ++result.matched;
-        ++j;
+        before = j++;
         joined = true;
     }
-    if (j < truth.size()) {
-        if (result.missing_runs == 0) result.first_missing = j;
-        result.missing += truth.size() - j;
-        ++result.missing_runs;
-    }
+    if (j < truth.size()) count_missing(j, truth.size());
     return result;
 }
 
@@ -149,8 +180,8 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: compare-truth ARCHIVE TRUTH\n");
         return 2;
     }
-    const std::vector<TruthRow> truth = read_truth(argv[2]);
-    if (truth.empty()) {
+    const Truth truth = read_truth(argv[2]);
+    if (truth.rows.empty()) {
         std::fprintf(stderr, "compare-truth: %s holds no rows\n", argv[2]);
         return 1;
     }
@@ -163,15 +194,17 @@ int main(int argc, char** argv) {
                     {"BK1", [](const TruthRow& r) { return r.temperature; }}};
     bool is_good = true;
     for (const auto& channel : channels) {
-        const auto archived = read_channel(argv[1], channel.name, truth[0].utc_ns);
-        const Comparison c = compare(archived, truth, channel.value);
+        const auto archived = read_channel(argv[1], channel.name, truth.rows[0].utc_ns);
+        const Comparison c = compare(archived, truth.rows, channel.value);
         std::printf(
             "channel=%s truth=%zu archived=%zu matched=%zu missing=%zu first_missing=%zu "
             "missing_runs=%zu "
             "altered=%zu "
-            "duplicated=%zu steps=%zu largest_time_error_s=%.6f\n",
-            channel.name, truth.size(), archived.size(), c.matched, c.missing, c.first_missing,
-            c.missing_runs, c.altered, c.duplicated, c.steps, c.largest_time_error_s);
+            "duplicated=%zu steps=%zu largest_time_error_s=%.6f damaged=%zu lost=%zu repeated=%zu "
+            "misplaced=%zu\n",
+            channel.name, truth.intact, archived.size(), c.matched, c.missing, c.first_missing,
+            c.missing_runs, c.altered, c.duplicated, c.steps, c.largest_time_error_s, truth.damaged,
+            truth.lost, truth.repeated, truth.misplaced);
         is_good = is_good && c.altered == 0 && c.duplicated == 0 && c.steps == 0 && c.matched > 0;
     }
     return is_good ? 0 : 1;

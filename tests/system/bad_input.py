@@ -70,6 +70,42 @@ with Scratch() as scratch:
                *command[1:], "--nonsense")
     refuse("unknown scenario", scratch, ["nowhere"], BIN / "a351-sim", "survey", "--scenario",
            "nowhere", "--out", "root")
+    day = scratch / "day.toml"
+    stay = "[[occupation]]\nsite = \"No.{}\"\ncentre_utc = \"2017-07-16T0{}:00:00Z\"\nambient_degc = 25\n"
+    head = "base = \"tsukuba\"\nname = \"x\"\n"
+    for title, text, parts in (
+            ("no TOML", "base = tsukuba", ["day.toml:1"]),
+            ("unknown base", "base = \"fuji\"\nname = \"x\"\n", ["day.toml:1", "fuji", "tsukuba"]),
+            ("unknown key", head + "[oven]\nlid = true\n", ["day.toml:4", "oven.lid", "unknown"]),
+            ("impossible value", head + "[sensor]\nwhite_mgal = -1.0\n", ["day.toml:4", "white_mgal", "-1"]),
+            ("unknown site", head + stay.format(99, 1), ["day.toml:4", "site", "No.99"]),
+            ("occupations out of order", head + stay.format(1, 2) + stay.format(2, 1),
+             ["day.toml:9", "centre_utc", "rising"]),
+            ("a start without a length", head + "[schedule]\nstart_utc = \"2017-07-16T00:00:00Z\"\n",
+             ["day.toml:3", "duration_h"]),
+            ("no room at the end", head + "[schedule]\nlead_out_min = 1\n", ["day.toml:4", "lead_out_min"]),
+            ("no room between", head + "".join(f"[[occupation]]\nsite = \"No.1\"\nnumber = {n}\ncentre_utc = "
+                                               f"\"2017-07-16T00:0{n}:00Z\"\nambient_degc = 25\n" for n in range(1, 7)),
+             ["scenario x", "No.1", "lead_out_min"])):
+        day.write_text(text)
+        for command in ("plan", "survey"):
+            refuse(f"scenario for {command}: {title}", scratch, parts, BIN / "a351-sim", command, "--scenario",
+                   "day.toml", "--out", "root")
+    device = [BIN / "a351-sim", "device", "--link"]
+    (scratch / "taken").write_text("somebody's")
+    (scratch / "foreign").symlink_to("/nonexistent")
+    refuse("link in no directory", scratch, ["absent/sensor", "allowed"], *device, "absent/sensor")
+    refuse("link in place of a file", scratch, ["taken", "no link"], *device, "taken")
+    refuse("link in place of a foreign link", scratch, ["foreign", "/nonexistent"], *device, "foreign")
+    refuse("control socket in place of a file", scratch, ["taken", "no socket"], *device, "sensor",
+           "--control", "taken")
+    refuse("missing fault script", scratch, ["absent.toml"], *device, "sensor", "--faults", "absent.toml")
+    (scratch / "faults.toml").write_text("[[fault]]\nkind = \"flip_bit\"\nat_s = 1\nbits = 17\n")
+    refuse("impossible fault", scratch, ["faults.toml:4", "fault.bits = 17", "from 1 to 16"], *device,
+           "sensor", "--faults", "faults.toml")
+    (scratch / "faults.toml").write_text("[[fault]]\nkind = \"overrun\"\nat_s = 1\n")
+    refuse("overrun at high speed", scratch, ["faults.toml:2", "overrun", "50"], *device, "sensor",
+           "--faults", "faults.toml", "--speed", "100")
     for name in ("sites.csv", "observations.csv"):
         shutil.copy(GOLDEN / name, scratch / name)
     observations = (scratch / "observations.csv").read_text()

@@ -12,24 +12,53 @@ using namespace std::chrono_literals;
 
 namespace {
 
-struct Rig {
-    Rig() : stream(source, bench.machine, [this](const TruthRecord& r) { truth.push_back(r); }) {}
+/// Everything the device sends; full at `most` bytes.
+struct Collected final : LineSink {
+    void send(std::span<const std::byte> sent, UtcTime leaves, const TruthRecord* frame) override {
+        bytes.insert(bytes.end(), sent.begin(), sent.end());
+        if (frame == nullptr) return;
+        truth.push_back(*frame);
+        times.push_back(leaves);
+    }
+    [[nodiscard]] bool is_full() const override { return bytes.size() >= most; }
 
-    /// Hands over whatever is pending, at most `most` bytes.
-    void drain(UtcTime now, std::size_t most = SIZE_MAX) {
-        const auto bytes = stream.pending();
-        const std::size_t count = std::min(most, bytes.size());
-        received.insert(received.end(), bytes.begin(),
-                        bytes.begin() + static_cast<std::ptrdiff_t>(count));
-        stream.handed_over(count, now);
+    std::size_t most = SIZE_MAX;
+    std::vector<std::byte> bytes;
+    std::vector<TruthRecord> truth;
+    std::vector<UtcTime> times;
+};
+
+struct Rig {
+    void advance_to(UtcTime simulated) { stream.advance_to({simulated, bench.now}, line); }
+    void receive(std::string_view hex) {
+        stream.receive(bytes_of(hex), {scenario.start(), bench.now}, line);
     }
 
     Scenario scenario = load_scenario("tsukuba");
     SignalSource source{scenario, *wire::find_profile("A352AD10"), 1};
     Bench bench;
-    DeviceStream stream;
-    std::vector<TruthRecord> truth;
-    std::vector<std::byte> received;
+    DeviceStream stream{source, bench.machine};
+    Collected line;
+};
+
+/// Counts: x of sample k is k.
+class CountingSource final : public SampleSource {
+public:
+    explicit CountingSource(int rate_hz) : rate_hz_(rate_hz) {}
+    [[nodiscard]] int rate_hz() const noexcept override { return rate_hz_; }
+    [[nodiscard]] std::optional<UtcTime> next_instant() const override {
+        return UtcTime(index * Nanoseconds(1s) / rate_hz_);
+    }
+    [[nodiscard]] TimedSample next() override {
+        TimedSample sample{*next_instant(), index, {}};
+        sample.values.axes_counts[0] = static_cast<std::int32_t>(index);
+        ++index;
+        return sample;
+    }
+    std::int64_t index = 0;
+
+private:
+    int rate_hz_;
 };
 
 std::vector<wire::BurstValues> decode(const std::vector<std::byte>& bytes) {
@@ -51,51 +80,43 @@ TEST_CASE("a frame is sent when it is due and not before", "[sim][device_stream]
     const UtcTime start = rig.scenario.start();
     const Nanoseconds delay = rig.bench.machine.frame_delay();
     // Seven samples fill the filter; the eighth belongs to 140 ms.
-    rig.stream.advance_to(start + 140ms + delay - 1ns);
-    CHECK(rig.stream.pending().empty());
-    rig.stream.advance_to(start + 140ms + delay);
-    CHECK(rig.stream.pending().size() == 24);
-    rig.drain(start + 140ms + delay + 3ms);
-    REQUIRE(rig.truth.size() == 1);
-    CHECK(rig.truth[0].utc == start + 140ms);
-    CHECK(rig.truth[0].grid_index == 7);
-    CHECK(rig.stream.report().largest_lateness == 3ms);
+    rig.advance_to(start + 140ms + delay - 1ns);
+    CHECK(rig.line.bytes.empty());
+    rig.advance_to(start + 140ms + delay);
+    CHECK(rig.line.bytes.size() == 24);
+    REQUIRE(rig.line.truth.size() == 1);
+    CHECK(rig.line.truth[0].utc == start + 140ms);
+    CHECK(rig.line.truth[0].grid_index == 7);
+    CHECK(rig.line.times[0] == start + 140ms + delay);
 }
 
-TEST_CASE("a full terminal delays frames and loses none", "[sim][device_stream]") {
+TEST_CASE("a full line holds the device up and changes nothing it sends", "[sim][device_stream]") {
     Rig blocked, flowing;
     blocked.bench.start_logging();
     flowing.bench.start_logging();
-    const UtcTime start = blocked.scenario.start();
-    for (int second = 1; second <= 120; ++second) {
-        flowing.stream.advance_to(start + std::chrono::seconds(second));
-        flowing.drain(start + std::chrono::seconds(second));
+    const UtcTime end = blocked.scenario.start() + 120s;
+    for (UtcTime now = blocked.scenario.start(); now <= end; now += 1s) flowing.advance_to(now);
+    for (blocked.line.most = 10; blocked.line.bytes.size() < flowing.line.bytes.size();
+         blocked.line.most += 1000) {
+        blocked.advance_to(end);
+        REQUIRE(blocked.line.bytes.size() < blocked.line.most + 24);
     }
-    // Nothing is taken for two minutes, then odd pieces.
-    blocked.stream.advance_to(start + 120s);
-    CHECK(blocked.stream.pending().size() < DeviceStream::kMostPending + 24);
-    while (blocked.received.size() < flowing.received.size()) {
-        blocked.drain(start + 120s, 37);
-        blocked.stream.advance_to(start + 120s);
-    }
-    CHECK(blocked.received == flowing.received);
-    CHECK(blocked.truth.size() == flowing.truth.size());
-    CHECK(blocked.stream.report().largest_lateness > 119s);
-    CHECK(flowing.stream.report().largest_lateness < 1s);
+    CHECK(blocked.line.bytes == flowing.line.bytes);
+    CHECK(blocked.line.times == flowing.line.times);
 }
 
 TEST_CASE("frames decode to the truth, COUNT steps evenly", "[sim][device_stream]") {
     Rig rig;
     rig.bench.start_logging();
-    rig.stream.advance_to(rig.scenario.start() + 10s);
-    rig.drain(rig.scenario.start() + 10s);
-    const auto frames = decode(rig.received);
-    REQUIRE(frames.size() == rig.truth.size());
+    rig.advance_to(rig.scenario.start() + 10s);
+    const auto& truth = rig.line.truth;
+    const auto frames = decode(rig.line.bytes);
+    REQUIRE(frames.size() == truth.size());
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        CHECK(frames[i] == rig.truth[i].values);
+        CHECK(frames[i] == truth[i].values);
         CHECK(frames[i].count == 80 * (i + 1));
-        CHECK(rig.truth[i].grid_index == i + 7);
-        CHECK(rig.truth[i].utc == rig.scenario.start() + static_cast<std::int64_t>(i + 7) * 20ms);
+        CHECK(truth[i].grid_index == i + 7);
+        CHECK(truth[i].utc == rig.scenario.start() + static_cast<std::int64_t>(i + 7) * 20ms);
     }
 }
 
@@ -104,40 +125,85 @@ TEST_CASE("the grid goes on while sampling is stopped", "[sim][device_stream]") 
     undisturbed.bench.start_logging();
     rig.bench.start_logging();
     const UtcTime start = rig.scenario.start();
-    rig.stream.advance_to(start + 10s);
-    rig.drain(start + 10s);
-    rig.stream.receive(bytes_of("FE 00 0D 83 02 0D"), rig.bench.now);
-    rig.stream.advance_to(start + 20s);
-    rig.stream.receive(bytes_of("83 01 0D"), rig.bench.now);
-    rig.stream.advance_to(start + 30s);
-    rig.drain(start + 30s);
-    for (UtcTime now = start; now <= start + 30s; now += 1s) {
-        undisturbed.stream.advance_to(now);
-        undisturbed.drain(now);
-    }
+    rig.advance_to(start + 10s);
+    rig.receive("FE 00 0D 83 02 0D");
+    const std::size_t first_run = rig.line.truth.size();
+    rig.advance_to(start + 20s);
+    CHECK(rig.line.truth.size() == first_run);
+    rig.receive("83 01 0D");
+    rig.advance_to(start + 30s);
+    undisturbed.advance_to(start + 30s);
 
-    const auto& runs = rig.stream.report().runs;
-    REQUIRE(runs.size() == 2);
-    CHECK(runs[0].first_index == 7);
+    REQUIRE(rig.line.truth.size() > first_run);
     // Samples after the command: index 1001 is the first, seven fill the filter.
-    CHECK(runs[1].first_index == 1008);
-    CHECK(runs[0].frames + runs[1].frames == rig.stream.report().frames_sent);
-    const TruthRecord& restarted = rig.truth[static_cast<std::size_t>(runs[0].frames)];
+    const TruthRecord& restarted = rig.line.truth[first_run];
+    CHECK(restarted.grid_index == 1008);
     CHECK(restarted.values.count == 80);
     CHECK(restarted.sampling_run == 2);
-    CHECK(restarted.values.axes == undisturbed.truth[1008 - 7].values.axes);
+    CHECK(restarted.values.axes == undisturbed.line.truth[1008 - 7].values.axes);
+}
+
+TEST_CASE("an answer is sent at once, between frames", "[sim][device_stream]") {
+    Rig rig;
+    rig.bench.start_logging();
+    rig.advance_to(rig.scenario.start() + 1s);
+    const std::size_t size = rig.line.bytes.size();
+    rig.receive("02 00 0D");
+    CHECK(rig.line.bytes.size() == size + 4);
+    CHECK(hex_of(std::span(rig.line.bytes).last(4)) == "02 00 00 0D");
+}
+
+TEST_CASE("samples that the source lacks are missing in COUNT", "[sim][device_stream]") {
+    CountingSource source(50);
+    Bench bench;
+    DeviceStream stream(source, bench.machine);
+    Collected line;
+    bench.start_logging();
+    stream.advance_to({UtcTime(2s), bench.now}, line);
+    const std::size_t before = line.truth.size();
+    source.index += 1000;
+    stream.advance_to({UtcTime(30s), bench.now}, line);
+    REQUIRE(line.truth.size() > before + 10);
+    const auto& last = line.truth[before - 1];
+    const auto& next = line.truth[before];
+    CHECK(next.grid_index == last.grid_index + 1001);
+    CHECK(next.utc - last.utc == 1001 * 20ms);
+    CHECK(static_cast<std::uint16_t>(next.values.count - last.values.count) == 1001 * 80 % 65536);
+    CHECK(line.truth[before + 1].values.count ==
+          static_cast<std::uint16_t>(next.values.count + 80));
+}
+
+TEST_CASE("rates below the source's take every n-th sample", "[sim][device_stream]") {
+    CountingSource source(200);
+    Bench bench;
+    DeviceStream stream(source, bench.machine);
+    Collected line;
+    bench.start_logging();
+    stream.advance_to({UtcTime(2s), bench.now}, line);
+    source.index += 1000;  // 250 of the output rate.
+    stream.advance_to({UtcTime(10s), bench.now}, line);
+    REQUIRE(line.truth.size() > 100);
+    for (std::size_t i = 1; i < line.truth.size(); ++i) {
+        const std::uint32_t step = line.truth[i].grid_index - line.truth[i - 1].grid_index;
+        REQUIRE((step == 4 || step == 1004));
+        REQUIRE(line.truth[i].utc - line.truth[i - 1].utc == step * 5ms);
+        REQUIRE(static_cast<std::uint16_t>(line.truth[i].values.count -
+                                           line.truth[i - 1].values.count) == step / 4 * 80);
+        REQUIRE(line.truth[i].values.axes[0] ==
+                static_cast<std::int32_t>(line.truth[i].grid_index));
+    }
 }
 
 TEST_CASE("rates above the grid's hold each sample", "[sim][device_stream]") {
     Rig rig;
     rig.bench.send({"FE 01", "85 04", "86 08", "88 01", "8C 03", "8D C7", "FE 00", "83 01"});
-    rig.stream.advance_to(rig.scenario.start() + 2s);
-    rig.drain(rig.scenario.start() + 2s);
-    REQUIRE(rig.truth.size() > 300);
-    for (std::size_t i = 1; i < rig.truth.size(); ++i) {
-        REQUIRE(rig.truth[i].utc - rig.truth[i - 1].utc == 5ms);
-        REQUIRE(rig.truth[i].values.count == 20 * (i + 1));
-        REQUIRE(rig.truth[i].grid_index == (i + 31) / 4);
+    rig.advance_to(rig.scenario.start() + 2s);
+    const auto& truth = rig.line.truth;
+    REQUIRE(truth.size() > 300);
+    for (std::size_t i = 1; i < truth.size(); ++i) {
+        REQUIRE(truth[i].utc - truth[i - 1].utc == 5ms);
+        REQUIRE(truth[i].values.count == 20 * (i + 1));
+        REQUIRE(truth[i].grid_index == (i + 31) / 4);
     }
 }
 
@@ -150,17 +216,20 @@ TEST_CASE("a truth file gives back its records and refuses what is none", "[sim]
     record.values.count = 65520;
     record.sampling_run = 3;
     record.grid_index = 4'000'000'000U;
+    record.fate = Fate::misplaced;
     TruthWriter writer(file);
     writer.append(record);
     writer.append({});
     writer.close();
-    CHECK(std::filesystem::file_size(file) == 16 + 2 * 32);
+    CHECK(std::filesystem::file_size(file) == 16 + 2 * 40);
     const auto records = read_truth(file);
     REQUIRE(records.size() == 2);
     CHECK(records[0].utc == record.utc);
     CHECK(records[0].values == record.values);
     CHECK(records[0].sampling_run == 3);
     CHECK(records[0].grid_index == 4'000'000'000U);
+    CHECK(records[0].fate == Fate::misplaced);
+    CHECK(records[1].fate == Fate::intact);
     std::filesystem::resize_file(file, 50);
     CHECK_THROWS(read_truth(file));
     std::filesystem::remove(file);

@@ -36,12 +36,19 @@ inline std::string hex_of(std::span<const std::byte> bytes) {
     return hex;
 }
 
+/// The values of a register dump of a real A352 that the maker published.
+inline constexpr SensorSample kSample{{-203896, 604794, 16713252}, 2466};
+
+inline constexpr std::int32_t kOneG = 1 << 24;
+
 /// A machine with a clock that the test moves.
 struct Bench {
     explicit Bench(std::string_view profile = "A352AD10",
-                   MachineIdentity identity = {"A352AD10", "01234567", 0x000D})
-        : machine(*wire::find_profile(profile), std::move(identity), Nanoseconds(0)) {
+                   MachineIdentity identity = {"A352AD10", "01234567", 0x000D},
+                   const FlashMemory& flash = {})
+        : machine(*wire::find_profile(profile), std::move(identity), Nanoseconds(0), flash) {
         now = RegisterMachine::kPowerOnTime;
+        machine.pass_time(now);
     }
 
     /// Sends whole commands, given as their first two bytes; returns the answers as hex.
@@ -54,10 +61,37 @@ struct Bench {
         return hex_of(answers);
     }
 
+    /// The register at a place as the data sheet writes it, "W0:4C", as four digits.
+    std::string read(std::string_view place) {
+        const std::string window = place[1] == '0' ? "FE 00" : "FE 01";
+        const std::string answer = send({window, std::string(place.substr(3)) + " 00"});
+        return answer.size() < 8 ? "none" : answer.substr(3, 2) + answer.substr(6, 2);
+    }
+
+    /// A byte into a register, "W1:85 06".
+    void write(std::string_view place) {
+        send({place[1] == '0' ? "FE 00" : "FE 01", place.substr(3)});
+    }
+
+    void wait(Nanoseconds time) {
+        now += time;
+        machine.pass_time(now);
+    }
+
+    /// Hands over so many equal samples; returns the frames as hex.
+    std::string sample(int count = 1, const SensorSample& values = kSample) {
+        std::vector<std::byte> frames;
+        for (int i = 0; i < count; ++i) static_cast<void>(machine.sample(values, frames));
+        return hex_of(frames);
+    }
+
     /// As the recorder: 50 Hz, 512 taps at 9 Hz, automatic frames with every field.
     void start_logging() {
         send({"FE 01", "85 06", "86 06", "88 01", "8C 03", "8D C7", "FE 00", "83 01"});
     }
+
+    /// Past the transient of start_logging().
+    static constexpr int kTransient = 7;
 
     RegisterMachine machine;
     Nanoseconds now{0};

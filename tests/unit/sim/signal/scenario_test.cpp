@@ -6,6 +6,7 @@
 #include "protocol/text/csv.hpp"
 #include "sim/scenario/embedded_scenarios.hpp"
 #include "sim/scenario/survey_plan.hpp"
+#include "sim/signal/set_up_truth.hpp"
 
 using namespace a351;
 using namespace a351::sim;
@@ -29,7 +30,7 @@ std::string with(std::string text, const std::string& old_text, const std::strin
 }  // namespace
 
 TEST_CASE("every named scenario loads under its own name", "[sim][scenario]") {
-    CHECK(scenario_names().size() >= 3);
+    CHECK(scenario_names().size() >= 11);
     for (const std::string_view name : scenario_names()) {
         CHECK(load_scenario(std::string(name)).name == name);
     }
@@ -90,13 +91,163 @@ TEST_CASE("sites and occupations are those of the published tables", "[sim][scen
 
 TEST_CASE("ambient is linear between the occupations and constant outside", "[sim][scenario]") {
     const Scenario scenario = load_scenario("tsukuba");
+    const auto knots = scenario.ambient_knots();
     const auto& first = scenario.occupations[0];
     const auto& second = scenario.occupations[1];
-    CHECK(scenario.ambient(first.centre).value() == Approx(24.3));
-    CHECK(scenario.ambient(first.centre + (second.centre - first.centre) / 2).value() ==
+    CHECK(ambient_at(knots, first.centre).value() == Approx(24.3));
+    CHECK(ambient_at(knots, first.centre + (second.centre - first.centre) / 2).value() ==
           Approx(0.5 * (24.3 + 23.4)));
-    CHECK(scenario.ambient(scenario.start() - std::chrono::hours(5)).value() == Approx(24.3));
-    CHECK(scenario.ambient(scenario.end() + std::chrono::hours(5)).value() == Approx(29.2));
+    CHECK(ambient_at(knots, scenario.start() - std::chrono::hours(5)).value() == Approx(24.3));
+    CHECK(ambient_at(knots, scenario.end() + std::chrono::hours(5)).value() == Approx(29.2));
+}
+
+TEST_CASE("listed knots of the ambient stand for those of the occupations", "[sim][scenario]") {
+    const Scenario scenario = parse_scenario(
+        "base = \"tsukuba\"\nname = \"x\"\n"
+        "[[ambient]]\nat_h = 1.0\ndegc = 20.0\n"
+        "[[ambient]]\nat_utc = \"2017-07-15T23:42:12Z\"\ndegc = 30.0\n",  // Three hours in.
+        "x.toml");
+    const auto knots = scenario.ambient_knots();
+    const auto after = [&](double hours) {
+        return ambient_at(knots, scenario.start() + from_seconds(3600.0 * hours)).value();
+    };
+    CHECK(after(0.0) == 20.0);
+    CHECK(after(1.5) == Approx(22.5));
+    CHECK(after(9.0) == 30.0);
+}
+
+TEST_CASE("a record without occupations has its own limits, one site and no schedule",
+          "[sim][scenario]") {
+    const Scenario scenario = load_scenario("indoor");
+    CHECK(scenario.start() == *parse_rfc3339("2017-06-01T09:00:00Z"));
+    CHECK(seconds_between(scenario.start(), scenario.end()) == 12.0 * 3600.0);
+    const auto plan = plan_survey(scenario, 1);
+    REQUIRE(plan.size() == 1);
+    CHECK_FALSE(plan[0].is_occupied);
+    CHECK(schedule_csv(plan) == "site,occupation,start_utc,end_utc,used,note\n");
+    const auto truth = text::CsvTable::parse(truth_csv(scenario, plan, 1), "truth.csv");
+    CHECK(truth.row_count() == 0);
+
+    const Scenario longer =
+        parse_scenario("base = \"indoor\"\nname = \"x\"\n[schedule]\nduration_h = 20\n", "x.toml");
+    CHECK(longer.start() == scenario.start());
+    CHECK(seconds_between(longer.start(), longer.end()) == 20.0 * 3600.0);
+
+    const Scenario survey = parse_scenario(
+        "base = \"indoor\"\nname = \"x\"\n[[occupation]]\nsite = \"laboratory\"\n"
+        "centre_utc = \"2017-07-16T00:00:00Z\"\nambient_degc = 25\n",
+        "x.toml");
+    CHECK(plan_survey(survey, 1)[0].is_occupied);
+    CHECK(survey.ambient_knots().size() == 3);
+}
+
+TEST_CASE("what does not fit into the record is refused in one line", "[sim][scenario]") {
+    const auto refused = [](const std::string& text, const std::string& part) {
+        CAPTURE(text, part);
+        CHECK_THROWS_WITH(parse_scenario("base = \"tsukuba\"\nname = \"x\"\n" + text, "x.toml"),
+                          Contains("x.toml") && Contains(part) && !Contains("\n"));
+    };
+    const std::string site =
+        "[[site]]\nname = \"A\"\nlongitude_deg = 1\nlatitude_deg = 2\naltitude_m = 3\n"
+        "gravity_mgal = 980000\n";
+    const std::string fixed = "[schedule]\nstart_utc = \"2020-01-01T00:00:00Z\"\nduration_h = 1\n";
+    const std::string air = "[[ambient]]\nat_h = 0\ndegc = 20\n";
+    CHECK_NOTHROW(parse_scenario("base = \"tsukuba\"\nname = \"x\"\n" + fixed + site + air, "x"));
+    refused(fixed + air, "site");
+    refused(fixed + site, "ambient");
+    refused(fixed + "lead_in_h = 3.0\n" + site + air, "lead_in_h");
+    refused("[schedule]\nstart_utc = \"2020-01-01T00:00:00Z\"\n" + site + air, "duration_h");
+    refused("[schedule]\nstart_utc = \"tomorrow\"\nduration_h = 1\n" + site + air, "start_utc");
+    refused(site, "No.0");  // The base's occupations are at sites that are gone.
+    refused(air + air, "at_h");
+    refused("[[ambient]]\ndegc = 20\n", "at_utc");
+    refused("[[ambient]]\nat_h = 1\nat_utc = \"2017-07-16T01:00:00Z\"\ndegc = 20\n", "at_h");
+    refused("[[ambient]]\nat_h = 1\ndegc = 60\n", "degc");
+    refused("[[lid_open]]\nsite = \"No.1\"\nnumber = 9\noutside_degc = 30\n", "site");
+    refused(
+        "[[lid_open]]\nfrom_utc = \"2017-07-16T02:00:00Z\"\nto_utc = \"2017-07-16T01:00:00Z\"\n"
+        "outside_degc = 30\n",
+        "to_utc");
+    refused("[schedule]\nlead_in_h = 0.05\n", "lead_in_h");
+    refused("[schedule]\nlead_out_min = 5\n", "lead_out_min");
+    refused("[schedule]\nsetups = 10\nshortest_s = 60\n", "setups");
+    const std::string stay =
+        "[[occupation]]\nsite = \"No.1\"\ncentre_utc = \"2017-07-16T00:00:00Z\"\n"
+        "ambient_degc = 25\n";
+    refused(stay + "about_y_deg = [1, 2]\n", "about_y_deg");
+    refused(stay + stay, "number");
+    refused(stay + "number = 2\n" + stay, "centre_utc");
+    refused("[line]\njitter_s = 1\n", "jitter_s");
+    refused("[clock]\nerror_ppm = 1e6\n", "error_ppm");
+    refused("[temperature_error]\nunit_scatter = 1.5\n", "unit_scatter");
+}
+
+TEST_CASE("occupations that cannot be moved apart within the record are refused",
+          "[sim][survey_plan]") {
+    std::string text = "base = \"tsukuba\"\nname = \"x\"\n";
+    for (int i = 0; i < 6; ++i) {
+        text += "[[occupation]]\nsite = \"No.1\"\nnumber = " + std::to_string(i + 1) +
+                "\ncentre_utc = \"2017-07-16T00:0" + std::to_string(i) +
+                ":00Z\"\nambient_degc = 25\n";
+    }
+    CHECK_THROWS_WITH(plan_survey(parse_scenario(text, "x.toml"), 1),
+                      Contains("No.1") && Contains("lead_out_min"));
+}
+
+TEST_CASE("several set-ups share an occupation without a gap, each with its own draws",
+          "[sim][survey_plan]") {
+    const Scenario once = load_scenario("tsukuba");
+    const Scenario twice =
+        parse_scenario("base = \"tsukuba\"\nname = \"x\"\n[schedule]\nsetups = 2\n", "x.toml");
+    const auto whole = plan_survey(once, 5);
+    const auto halves = plan_survey(twice, 5);
+    REQUIRE(halves.size() == 2 * whole.size());
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        const PlannedSetUp &first = halves[2 * i], &second = halves[2 * i + 1];
+        CHECK(first.start == whole[i].start);
+        CHECK(first.end == second.start);
+        CHECK(second.from == second.start);
+        CHECK(second.end == whole[i].end);
+        CHECK(first.part == 1);
+        CHECK(second.part == 2);
+        CHECK(second.number == whole[i].number);
+        CHECK(std::abs(seconds_between(first.start, first.end) -
+                       seconds_between(second.start, second.end)) < 0.003);
+        CHECK(first.about_y_rad != second.about_y_rad);
+        CHECK(first.placement_mgal != second.placement_mgal);
+    }
+}
+
+TEST_CASE("listed angles are those of the set-ups", "[sim][survey_plan]") {
+    const auto plan = plan_survey(load_scenario("tilt-series"), 5);
+    REQUIRE(plan.size() == 12);
+    const double two_degrees_rad = 2.0 * 3.14159265358979 / 180.0;
+    CHECK(plan[1].about_y_rad == Approx(two_degrees_rad));
+    CHECK(plan[1].about_x_rad == 0.0);
+    CHECK(plan[4].about_x_rad == Approx(-two_degrees_rad));
+    CHECK(plan[6].number == 2);
+}
+
+TEST_CASE("a unit's numbers lie within the scatter, the same for a seed, others for another",
+          "[sim][survey_plan]") {
+    const Scenario scenario = parse_scenario(
+        "base = \"tsukuba\"\nname = \"x\"\n[temperature_error]\nunit_scatter = 0.25\n", "x.toml");
+    double low = 1.0, high = 1.0;
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        const TemperatureErrorParameters unit = drawn_unit(scenario, seed);
+        const double share = unit.crystal_tau_s / scenario.error.crystal_tau_s;
+        low = std::min(low, share);
+        high = std::max(high, share);
+        CHECK(unit.clock_mgal_per_degc / scenario.error.clock_mgal_per_degc ==
+              Approx(1.0).margin(0.25));
+        CHECK(drawn_unit(scenario, seed).warm_up_mgal == unit.warm_up_mgal);
+        CHECK(unit.reference_degc == scenario.error.reference_degc);
+    }
+    CHECK(low > 0.75);
+    CHECK(low < 0.77);
+    CHECK(high > 1.23);
+    CHECK(high < 1.25);
+    CHECK(drawn_unit(load_scenario("tsukuba"), 3).crystal_tau_s == 43.0);
 }
 
 TEST_CASE("occupations keep order, length and distance for any seed", "[sim][survey_plan]") {
@@ -110,8 +261,8 @@ TEST_CASE("occupations keep order, length and distance for any seed", "[sim][sur
             REQUIRE(length_s <= 840.0 + 0.002);
             REQUIRE(plan[i].end < scenario.end());
             if (i > 0) {
-                REQUIRE(plan[i - 1].end < plan[i].arrival);
-                REQUIRE(plan[i].arrival < plan[i].start);
+                REQUIRE(plan[i - 1].end < plan[i].from);
+                REQUIRE(plan[i].from < plan[i].start);
             }
         }
     }
@@ -133,7 +284,7 @@ TEST_CASE("occupations close together are moved apart, not overlapped", "[sim][s
 TEST_CASE("the plan's tables can be read back", "[sim][survey_plan]") {
     const Scenario scenario = load_scenario("tsukuba");
     const auto plan = plan_survey(scenario, 4);
-    const auto truth = text::CsvTable::parse(truth_csv(plan), "truth.csv");
+    const auto truth = text::CsvTable::parse(truth_csv(scenario, plan, 4), "truth.csv");
     const auto schedule = text::CsvTable::parse(schedule_csv(plan), "schedule.csv");
     REQUIRE(truth.row_count() == plan.size());
     REQUIRE(schedule.row_count() == plan.size());

@@ -32,7 +32,7 @@ std::vector<Means> occupation_means(const std::string& name, std::uint64_t seed)
     const Scenario scenario = load_scenario(name);
     SignalSource source(scenario, a351_profile(), seed);
     std::vector<Means> means;
-    for (const PlannedOccupation& occupation : source.plan()) {
+    for (const PlannedSetUp& occupation : source.plan()) {
         const text::Site& site = occupation.site;
         double sum = 0.0, square = 0.0;
         int count = 0;

@@ -9,15 +9,37 @@
 #include "protocol/record/archive_reader.hpp"
 #include "protocol/record/event_log.hpp"
 #include "protocol/record/station_xml.hpp"
+#include "protocol/text/csv.hpp"
 #include "sim/scenario/survey_plan.hpp"
 #include "sim/truth/truth_file.hpp"
 
 using namespace a351;
 using namespace a351::sim;
 
+namespace {
+
+/// A data root that is gone afterwards.
+class Root {
+public:
+    Root()
+        : path_(std::filesystem::temp_directory_path() /
+                ("a351_direct_" + std::to_string(::getpid()))) {
+        std::filesystem::remove_all(path_);
+    }
+    ~Root() { std::filesystem::remove_all(path_); }
+    Root(const Root&) = delete;
+    Root& operator=(const Root&) = delete;
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+}  // namespace
+
 TEST_CASE("a day written to a data root reads back as the truth", "[sim][direct_survey]") {
-    const auto root =
-        std::filesystem::temp_directory_path() / ("a351_direct_" + std::to_string(::getpid()));
+    const Root directory;
+    const auto& root = directory.path();
     const Scenario scenario = parse_scenario(
         "base = \"tsukuba\"\nname = \"short\"\n[schedule]\nlead_in_h = 0.2\nlead_out_min = 8\n"
         "[[occupation]]\nsite = \"No.0\"\ncentre_utc = \"2017-07-16T23:55:00Z\"\nambient_degc = "
@@ -50,5 +72,55 @@ TEST_CASE("a day written to a data root reads back as the truth", "[sim][direct_
     CHECK(std::filesystem::exists(root / "survey.toml"));
 
     CHECK_THROWS_AS(write_survey(scenario, *wire::find_profile("A351"), 1, root), InputError);
-    std::filesystem::remove_all(root);
+}
+
+TEST_CASE("further set-ups stand in the event log and in the tables", "[sim][direct_survey]") {
+    const Root directory;
+    const Scenario scenario = parse_scenario(
+        "base = \"ideal\"\nname = \"short\"\n"
+        "[schedule]\nlead_in_h = 0.2\nlead_out_min = 10\nsetups = 2\n"
+        "[[occupation]]\nsite = \"No.0\"\ncentre_utc = \"2017-07-16T01:00:00Z\"\nambient_degc = "
+        "25\n",
+        "short.toml");
+    static_cast<void>(write_survey(scenario, *wire::find_profile("A351"), 1, directory.path()));
+    const auto occupations =
+        record::occupations_of(record::read_events(directory.path() / "events").events);
+    const auto plan = plan_survey(scenario, 1);
+    REQUIRE(occupations.size() == 1);
+    REQUIRE(occupations[0].set_ups.size() == 2);
+    REQUIRE(plan.size() == 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+        CHECK(std::abs(seconds_between(plan[i].start, occupations[0].set_ups[i].start)) <= 0.02);
+        CHECK(std::abs(seconds_between(plan[i].end, occupations[0].set_ups[i].end)) <= 0.02);
+    }
+    CHECK(text::read_csv(directory.path() / "schedule.csv").row_count() == 2);
+    CHECK(text::read_csv(directory.path() / "truth.csv").row_count() == 2);
+}
+
+TEST_CASE("a record at one point has an archive, one site and no survey", "[sim][direct_survey]") {
+    const Root directory;
+    const Scenario scenario = parse_scenario(
+        "base = \"indoor\"\nname = \"short\"\n[schedule]\nduration_h = 0.1\n"
+        "[clock]\nerror_ppm = 100\n",
+        "short.toml");
+    const DirectSurvey written =
+        write_survey(scenario, *wire::find_profile("A351"), 1, directory.path());
+    CHECK(written.frames ==
+          static_cast<std::int64_t>(read_truth(directory.path() / "truth.bin").size()));
+    CHECK(written.frames > 50 * 359);  // The first samples pass before the filter has settled.
+    CHECK(text::read_csv(directory.path() / "sites.csv").row_count() == 1);
+    CHECK(text::read_csv(directory.path() / "schedule.csv").row_count() == 0);
+    CHECK(text::read_csv(directory.path() / "truth.csv").row_count() == 0);
+    CHECK_FALSE(std::filesystem::exists(directory.path() / "survey.toml"));
+    // The archive's times follow the sensor's own clock, here 100 ppm fast.
+    const auto truth = read_truth(directory.path() / "truth.bin");
+    CHECK(seconds_between(scenario.start(), truth.back().utc) ==
+          Approx(359.98 * (1.0 - 1e-4)).margin(1e-4));
+    const auto channel =
+        record::read_channel(directory.path() / "archive", {}, "BNZ", scenario.start(),
+                             scenario.end() + std::chrono::hours(1));
+    REQUIRE(channel.segments.size() == 1);
+    REQUIRE(channel.segments[0].counts.size() == truth.size());
+    CHECK(std::abs(seconds_between(truth.back().utc,
+                                   channel.segments[0].time_of(truth.size() - 1))) < 1e-3);
 }

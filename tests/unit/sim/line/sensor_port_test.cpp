@@ -1,7 +1,8 @@
-#include "sim/line/pty_device.hpp"
+#include "sim/line/sensor_port.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -9,7 +10,9 @@
 #include <fstream>
 #include <thread>
 
+#include "protocol/core/input_error.hpp"
 #include "protocol/wire/burst_decoder.hpp"
+#include "sim/device/device_stream.hpp"
 #include "sim/signal/signal_source.hpp"
 #include "tests/unit/sim/device/machine_script.hpp"
 
@@ -54,32 +57,57 @@ public:
         return bytes;
     }
 
+    [[nodiscard]] bool is_readable() {
+        pollfd watched{port_, POLLIN, 0};
+        return ::poll(&watched, 1, 100) > 0;
+    }
+
+    void discard() { ::tcflush(port_, TCIFLUSH); }
+
+    void set_speed(speed_t speed) {
+        termios settings{};
+        REQUIRE(::tcgetattr(port_, &settings) == 0);
+        ::cfsetspeed(&settings, speed);
+        REQUIRE(::tcsetattr(port_, TCSANOW, &settings) == 0);
+    }
+
 private:
     int port_;
 };
+
+void wait_for(const Pty& pty) {
+    pollfd watched = pty.watched(false);
+    REQUIRE(::poll(&watched, 1, 1000) == 1);
+}
 
 /// The emulator in a thread of its own.
 struct Served {
     Served(const std::string& name, double speed)
         : link(link_path(name)), pty(link), thread([this, speed] {
               const ClockScale clock{speed, scenario.start(), host_now()};
-              run = serve(pty, stream, clock, [this] { return stop.load(); });
+              std::array<Service*, 1> services{&port};
+              attend(services, clock, [this] { return stop.load(); });
           }) {}
-    ~Served() {
+    ~Served() { end(); }
+
+    void end() {
         stop = true;
         if (thread.joinable()) thread.join();
     }
 
+    const wire::DeviceProfile& profile = *wire::find_profile("A352AD10");
+
     std::filesystem::path link;
     Scenario scenario = load_scenario("tsukuba");
-    SignalSource source{scenario, *wire::find_profile("A352AD10"), 1};
-    RegisterMachine machine{*wire::find_profile("A352AD10"),
-                            {"A352AD10", "01234567", 1},
-                            steady_now() - RegisterMachine::kPowerOnTime};
+    SignalSource source{scenario, profile, 1};
+    RegisterMachine machine{
+        profile, {"A352AD10", "01234567", 1}, steady_now() - RegisterMachine::kPowerOnTime};
     std::vector<TruthRecord> truth;
-    DeviceStream stream{source, machine, [this](const TruthRecord& r) { truth.push_back(r); }};
+    DeviceStream stream{source, machine};
+    Line line{{}, 1, scenario.start(), [this](const TruthRecord& r) { truth.push_back(r); }};
+    FaultInjector faults{{}, scenario.start(), line, machine, profile, {}, {}};
     Pty pty;
-    PtyRun run;
+    SensorPort port{pty, stream, line, &faults};
     std::atomic<bool> stop = false;
     std::thread thread;
 };
@@ -90,7 +118,7 @@ constexpr std::string_view kStartLogging =
 }  // namespace
 
 TEST_CASE("a host configures the device through the terminal and reads its frames",
-          "[sim][pty_device]") {
+          "[sim][sensor_port]") {
     Served served("round_trip", 200.0);
     Host host(served.link);
     host.send("FE 01 0D 6A 00 0D");
@@ -100,8 +128,7 @@ TEST_CASE("a host configures the device through the terminal and reads its frame
     constexpr std::size_t kFrames = 2000;
     const auto bytes = host.receive(kFrames * 24);
     REQUIRE(bytes.size() == kFrames * 24);
-    served.stop = true;
-    served.thread.join();
+    served.end();
 
     wire::BurstDecoder decoder(wire::BurstLayout::recommended(), 80);
     std::span<const std::byte> input(bytes);
@@ -115,7 +142,7 @@ TEST_CASE("a host configures the device through the terminal and reads its frame
     CHECK(index == kFrames);
 }
 
-TEST_CASE("a host that does not read for a while loses nothing", "[sim][pty_device]") {
+TEST_CASE("a host that does not read for a while loses nothing", "[sim][sensor_port]") {
     Served served("stall", 1000.0);
     Host host(served.link);
     host.send(kStartLogging);
@@ -123,8 +150,7 @@ TEST_CASE("a host that does not read for a while loses nothing", "[sim][pty_devi
     std::this_thread::sleep_for(500ms);
     constexpr std::size_t kFrames = 30'000;
     const auto bytes = host.receive(kFrames * 24);
-    served.stop = true;
-    served.thread.join();
+    served.end();
     REQUIRE(bytes.size() == kFrames * 24);
     wire::BurstDecoder decoder(wire::BurstLayout::recommended(), 80);
     std::span<const std::byte> input(bytes);
@@ -137,7 +163,7 @@ TEST_CASE("a host that does not read for a while loses nothing", "[sim][pty_devi
         ++frames;
     }
     CHECK(frames == kFrames);
-    CHECK(served.stream.report().largest_lateness > 100s);
+    CHECK(served.line.report().largest_lateness > 100s);
 }
 
 TEST_CASE("the terminal is raw: every byte value passes both ways", "[sim][pty]") {
@@ -151,7 +177,7 @@ TEST_CASE("the terminal is raw: every byte value passes both ways", "[sim][pty]"
     host.send(hex_of(all));
     std::vector<std::byte> got;
     while (got.size() < all.size()) {
-        pty.wait(false, 1s);
+        wait_for(pty);
         const auto more = pty.read();
         REQUIRE_FALSE(more.empty());
         got.insert(got.end(), more.begin(), more.end());
@@ -165,22 +191,107 @@ TEST_CASE("a host may come and go", "[sim][pty]") {
     for (int visit = 0; visit < 3; ++visit) {
         Host host(link);
         host.send("0D");
-        pty.wait(false, 1s);
+        wait_for(pty);
         CHECK(pty.read().size() == 1);
     }
     CHECK(pty.read().empty());
 }
 
-TEST_CASE("the link replaces an old one, spares a file, and goes with the device", "[sim][pty]") {
+TEST_CASE("the link goes with the device and takes the place of one left behind", "[sim][pty]") {
     const auto link = link_path("link");
-    std::filesystem::create_symlink("/nonexistent", link);
+    std::filesystem::create_symlink("/dev/pts/987654", link);
     {
         const Pty pty(link);
         CHECK(std::filesystem::read_symlink(link) == pty.slave_path());
     }
     CHECK_FALSE(std::filesystem::exists(std::filesystem::symlink_status(link)));
+}
+
+TEST_CASE("a path that is not ours is refused and stays", "[sim][pty]") {
+    const auto link = link_path("foreign");
+    const auto refused = [&link] {
+        CHECK_THROWS_AS(Pty(link), InputError);
+        CHECK(std::filesystem::exists(std::filesystem::symlink_status(link)));
+        std::filesystem::remove(link);
+    };
     std::ofstream(link) << "a file of somebody";
-    CHECK_THROWS_AS(Pty(link), std::system_error);
-    CHECK(std::filesystem::exists(link));
+    refused();
+    std::filesystem::create_symlink("/nonexistent", link);
+    refused();
+    const Pty other(link_path("other"));
+    std::filesystem::create_symlink(other.slave_path(), link);  // A terminal that is served.
+    refused();
+    CHECK_THROWS_AS(Pty("/nonexistent/sensor"), InputError);
+}
+
+TEST_CASE("a link that somebody else has put in place is not removed", "[sim][pty]") {
+    const auto link = link_path("replaced");
+    {
+        const Pty pty(link);
+        std::filesystem::remove(link);
+        std::filesystem::create_symlink("/nonexistent", link);
+    }
+    CHECK(std::filesystem::read_symlink(link) == "/nonexistent");
     std::filesystem::remove(link);
+}
+
+TEST_CASE("a terminal that hangs up comes back under another name", "[sim][pty]") {
+    const auto link = link_path("hang_up");
+    Pty pty(link, 115200);
+    CHECK(pty.baud() == 115200);
+    const std::string before = pty.slave_path();
+    Host host(link);
+    pty.hang_up();
+    CHECK_FALSE(std::filesystem::exists(std::filesystem::symlink_status(link)));
+    CHECK(host.receive(1).empty());
+    pty.come_back();
+    CHECK(pty.slave_path() != before);
+    Host again(link);
+    again.send("0D");
+    wait_for(pty);
+    CHECK(pty.read().size() == 1);
+    CHECK(pty.baud() == 115200);
+}
+
+TEST_CASE("at another speed nothing is understood, at the right one all is", "[sim][sensor_port]") {
+    Served served("speed", 1.0);
+    Host host(served.link);
+    host.set_speed(B115200);
+    host.send("FE 01 0D 6A 00 0D");
+    CHECK(hex_of(host.receive(4)) != "6A 33 41 0D");
+    host.set_speed(B460800);
+    std::this_thread::sleep_for(200ms);  // A half-understood command is forgotten.
+    host.discard();
+    host.send("FE 01 0D 6A 00 0D");
+    CHECK(hex_of(host.receive(4)) == "6A 33 41 0D");
+}
+
+TEST_CASE("an overrun loses what the receiver has no room for and says exactly how much",
+          "[sim][sensor_port]") {
+    Served served("overrun", 50.0);
+    served.faults.apply(parse_fault("overrun", {served.profile, 50.0}), served.scenario.start());
+    Host host(served.link);
+    host.send(kStartLogging);
+    std::this_thread::sleep_for(400ms);  // 1000 frames, 24 kB.
+    wire::BurstDecoder decoder(wire::BurstLayout::recommended(), 80);
+    std::int64_t frames = 0;
+    const auto read = [&](std::size_t count) {
+        const auto bytes = host.receive(count);
+        std::span<const std::byte> input(bytes);
+        while (const auto event = decoder.next(input)) {
+            frames += std::holds_alternative<wire::BurstFrame>(*event) ? 1 : 0;
+        }
+    };
+    read(24 * 500);
+    host.send("FE 00 0D 83 02 0D");
+    std::this_thread::sleep_for(300ms);
+    served.end();
+    while (host.is_readable()) read(1);
+    const LineReport& report = served.line.report();
+    // 4095 bytes are 170 frames; some pass the kernel's own buffer unseen.
+    CHECK(report.lost_by_overrun > 700);
+    CHECK(report.frames_lost == report.lost_by_overrun);
+    CHECK(report.frames_sent == frames);
+    CHECK(report.frames_made == report.frames_sent + report.frames_lost + report.frames_damaged);
+    CHECK(served.truth.size() == static_cast<std::size_t>(report.frames_made));
 }

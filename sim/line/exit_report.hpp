@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "sim/line/fault_injector.hpp"
+#include "sim/line/line.hpp"
+
+namespace a351::sim {
+
+/// What the emulator did, for tests to hold against what a host counted.
+struct ExitReport {
+    std::string scenario;
+    std::uint64_t seed = 0;
+    double speed = 1.0;         ///< Simulated seconds per second.
+    double real_seconds = 0.0;  ///< From the first frame handed over to the last.
+    std::uint64_t commands = 0;
+    bool was_drained = false;      ///< The host read everything.
+    std::size_t bytes_unread = 0;  ///< When the port was pulled out.
+    LineReport line;
+    FaultReport faults;
+};
+
+/// One JSON object; keys: a351-sim(1), REPORT.
+/// @param indent  spaces; negative: all in one line.
+[[nodiscard]] std::string to_json(const ExitReport& report, int indent);
+
+}  // namespace a351::sim

@@ -1,0 +1,72 @@
+#include "sim/line/fault_script.hpp"
+
+#include <limits>
+
+#include "protocol/text/text_file.hpp"
+
+namespace a351::sim {
+namespace {
+
+constexpr double kLongest_s = 1e9;
+constexpr double kMostPerHour = 1e6;
+constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+
+/// Kinds that happen without a setting that only the writer knows.
+bool can_be_random(std::string_view kind) {
+    return kind != "other_unit" && kind != "change_settings" && kind != "overrun";
+}
+
+PlannedFault read_planned(text::TomlTable& table, UtcTime start, const FaultRules& rules) {
+    PlannedFault planned;
+    const std::string kind = table.string_or("kind", "");
+    const int instants = (table.has("at_s") ? 1 : 0) + (table.has("at_utc") ? 1 : 0) +
+                         (table.has("at_frame") ? 1 : 0);
+    if (instants != 1) {
+        table.refuse("kind", instants == 0 ? "no instant" : "several instants",
+                     "one of at_s, at_utc, at_frame");
+    }
+    if (const auto seconds = table.number("at_s", 0.0, kLongest_s)) {
+        planned.at = start + from_seconds(*seconds);
+    }
+    if (const std::string text = table.string_or("at_utc", ""); table.has("at_utc")) {
+        planned.at = parse_rfc3339(text);
+        if (!planned.at)
+            table.refuse("at_utc", "not an instant", "RFC 3339, as 2017-07-16T00:00:00Z");
+    }
+    if (table.has("at_frame")) planned.at_frame = table.integer_or("at_frame", 0, 0, kMost);
+    planned.fault = read_fault(table, kind, rules);
+    table.require_all_read();
+    return planned;
+}
+
+}  // namespace
+
+FaultScript parse_fault_script(std::string toml, const std::filesystem::path& origin, UtcTime start,
+                               const FaultRules& rules) {
+    text::TomlTable root = text::parse_toml(std::move(toml), origin);
+    FaultScript script;
+    script.answers_cut_frames = root.boolean_or("answers_cut_frames", false);
+    for (text::TomlTable& table : root.tables("fault")) {
+        script.planned.push_back(read_planned(table, start, rules));
+    }
+    text::TomlTable random = root.table("random");
+    script.seed = static_cast<std::uint64_t>(random.integer_or("seed", 1, 0, kMost));
+    const auto read_rate = [&](std::string_view kind) {
+        const double per_h = random.number_or(std::string(kind) + "_per_h", 0.0, 0.0, kMostPerHour);
+        if (per_h > 0.0) script.random.push_back({parse_fault(kind, rules), per_h});
+    };
+    for (const std::string_view kind : fault_kinds()) {
+        if (can_be_random(kind)) read_rate(kind);
+    }
+    for (const std::string_view kind : rules.oven_kinds) read_rate(kind);
+    random.require_all_read();
+    root.require_all_read();
+    return script;
+}
+
+FaultScript read_fault_script(const std::filesystem::path& file, UtcTime start,
+                              const FaultRules& rules) {
+    return parse_fault_script(text::read_text_file(file), file, start, rules);
+}
+
+}  // namespace a351::sim

@@ -1,0 +1,109 @@
+#include "sim/line/frame_damage.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+
+#include "protocol/wire/burst_frame.hpp"
+
+namespace a351::sim {
+namespace {
+
+constexpr std::size_t kTail = 3;  ///< Checksum and end marker.
+
+/// In 0 ... count - 1.
+std::size_t draw(std::size_t count, RandomStream& random) {
+    return static_cast<std::size_t>(random.bits() % count);
+}
+
+std::uint16_t word_at(std::span<const std::byte> bytes, std::size_t at) {
+    return static_cast<std::uint16_t>((std::to_integer<unsigned>(bytes[at]) << 8U) |
+                                      std::to_integer<unsigned>(bytes[at + 1]));
+}
+
+/// A whole frame of `size` bytes, checked by markers and, if it has one, checksum, is in there.
+bool holds_frame(std::span<const std::byte> bytes, std::size_t size, bool has_checksum) {
+    for (std::size_t at = 0; at + size <= bytes.size(); ++at) {
+        const auto frame = bytes.subspan(at, size);
+        if (frame.front() != wire::kStartByte || frame.back() != wire::kEndByte) continue;
+        if (!has_checksum || has_right_checksum(frame)) return true;
+    }
+    return false;
+}
+
+Bytes joined(std::span<const std::byte> frame, std::size_t at, std::span<const std::byte> more) {
+    Bytes bytes(frame.begin(), frame.end());
+    bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(at), more.begin(), more.end());
+    return bytes;
+}
+
+}  // namespace
+
+bool has_right_checksum(std::span<const std::byte> frame) {
+    if (frame.size() < kTail + 3) return false;
+    const std::size_t at = frame.size() - kTail;
+    return word_at(frame, at) == wire::burst_checksum(frame.subspan(1, at - 1));
+}
+
+Bytes with_flipped_bits(std::span<const std::byte> frame, int bits, RandomStream& random) {
+    Bytes bytes(frame.begin(), frame.end());
+    const std::size_t words = (frame.size() - 2) / 2;
+    const std::size_t place = draw(words + 2, random);  // The last two are the markers.
+    const bool is_marker = place >= words;
+    const std::size_t first = !is_marker ? 1 + 2 * place : place == words ? 0 : frame.size() - 1;
+    const std::size_t width = is_marker ? 8 : 16;
+    for (std::size_t left = std::min(static_cast<std::size_t>(bits), width), flipped = 0;
+         left > 0;) {
+        const std::size_t bit = draw(width, random);
+        if ((flipped >> bit & 1U) != 0) continue;
+        flipped |= std::size_t{1} << bit;
+        bytes[first + bit / 8] ^= std::byte{1} << (bit % 8);
+        --left;
+    }
+    return bytes;
+}
+
+Bytes with_bad_checksum(std::span<const std::byte> frame, RandomStream& random) {
+    assert(has_right_checksum(frame));
+    Bytes bytes(frame.begin(), frame.end());
+    const std::size_t change = 1 + draw(0xFFFF, random);
+    bytes[frame.size() - kTail] ^= static_cast<std::byte>(change >> 8U);
+    bytes[frame.size() - kTail + 1] ^= static_cast<std::byte>(change & 0xFFU);
+    return bytes;
+}
+
+Bytes without_bytes(std::span<const std::byte> frame, int count, RandomStream& random) {
+    const std::size_t dropped = std::min(static_cast<std::size_t>(count), frame.size() - 1);
+    const std::size_t at = draw(frame.size() - dropped + 1, random);
+    Bytes bytes(frame.begin(), frame.begin() + static_cast<std::ptrdiff_t>(at));
+    bytes.insert(bytes.end(), frame.begin() + static_cast<std::ptrdiff_t>(at + dropped),
+                 frame.end());
+    return bytes;
+}
+
+Bytes with_more_bytes(std::span<const std::byte> frame, int count, RandomStream& random) {
+    const bool has_checksum = has_right_checksum(frame);
+    for (;;) {
+        const std::size_t at = 1 + draw(frame.size() - 1, random);
+        Bytes bytes = joined(frame, at, garbage(count, random));
+        if (!holds_frame(bytes, frame.size(), has_checksum)) return bytes;
+    }
+}
+
+Bytes cut_short(std::span<const std::byte> frame, RandomStream& random) {
+    const std::size_t kept = 1 + draw(frame.size() - 1, random);
+    return {frame.begin(), frame.begin() + static_cast<std::ptrdiff_t>(kept)};
+}
+
+Bytes garbage(int count, RandomStream& random) {
+    Bytes bytes(static_cast<std::size_t>(count));
+    for (std::byte& byte : bytes) byte = static_cast<std::byte>(random.bits() >> 56U);
+    return bytes;
+}
+
+Bytes cut_by_answer(std::span<const std::byte> frame, std::span<const std::byte> answer,
+                    RandomStream& random) {
+    return joined(frame, 1 + draw(frame.size() - 1, random), answer);
+}
+
+}  // namespace a351::sim

@@ -1,0 +1,167 @@
+#include "sim/line/line.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "sim/line/baud.hpp"
+
+namespace a351::sim {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::int64_t kBitsPerByte = 10;
+constexpr int kUsualBaud = 460800;
+constexpr Nanoseconds kPunctual = 1ms;
+
+Nanoseconds wire_time(std::size_t bytes, int baud) {
+    return Nanoseconds(1s) * static_cast<std::int64_t>(bytes) * kBitsPerByte / baud;
+}
+
+/// Forgets the first `start` elements once they are the greater part.
+template <class T>
+void compact(std::vector<T>& queue, std::size_t& start) {
+    if (2 * start < queue.size()) return;
+    queue.erase(queue.begin(), queue.begin() + static_cast<std::ptrdiff_t>(start));
+    start = 0;
+}
+
+}  // namespace
+
+Line::Line(const LineParameters& parameters, std::uint64_t seed, UtcTime start,
+           SettledHandler on_settled)
+    : parameters_(parameters),
+      transport_(parameters, seed, start),
+      on_settled_(std::move(on_settled)) {}
+
+Nanoseconds Line::lead() const {
+    if (!parameters_.is_paced) return Nanoseconds(0);
+    return wire_time(wire::kLargestFrame, device_baud_ > 0 ? device_baud_ : kUsualBaud);
+}
+
+void Line::set_speeds(int device_baud, int host_baud) noexcept {
+    device_baud_ = device_baud;
+    host_baud_ = host_baud;
+}
+
+void Line::send(std::span<const std::byte> bytes, UtcTime leaves, const TruthRecord* frame) {
+    Mark mark;
+    if (frame != nullptr) {
+        mark.content = Content::frame;
+        mark.truth = *frame;
+        if (frame->utc != last_frame_) ++report_.frames_made;
+        last_frame_ = frame->utc;
+    }
+    put(bytes, leaves, mark);
+}
+
+void Line::send_garbage(std::span<const std::byte> bytes, UtcTime leaves) {
+    Mark mark;
+    mark.content = Content::garbage;
+    put(bytes, leaves, mark);
+}
+
+void Line::put(std::span<const std::byte> bytes, UtcTime leaves, Mark mark) {
+    mark.begin = gone_ + pending_size();
+    if (device_baud_ == host_baud_) {
+        queue_.insert(queue_.end(), bytes.begin(), bytes.end());
+    } else if (!bytes.empty()) {
+        std::vector<std::byte> heard;
+        if (host_baud_ > 0) heard = as_heard(bytes, device_baud_, host_baud_);
+        queue_.insert(queue_.end(), heard.begin(), heard.end());
+        mark.truth.fate = heard.empty() ? Fate::lost : Fate::damaged;
+    }
+    mark.end = gone_ + pending_size();
+    marks_.push_back(mark);
+    carry(static_cast<std::size_t>(mark.end - mark.begin), leaves);
+    if (!is_plugged_in_) return unplug(leaves);
+    // What has no bytes is settled with what was sent before it.
+    if (is_empty()) remove(0, false, leaves);
+}
+
+void Line::carry(std::size_t byte_count, UtcTime leaves) {
+    if (!parameters_.is_paced) return transport_.carry(byte_count, leaves);
+    const int baud = device_baud_ > 0 ? device_baud_ : kUsualBaud;
+    for (std::size_t left = byte_count; left > 0; --left) {
+        transport_.carry(1, leaves - wire_time(left - 1, baud));
+    }
+}
+
+std::span<const std::byte> Line::shown(UtcTime now) const {
+    std::size_t size = transport_.shown(now);
+    if (parameters_.is_bytewise) size = std::min<std::size_t>(size, 1);
+    return std::span(queue_).subspan(queue_start_, size);
+}
+
+void Line::handed_over(std::size_t byte_count, UtcTime simulated) {
+    report_.bytes_handed_over += static_cast<std::int64_t>(byte_count);
+    remove(byte_count, false, simulated);
+}
+
+void Line::overrun(std::size_t byte_count, UtcTime simulated) {
+    const std::int64_t lost_before = report_.frames_lost;
+    remove(byte_count, true, simulated);
+    report_.lost_by_overrun += report_.frames_lost - lost_before;
+}
+
+void Line::unplug(UtcTime simulated) {
+    is_plugged_in_ = false;
+    const std::int64_t lost_before = report_.frames_lost;
+    remove(pending_size(), true, simulated);
+    report_.lost_unplugged += report_.frames_lost - lost_before;
+}
+
+void Line::remove(std::size_t byte_count, bool is_lost, UtcTime simulated) {
+    const std::uint64_t end = gone_ + byte_count;
+    for (std::size_t i = marks_start_; i < marks_.size() && marks_[i].begin <= end; ++i) {
+        Mark& mark = marks_[i];
+        if (is_lost) {
+            mark.bytes_lost += std::min(mark.end, end) - std::max(mark.begin, gone_);
+        }
+        if (mark.end > end) break;
+        const UtcTime shown = mark.end > gone_
+                                  ? transport_.shown_at(static_cast<std::size_t>(mark.end - gone_))
+                                  : simulated;
+        settle(mark, simulated, shown);
+        ++marks_start_;
+    }
+    transport_.take(byte_count);
+    queue_start_ += byte_count;
+    gone_ = end;
+    compact(queue_, queue_start_);
+    compact(marks_, marks_start_);
+}
+
+void Line::settle(Mark& mark, UtcTime simulated, UtcTime shown) {
+    const auto arrived = static_cast<std::int64_t>(mark.end - mark.begin - mark.bytes_lost);
+    if (mark.content == Content::answer) report_.bytes_of_answers += arrived;
+    if (mark.content != Content::frame) return;
+    Fate& fate = mark.truth.fate;
+    if (mark.bytes_lost > 0) fate = arrived == 0 ? Fate::lost : Fate::damaged;
+    if (fate == Fate::lost) {
+        ++report_.frames_lost;
+    } else if (fate == Fate::damaged) {
+        ++report_.frames_damaged;
+    } else {
+        report_.bytes_of_frames += arrived;
+        count_sent(mark.truth, simulated - shown);
+    }
+    on_settled_(mark.truth);
+}
+
+void Line::count_sent(const TruthRecord& truth, Nanoseconds lateness) {
+    if (truth.sampling_run != last_run_) {
+        last_run_ = truth.sampling_run;
+        report_.runs.push_back({truth.grid_index, 0});
+    }
+    ++report_.runs.back().frames;
+    ++report_.frames_sent;
+    if (truth.fate == Fate::repeated) ++report_.frames_repeated;
+    if (truth.fate == Fate::misplaced) ++report_.frames_misplaced;
+    constexpr unsigned kTroubles = wire::kFlagError | wire::kFlagAliasing | wire::kFlagAlarms;
+    if ((truth.values.flag & kTroubles) != 0) ++report_.frames_flagged;
+    report_.largest_lateness = std::max(report_.largest_lateness, lateness);
+    if (lateness > kPunctual) ++report_.frames_late;
+}
+
+}  // namespace a351::sim

@@ -1,0 +1,141 @@
+#include "sim/line/sensor_port.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "sim/line/baud.hpp"
+
+namespace a351::sim {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Frames closer than this are sent together: waking more often costs more than it is worth.
+constexpr Nanoseconds kBatch = 1ms;
+constexpr Nanoseconds kLongestWait = 100ms;
+constexpr Nanoseconds kGrace = 2s;
+/// What was written passes the kernel's flip buffer before it counts as waiting to be read.
+constexpr Nanoseconds kSettle = 200ms;
+/// Before the port is pulled out the host may read what it got: what is known to have been sent
+/// should have arrived.
+constexpr Nanoseconds kShortestLeave = 20ms;
+constexpr Nanoseconds kLongestLeave = 1s;
+
+}  // namespace
+
+SensorPort::SensorPort(Pty& pty, LineDevice& device, Line& line, FaultInjector* faults)
+    : pty_(pty), device_(device), line_(line), faults_(faults) {}
+
+LineSink& SensorPort::sink() noexcept {
+    return faults_ != nullptr ? static_cast<LineSink&>(*faults_) : line_;
+}
+
+void SensorPort::serve(const Instant& now) {
+    set_speeds();
+    if (faults_ != nullptr) faults_->begin(now);
+    device_.advance_to({now.simulated + line_.lead(), now.steady}, sink());
+    if (faults_ != nullptr) faults_->catch_up(now);
+    move_plug(now);
+    take_commands(now);
+    hand_over(now);
+    watch_for_the_end(now);
+}
+
+void SensorPort::set_speeds() {
+    host_baud_ = pty_.baud();
+    line_.set_speeds(device_.baud(), host_baud_);
+}
+
+void SensorPort::take_commands(const Instant& now) {
+    const auto commands = pty_.read();
+    if (commands.empty() || plug_ != Plug::in) return;
+    if (device_.baud() == host_baud_) {
+        device_.receive(commands, now, sink());
+    } else if (host_baud_ > 0) {
+        device_.receive(as_heard(commands, host_baud_, device_.baud()), now, sink());
+    }
+    set_speeds();
+}
+
+void SensorPort::hand_over(const Instant& now) {
+    const std::int64_t sent_before = line_.report().frames_sent;
+    is_blocked_ = false;
+    while (!is_blocked_ && !line_.shown(now.simulated).empty()) {
+        is_blocked_ = !hand_over_some(now);
+    }
+    if (line_.report().frames_sent == sent_before) return;
+    if (sent_before == 0) first_sent_ = now.steady;
+    last_sent_ = now.steady;
+}
+
+/// @return false when the terminal is full.
+bool SensorPort::hand_over_some(const Instant& now) {
+    std::span<const std::byte> bytes = line_.shown(now.simulated);
+    const bool loses = faults_ != nullptr && faults_->is_overrun(now.simulated);
+    if (loses)
+        bytes = bytes.first(std::min(bytes.size(), kReceiver - std::min(kReceiver, pty_.unread())));
+    const std::size_t taken = bytes.empty() ? 0 : pty_.write(bytes);
+    line_.handed_over(taken, now.simulated);
+    if (loses) line_.overrun(line_.shown(now.simulated).size(), now.simulated);
+    return taken > 0 || loses;
+}
+
+void SensorPort::move_plug(const Instant& now) {
+    if (faults_ == nullptr) return;
+    if (const auto asked = faults_->take_hang_up()) {
+        if (plug_ == Plug::in) {
+            plug_ = Plug::leaving;
+            leaving_since_ = now.steady;
+        }
+        hang_up_ = *asked;
+    }
+    if (plug_ == Plug::leaving) {
+        const Nanoseconds since = now.steady - leaving_since_;
+        const std::size_t unread = pty_.unread();
+        if ((since > kShortestLeave && unread == 0) || since > kLongestLeave) {
+            bytes_unread_ += unread;
+            pty_.hang_up();
+            plug_ = Plug::out;
+        }
+    }
+    if (plug_ == Plug::out && now.simulated >= hang_up_.until) {
+        pty_.come_back();
+        faults_->came_back(hang_up_, now);
+        plug_ = Plug::in;
+    }
+}
+
+void SensorPort::watch_for_the_end(const Instant& now) {
+    if (device_.next_due() || !line_.is_empty()) {
+        ended_at_.reset();
+        return;
+    }
+    if (!ended_at_) ended_at_ = now.steady;
+    const Nanoseconds since = now.steady - *ended_at_;
+    was_drained_ = since > kSettle && pty_.unread() == 0;
+    is_finished_ = was_drained_ || since > kGrace;
+}
+
+void SensorPort::watch(std::vector<pollfd>& descriptors) const {
+    descriptors.push_back(pty_.watched(is_blocked_));
+}
+
+Nanoseconds SensorPort::patience(const Instant& now, const ClockScale& clock) const {
+    if (is_blocked_) return kLongestWait;
+    const std::optional<UtcTime> due = device_.next_due();
+    const std::optional<UtcTime> shown = line_.next_shown();
+    if (plug_ != Plug::in || (!due && !shown)) return kBatch;
+    UtcTime next = UtcTime::max();
+    if (due) next = std::min(next, *due - line_.lead());
+    if (shown) next = std::min(next, *shown);
+    const Nanoseconds wait = clock.host_at(next) - clock.host_at(now.simulated);
+    // Two frames closer than the batch wait for each other.
+    const bool is_dense = now.steady - last_sent_ < kBatch;
+    return std::clamp<Nanoseconds>(wait, is_dense ? kBatch : Nanoseconds(0), kLongestWait);
+}
+
+double SensorPort::real_seconds() const noexcept {
+    return std::chrono::duration<double>(last_sent_ - first_sent_).count();
+}
+
+}  // namespace a351::sim

@@ -1,0 +1,36 @@
+#pragma once
+/// @file
+/// Frames of Modbus RTU as bytes: Modbus over Serial Line, Specification and Implementation Guide
+/// V1.02 (modbus.org), section 2.5.1, and the four functions of the Omron E5_C (H175-E1, section 4).
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace a351::sim {
+
+inline constexpr std::byte kReadRegisters{0x03};
+inline constexpr std::byte kWriteRegister{0x06};
+inline constexpr std::byte kEcho{0x08};
+inline constexpr std::byte kWriteRegisters{0x10};
+
+/// Reflected polynomial A001h, start FFFFh; sent low byte first.
+[[nodiscard]] std::uint16_t modbus_crc(std::span<const std::byte> bytes) noexcept;
+
+/// The frame with its CRC behind it.
+[[nodiscard]] std::vector<std::byte> sealed(std::vector<std::byte> frame);
+
+/// The last two bytes are the CRC of all before them.
+[[nodiscard]] bool is_sealed(std::span<const std::byte> frame) noexcept;
+
+/// How long the request that begins like this will be.
+/// @return  std::nullopt: not known yet, or a function of which only silence shows the end.
+[[nodiscard]] std::optional<std::size_t> request_length(std::span<const std::byte> begin) noexcept;
+
+/// The 16-bit word at `offset`, high byte first.
+[[nodiscard]] std::uint16_t word_at(std::span<const std::byte> frame, std::size_t offset) noexcept;
+void append_word(std::vector<std::byte>& frame, std::uint16_t word);
+
+}  // namespace a351::sim

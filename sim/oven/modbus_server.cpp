@@ -1,0 +1,216 @@
+#include "sim/oven/modbus_server.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace a351::sim {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double kBitsPerCharacter = 11.0;
+constexpr double kSilence = 3.5;  ///< Characters that end a frame.
+constexpr std::size_t kLongestRequest = 264;
+constexpr std::size_t kBabble = 64;
+constexpr std::byte kBroadcast{0};
+constexpr std::uint16_t kCommandAddress = 0x0000, kOtherCommandAddress = 0xFFFF;
+constexpr std::uint8_t kSoftwareReset = 0x06;
+
+std::size_t index_of(OvenFault fault) { return static_cast<std::size_t>(fault); }
+
+std::vector<std::byte> refused(std::span<const std::byte> request, Refusal reason) {
+    return {request[0], request[1] | std::byte{0x80}, std::byte(reason)};
+}
+
+/// The head of the request, which is all of the answer to a write.
+std::vector<std::byte> confirmed(std::span<const std::byte> request) {
+    return {request.begin(), request.begin() + 6};
+}
+
+std::vector<std::byte> nonsense(std::uint16_t seed) {
+    std::vector<std::byte> bytes(kBabble);
+    std::uint32_t state = seed;
+    for (std::byte& byte : bytes) {
+        state = state * 1'664'525U + 1'013'904'223U;  // Numerical Recipes in C, 2nd ed., 7.1.
+        byte = static_cast<std::byte>(state >> 24);
+    }
+    return bytes;
+}
+
+}  // namespace
+
+ModbusServer::ModbusServer(OvenController& controller, const ServerOptions& options)
+    : controller_(controller),
+      options_(options),
+      // Modbus over Serial Line V1.02, 2.5.1.1: a fixed time above 19 200 baud.
+      silence_(options.baud > 19'200 ? Nanoseconds(1750us) : characters(kSilence)) {}
+
+Nanoseconds ModbusServer::characters(double count) const {
+    return from_seconds(count * kBitsPerCharacter / options_.baud);
+}
+
+void ModbusServer::fail_next(OvenFault kind, int count) { remaining_[index_of(kind)] = count; }
+
+void ModbusServer::restart(Nanoseconds now) {
+    controller_.restart();
+    answer_.reset();
+    received_.clear();
+    is_restarting_ = true;
+    restarted_at_ = now;
+}
+
+void ModbusServer::receive(std::span<const std::byte> bytes, Nanoseconds now) {
+    if (bytes.empty()) return;
+    end_by_silence(now);
+    last_byte_ = now;
+    if (is_restarting_ && now - restarted_at_ >= options_.restart_time) is_restarting_ = false;
+    if (answer_ || is_restarting_ || !controller_.speaks_modbus()) {
+        ++report_.unheard;
+        return;
+    }
+    if (is_lost_) return;
+    received_.insert(received_.end(), bytes.begin(), bytes.end());
+    take_requests(now);
+}
+
+void ModbusServer::receive_noise(Nanoseconds now) {
+    end_by_silence(now);
+    last_byte_ = now;
+    if (!is_lost_) ++report_.unreadable;
+    is_lost_ = true;
+    received_.clear();
+}
+
+void ModbusServer::end_by_silence(Nanoseconds now) {
+    if (now - last_byte_ <= silence_) return;
+    is_lost_ = false;
+    if (received_.empty()) return;
+    const std::vector<std::byte> frame = std::exchange(received_, {});
+    if (!request_length(frame) && is_sealed(frame)) {
+        handle(frame, now);
+    } else {
+        ++report_.unreadable;
+    }
+}
+
+void ModbusServer::take_requests(Nanoseconds now) {
+    while (!received_.empty()) {
+        const std::optional<std::size_t> length = request_length(received_);
+        if (received_.size() < length.value_or(kLongestRequest)) return;
+        if (!length || !is_sealed(std::span(received_).first(*length))) {
+            ++report_.unreadable;
+            is_lost_ = true;
+            received_.clear();
+            return;
+        }
+        const auto end = received_.begin() + static_cast<std::ptrdiff_t>(*length);
+        const std::vector<std::byte> request(received_.begin(), end);
+        received_.erase(received_.begin(), end);
+        handle(request, now);
+        if ((answer_ || is_restarting_) && !std::exchange(received_, {}).empty()) ++report_.unheard;
+    }
+}
+
+void ModbusServer::handle(std::span<const std::byte> request, Nanoseconds now) {
+    if (request[0] == kBroadcast) {
+        ++report_.broadcasts;
+        static_cast<void>(answer_to(request, now));
+        return;
+    }
+    if (std::to_integer<int>(request[0]) != options_.unit) {
+        ++report_.for_other_units;
+        return;
+    }
+    const std::optional<OvenFault> fault = take_fault();
+    if (fault) ++report_.faults[index_of(*fault)];
+    if (fault == OvenFault::silence) return;
+    if (fault == OvenFault::exception) {
+        reply(sealed(refused(request, Refusal::operation)), request.size(), fault, now);
+    } else if (fault == OvenFault::babble) {
+        reply(nonsense(modbus_crc(request.first(request.size() - 2))), request.size(), fault, now);
+    } else {
+        std::vector<std::byte> answer = answer_to(request, now);
+        if (answer.empty()) return;
+        if (!fault) {
+            ++report_.answers;
+            if ((answer[1] & std::byte{0x80}) != std::byte{0}) ++report_.exceptions;
+        }
+        if (fault == OvenFault::wrong_unit) answer[0] = static_cast<std::byte>(options_.unit + 1);
+        reply(sealed(std::move(answer)), request.size(), fault, now);
+    }
+}
+
+std::vector<std::byte> ModbusServer::answer_to(std::span<const std::byte> request,
+                                               Nanoseconds now) {
+    const std::byte function = request[1];
+    const bool is_known = function == kReadRegisters || function == kWriteRegister ||
+                          function == kEcho || function == kWriteRegisters;
+    if (!is_known) return refused(request, Refusal::function);
+    const std::uint16_t address = word_at(request, 2), second = word_at(request, 4);
+    std::optional<Refusal> refusal;
+    if (function == kReadRegisters) {
+        const auto result = controller_.read(address, second);
+        if (const Refusal* reason = std::get_if<Refusal>(&result)) return refused(request, *reason);
+        const auto& words = std::get<std::vector<std::uint16_t>>(result);
+        std::vector<std::byte> answer = {request[0], function, std::byte(2 * words.size())};
+        for (const std::uint16_t word : words) append_word(answer, word);
+        return answer;
+    }
+    if (function == kEcho) {
+        if (address != 0) refusal = Refusal::data;  // The sub-function.
+    } else if (function == kWriteRegisters) {
+        const std::size_t byte_count = std::to_integer<std::size_t>(request[6]);
+        std::vector<std::uint16_t> words;
+        for (std::size_t i = 0; i + 1 < byte_count; i += 2) {
+            words.push_back(word_at(request, 7 + i));
+        }
+        if (find_variable(address) != nullptr && byte_count != 2U * second) {
+            refusal = Refusal::data;
+        } else {
+            refusal = controller_.write(address, words);
+        }
+    } else if (address == kCommandAddress || address == kOtherCommandAddress) {
+        const auto command = static_cast<std::uint8_t>(second >> 8);
+        refusal = controller_.operate(command, static_cast<std::uint8_t>(second));
+        if (!refusal && command == kSoftwareReset) {
+            restart(now);
+            return {};
+        }
+    } else {
+        refusal = controller_.write(address, std::span(&second, 1));
+    }
+    return refusal ? refused(request, *refusal) : confirmed(request);
+}
+
+std::optional<OvenFault> ModbusServer::take_fault() {
+    for (std::size_t i = 0; i < kOvenFaultCount; ++i) {
+        if (remaining_[i] == 0) continue;
+        if (remaining_[i] > 0) --remaining_[i];
+        return static_cast<OvenFault>(i);
+    }
+    return std::nullopt;
+}
+
+void ModbusServer::reply(std::vector<std::byte> frame, std::size_t request_size,
+                         std::optional<OvenFault> fault, Nanoseconds now) {
+    if (fault == OvenFault::crc_error) frame.back() ^= std::byte{1};
+    if (fault == OvenFault::truncated) frame.resize(frame.size() / 2);
+    const double on_the_line = static_cast<double>(request_size + frame.size());
+    Nanoseconds due = now + characters(on_the_line) + options_.answer_wait;
+    if (fault == OvenFault::delay) due += options_.fault_delay;
+    answer_ = Answer{due, std::move(frame)};
+}
+
+std::vector<std::byte> ModbusServer::advance_to(Nanoseconds now) {
+    end_by_silence(now);
+    if (!answer_ || now < answer_->due) return {};
+    return std::exchange(answer_, std::nullopt)->bytes;
+}
+
+std::optional<Nanoseconds> ModbusServer::next_due() const {
+    if (answer_) return answer_->due;
+    if (!received_.empty()) return last_byte_ + silence_ + 1ns;
+    return std::nullopt;
+}
+
+}  // namespace a351::sim

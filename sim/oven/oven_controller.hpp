@@ -1,0 +1,115 @@
+#pragma once
+/// @file
+/// The temperature controller behind its serial port: variables, status, operation commands, what
+/// is refused and why.  No bytes, no I/O, no clock.
+/// Omron E5_C Communications Manual (H175-E1): section 4-1-3 error codes, 4-4 functions, 5 variables
+/// and status.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "protocol/core/units.hpp"
+#include "sim/oven/oven_variables.hpp"
+#include "sim/plant/oven_plant.hpp"
+
+namespace a351::sim {
+
+/// Why a request is answered by an exception.  Where several apply the lowest is given.
+enum class Refusal : std::uint8_t {
+    function = 1,  ///< No such function.
+    address = 2,   ///< Nothing at the first address, or it cannot be written.
+    data = 3,      ///< Wrong count, value out of range, no such command.
+    operation = 4  ///< Not now: writing is off, or another setup area.
+};
+
+/// Bits of the status, H175 section 5; those that this controller can show.
+namespace oven_status {
+inline constexpr std::uint32_t kInputError = 1U << 6;
+inline constexpr std::uint32_t kHeating = 1U << 8;
+inline constexpr std::uint32_t kAlarm1 = 1U << 12;
+inline constexpr std::uint32_t kRamMode = 1U << 20;
+inline constexpr std::uint32_t kRamDiffers = 1U << 21;
+inline constexpr std::uint32_t kSetupArea1 = 1U << 22;
+inline constexpr std::uint32_t kStopped = 1U << 24;
+inline constexpr std::uint32_t kWritingEnabled = 1U << 25;
+}  // namespace oven_status
+
+struct ControllerOptions {
+    bool has_two_byte_addresses = true;  ///< The earlier E5CN has none.
+    DegC set_point_low = DegC(-20.0);    ///< Limits of the set point; within the input's range,
+    DegC set_point_high = DegC(500.0);   ///< which for a K couple shown in 0.1 degC is this.
+};
+
+/// The controller of one oven.  The plant's set point, tuning and state are only touched by what is
+/// written here.
+///
+/// Departures from the device: no auto-tuning, manual mode, remote or multiple set points (refused
+/// as not possible now); heater current, cooling and status 2 read 0; only K couples (input types 5
+/// and 6) can be chosen; alarm 1 is an upper limit above the set point, with value 0 it is off;
+/// D, input filter and the alarm's second pair of limits are kept without effect.  Not in the manual
+/// and assumed: an input error shows the upper end of the range; registers that the map leaves out
+/// read 0 when the first one asked for exists.
+class OvenController {
+public:
+    explicit OvenController(OvenPlant& plant, const ControllerOptions& options = {});
+
+    /// `count` registers from `address` on, 1 ... 106; in four-byte mode both are even.
+    [[nodiscard]] std::variant<std::vector<std::uint16_t>, Refusal> read(std::uint16_t address,
+                                                                         std::size_t count) const;
+
+    /// Up to 104 registers, all of them or none.
+    /// @return  std::nullopt when written.
+    [[nodiscard]] std::optional<Refusal> write(std::uint16_t address,
+                                               std::span<const std::uint16_t> words);
+
+    /// An operation command with its parameter.
+    [[nodiscard]] std::optional<Refusal> operate(std::uint8_t command, std::uint8_t parameter);
+
+    /// Power off and on, or a software reset: what was only in RAM is forgotten.
+    void restart();
+
+    /// Until its parameters are initialised, which sets the port back to another protocol.
+    [[nodiscard]] bool speaks_modbus() const noexcept { return speaks_modbus_; }
+
+    [[nodiscard]] std::uint32_t status() const;
+
+private:
+    /// What non-volatile memory holds; temperatures in 0.1 degC.
+    struct Settings {
+        std::int32_t set_point = 0;
+        std::int32_t alarm_1 = 0, alarm_1_upper = 0, alarm_1_lower = 0;
+        std::int32_t proportional_band = 0;
+        std::int32_t integral_time_s = 0, derivative_time_s = 0;
+        std::int32_t input_filter = 0;
+        std::int32_t input_type = 6;
+        ControllerKind kind = ControllerKind::pi;
+        bool is_running = true;
+        bool is_writing_enabled = false;
+
+        bool operator==(const Settings&) const = default;
+    };
+
+    [[nodiscard]] std::int32_t value(Variable variable) const;
+    [[nodiscard]] std::int32_t shown(std::int32_t tenths) const;
+    [[nodiscard]] std::int32_t process_value() const;
+    [[nodiscard]] std::uint32_t sensor_status() const;
+    [[nodiscard]] std::optional<Refusal> set(Variable variable, std::int32_t digits,
+                                             Settings& next) const;
+    void put_in_force(const Settings& next);
+    void enter_setup_area(bool is_in_setup);
+    [[nodiscard]] std::optional<Refusal> obey(std::uint8_t command, std::uint8_t parameter);
+
+    OvenPlant& plant_;
+    ControllerOptions options_;
+    Settings settings_;
+    Settings stored_;
+    bool is_in_ram_mode_ = false;
+    bool is_in_setup_ = false;
+    std::uint32_t held_status_ = 0;  ///< The sensor's bits at the moment setup area 1 was entered.
+    bool speaks_modbus_ = true;
+};
+
+}  // namespace a351::sim

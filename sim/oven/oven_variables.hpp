@@ -1,0 +1,60 @@
+#pragma once
+/// @file
+/// The variable area of the temperature controller: which address shows what, and what may be
+/// written.  Omron E5_C Communications Manual (H175-E1), section 5, the part that the E5_C-T, E5_D
+/// and 2008 E5xN models share with it.
+///
+/// Every variable is shown twice: at an address below 2000h as two registers, high word first
+/// ("four-byte mode"), and at one from 2000h on as a single register ("two-byte mode").
+
+#include <cstdint>
+#include <optional>
+
+namespace a351::sim {
+
+enum class Variable {
+    process_value,
+    status,
+    status_high,  ///< Two-byte mode only: the upper half of the status.
+    internal_set_point,
+    heater_current,
+    drive_heating,
+    drive_cooling,
+    set_point,
+    alarm_1,
+    alarm_1_upper,
+    alarm_1_lower,
+    status_2,
+    status_2_high,  ///< Two-byte mode only.
+    decimal_point,
+    input_filter,
+    proportional_band,
+    integral_time,
+    derivative_time,
+    input_type,
+    control_kind,
+};
+
+enum class WriteLevel {
+    none,       ///< Read only.
+    operation,  ///< Writable while the controller controls.
+    setup       ///< Writable in setup area 1 only, with control stopped.
+};
+
+struct VariableEntry {
+    Variable variable;
+    WriteLevel level;
+    std::optional<std::uint16_t> four_byte;
+    std::uint16_t two_byte;
+};
+
+inline constexpr std::uint16_t kFirstTwoByteAddress = 0x2000;
+
+[[nodiscard]] constexpr bool is_two_byte_address(std::uint16_t address) noexcept {
+    return address >= kFirstTwoByteAddress;
+}
+
+/// @return  null where the map shows nothing; an odd address of four-byte mode is such a place.
+[[nodiscard]] const VariableEntry* find_variable(std::uint16_t address) noexcept;
+
+}  // namespace a351::sim

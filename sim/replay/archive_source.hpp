@@ -1,0 +1,64 @@
+#pragma once
+/// @file
+/// miniSEED files of a data root's archive as a source of samples.
+/// protocol/record/archive-format.md.
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/replay/recording.hpp"
+#include "sim/signal/sample_source.hpp"
+
+namespace a351::sim {
+
+/// Samples of three axes and temperature, joined by time: those within half a sample of each other
+/// are one.  An instant that some channel lacks is left out.  The index goes on by one where a
+/// record follows within half a sample of the end of the one before, and otherwise by the gap in
+/// whole samples: COUNT then tells of it.  Times are those that the records give.
+///
+/// Holds one day file of each channel in memory.
+class ArchiveSource final : public SampleSource {
+public:
+    static constexpr std::array<const char*, 4> kFields{"x", "y", "z", "temperature"};
+
+    /// @param files  records of kRecordSize; those of channels at other rates are passed over.
+    /// @param axes   last letter of the channels of x, y, z.
+    /// @throws InputError  a file holds no record of the archive; two stations; two rates; an axis
+    ///         that `axes` does not name; no axis at all.
+    ArchiveSource(const std::vector<std::filesystem::path>& files,
+                  const std::array<std::string, 3>& axes);
+    ~ArchiveSource() override;
+
+    [[nodiscard]] int rate_hz() const noexcept override { return rate_hz_; }
+    [[nodiscard]] std::optional<UtcTime> next_instant() const override;
+    [[nodiscard]] TimedSample next() override;
+
+    /// Whether the sample that next() would give is the first of a run of sampling, as its record says.
+    [[nodiscard]] bool begins_run() const noexcept { return begins_run_; }
+
+    /// Whether x, y, z, temperature was archived; a field that was not reads 0.
+    [[nodiscard]] bool has_field(std::size_t field) const { return channels_.at(field) != nullptr; }
+
+    /// Instants left out because a channel lacked them.
+    [[nodiscard]] std::int64_t incomplete() const noexcept { return incomplete_; }
+
+    [[nodiscard]] const std::vector<RecordingDamage>& damage() const noexcept { return damage_; }
+
+private:
+    class Channel;
+
+    void advance();
+
+    std::array<std::unique_ptr<Channel>, 4> channels_;
+    int rate_hz_ = 0;
+    std::vector<RecordingDamage> damage_;
+    std::optional<TimedSample> next_;
+    bool begins_run_ = false;  ///< next_ does.
+    std::int64_t incomplete_ = 0;
+};
+
+}  // namespace a351::sim

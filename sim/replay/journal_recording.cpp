@@ -1,0 +1,161 @@
+#include "sim/replay/journal_recording.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "protocol/core/input_error.hpp"
+
+namespace a351::sim {
+namespace {
+
+using record::JournalHeader;
+
+constexpr std::size_t kIdentifierSize = 8;
+
+std::string hex(std::uint16_t value) {
+    std::array<char, sizeof "0x0000"> text{};
+    std::snprintf(text.data(), text.size(), "0x%04X", static_cast<unsigned>(value));
+    return text.data();
+}
+
+std::string settings_text(int rate_hz, std::string_view filter, std::uint16_t burst_ctrl) {
+    return std::to_string(rate_hz) + " Hz, " + std::string(filter) + ", BURST_CTRL " +
+           hex(burst_ctrl);
+}
+
+/// Characters that were not readable may have changed the length.
+std::string identifier(std::string text) {
+    text.resize(kIdentifierSize, ' ');
+    return text;
+}
+
+JournalHeader read_header(const std::filesystem::path& file) {
+    record::JournalReader reader(file);
+    const auto chunk = reader.next();
+    const auto* header = chunk ? std::get_if<JournalHeader>(&*chunk) : nullptr;
+    if (header == nullptr) {
+        throw InputError(file.string() + ": " + reader.damage()->reason +
+                         "; allowed: journal segments with a whole header");
+    }
+    return *header;
+}
+
+void require_known_settings(const std::filesystem::path& file, const JournalHeader& header) {
+    const auto* profile = wire::find_profile(header.profile);
+    if (profile == nullptr) {
+        throw InputError(file.string() + ": profile " + header.profile +
+                         ": unknown; allowed: A351, A352AD10");
+    }
+    const bool has_rate = std::ranges::count(profile->output_rates_hz, header.output_rate_hz,
+                                             &wire::Coded::value) > 0;
+    const bool has_baud =
+        std::ranges::count(profile->baud_rates, header.baud, &wire::Coded::value) > 0;
+    if (!has_rate || !has_baud || profile->filter_named(header.filter) == nullptr ||
+        !wire::BurstLayout::from_burst_ctrl(header.burst_ctrl)) {
+        throw InputError(file.string() + ": " +
+                         settings_text(header.output_rate_hz, header.filter, header.burst_ctrl) +
+                         ", " + std::to_string(header.baud) + " baud: settings that profile " +
+                         header.profile + " has not; allowed: those of its data sheet");
+    }
+}
+
+}  // namespace
+
+JournalRecording::JournalRecording(std::vector<std::filesystem::path> segments) {
+    for (auto& file : segments) {
+        Segment segment{std::move(file), {}, {}};
+        segment.header = read_header(segment.file);
+        require_known_settings(segment.file, segment.header);
+        const timing::ClockReading& clock = segment.header.clock;
+        segment.utc_minus_raw = clock.realtime.time_since_epoch() - clock.raw.time_since_epoch();
+        if (!segments_.empty() && segments_.back().header.boot_id == segment.header.boot_id) {
+            segment.utc_minus_raw = segments_.back().utc_minus_raw;
+        }
+        segments_.push_back(std::move(segment));
+    }
+    open(0);
+    load_piece();
+    if (!has_piece_ && !begin_next_session()) {
+        throw InputError(segments_.front().file.string() +
+                         ": no byte was received; allowed: journal segments with received bytes");
+    }
+}
+
+void JournalRecording::open(std::size_t segment) {
+    at_ = segment;
+    reader_.emplace(segments_[at_].file);
+    chunk_ = {};
+    read_ = 0;
+    unit_ = {wire::find_profile(header().profile), {}, header().baud};
+    unit_.identity.product_id = identifier(header().product_id);
+    unit_.identity.serial_number = identifier(header().serial_number);
+    unit_.identity.firmware = header().firmware;
+}
+
+/// The next chunk with received bytes of the session, if there is one.
+bool JournalRecording::load_chunk() {
+    while (true) {
+        while (auto chunk = reader_->next()) {
+            auto* received = std::get_if<record::RxChunk>(&*chunk);
+            if (received == nullptr || received->bytes.empty()) continue;
+            chunk_ = std::move(*received);
+            read_ = 0;
+            return true;
+        }
+        if (const auto& damage = reader_->damage()) {
+            damage_.push_back({damage->file, damage->offset, damage->byte_count, damage->reason});
+        }
+        const bool is_last =
+            at_ + 1 == segments_.size() || segments_[at_ + 1].header.session != header().session;
+        if (is_last) return false;
+        open(at_ + 1);
+    }
+}
+
+void JournalRecording::load_piece() {
+    has_piece_ = read_ < chunk_.reads.size() || load_chunk();
+    if (!has_piece_) return;
+    const UtcTime recorded(chunk_.reads[read_].time.time_since_epoch() +
+                           segments_[at_].utc_minus_raw);
+    due_ = std::max(due_, recorded);
+}
+
+std::optional<UtcTime> JournalRecording::next_due(const RegisterMachine&) const {
+    return has_piece_ ? std::optional(due_) : std::nullopt;
+}
+
+void JournalRecording::send_next(RegisterMachine&, UtcTime leaves, LineSink& line) {
+    const std::size_t begin = read_ == 0 ? 0 : chunk_.reads[read_ - 1].end;
+    line.send(std::span(chunk_.bytes).subspan(begin, chunk_.reads[read_].end - begin), leaves,
+              nullptr);
+    ++read_;
+    load_piece();
+}
+
+bool JournalRecording::begin_next_session() {
+    while (!has_piece_ && at_ + 1 < segments_.size()) {
+        open(at_ + 1);
+        load_piece();
+    }
+    return has_piece_;
+}
+
+std::string JournalRecording::objection(const RegisterMachine& machine) const {
+    const auto burst_ctrl = static_cast<std::uint16_t>(machine.value_of(wire::kBurstCtrl) &
+                                                       wire::kBurstCtrl.defined_bits);
+    const auto* filter = unit_.profile->filter_coded(
+        static_cast<std::uint8_t>(machine.value_of(wire::kFilterCtrl) & wire::kFilterSelect));
+    const bool is_auto = (machine.value_of(wire::kUartCtrl) & wire::kUartAuto) != 0;
+    const bool is_triggered = (machine.value_of(wire::kMscCtrl) & wire::kMscExternalTrigger) != 0;
+    if (machine.output_rate_hz() == header().output_rate_hz && filter->name == header().filter &&
+        burst_ctrl == header().burst_ctrl && is_auto && !is_triggered) {
+        return {};
+    }
+    return "the host asks for " +
+           settings_text(machine.output_rate_hz(), filter->name, burst_ctrl) +
+           (is_auto ? "" : ", manual") + (is_triggered ? ", external trigger" : "") + "; " +
+           segments_[at_].file.string() + " was recorded with " +
+           settings_text(header().output_rate_hz, header().filter, header().burst_ctrl);
+}
+
+}  // namespace a351::sim

@@ -1,0 +1,102 @@
+#include "sim/replay/replay_device.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace a351::sim {
+namespace {
+
+/// While the host is waited for nothing falls due; its commands wake the port.
+constexpr Nanoseconds kIdle = std::chrono::hours(1);
+
+bool is_same(const RecordedUnit& a, const RecordedUnit& b) {
+    return a.profile == b.profile && a.baud == b.baud &&
+           a.identity.product_id == b.identity.product_id &&
+           a.identity.serial_number == b.identity.serial_number &&
+           a.identity.firmware == b.identity.firmware;
+}
+
+/// Everything from the factory but the baud rate.
+FlashMemory flash_of(const RecordedUnit& unit) {
+    FlashMemory flash;
+    std::size_t i = 0;
+    for (const wire::Register& reg : wire::kRegisters) {
+        if (!reg.is_saved_in_flash) continue;
+        if (&reg == &wire::kUartCtrl) {
+            const auto coded =
+                std::ranges::find(unit.profile->baud_rates, unit.baud, &wire::Coded::value);
+            flash.settings[i] = static_cast<std::uint16_t>(coded->code << 8U);
+        }
+        ++i;
+    }
+    return flash;
+}
+
+}  // namespace
+
+ReplayDevice::ReplayDevice(std::unique_ptr<Recording> recording, ReplayTiming timing,
+                           Nanoseconds now)
+    : recording_(std::move(recording)), timing_(timing) {
+    put_in_place(now);
+    first_due_ = *recording_->next_due(*machine_);
+}
+
+/// The unit has been on for long.
+void ReplayDevice::put_in_place(Nanoseconds now) {
+    const RecordedUnit& unit = recording_->unit();
+    machine_ = std::make_unique<RegisterMachine>(
+        *unit.profile, unit.identity, now - RegisterMachine::kPowerOnTime, flash_of(unit));
+    run_ = machine_->sampling_run();
+}
+
+void ReplayDevice::receive(std::span<const std::byte> bytes, const Instant& now, LineSink& line) {
+    answers_.clear();
+    machine_->receive(bytes, now.steady, answers_);
+    if (!answers_.empty()) line.send(answers_, now.simulated, nullptr);
+    if (machine_->is_sampling() && machine_->sampling_run() != run_) begin_sampling(now.simulated);
+}
+
+void ReplayDevice::begin_sampling(UtcTime now) {
+    run_ = machine_->sampling_run();
+    sampling_since_ = now;
+    const std::string objection = recording_->objection(*machine_);
+    if (!objection.empty()) throw std::runtime_error(objection);
+    if (is_over_) return;
+    if (report_.sessions == 0 && timing_ == ReplayTiming::from_host_start) {
+        shift_ = now - *recording_->next_due(*machine_);
+    }
+    if (!has_begun_) ++report_.sessions;
+    has_begun_ = true;
+}
+
+UtcTime ReplayDevice::simulated(UtcTime recorded) const {
+    return timing_ == ReplayTiming::as_fast_as_read ? now_ : recorded + shift_;
+}
+
+void ReplayDevice::advance_to(const Instant& now, LineSink& line) {
+    now_ = now.simulated;
+    if (is_over_ || !machine_->is_sampling()) return;
+    while (const auto due = recording_->next_due(*machine_)) {
+        if (simulated(*due) > now_ || line.is_full()) return;
+        recording_->send_next(*machine_, std::max(simulated(*due), sampling_since_), line);
+        ++report_.pieces;
+    }
+    end_session(now.steady);
+}
+
+void ReplayDevice::end_session(Nanoseconds now) {
+    machine_->fall_back_to_configuration();
+    has_begun_ = false;
+    const RecordedUnit before = recording_->unit();
+    is_over_ = !recording_->begin_next_session();
+    if (!is_over_ && !is_same(before, recording_->unit())) put_in_place(now);
+}
+
+std::optional<UtcTime> ReplayDevice::next_due() const {
+    if (is_over_) return std::nullopt;
+    if (!machine_->is_sampling()) return now_ + kIdle;
+    const auto due = recording_->next_due(*machine_);
+    return due ? simulated(*due) : now_;
+}
+
+}  // namespace a351::sim

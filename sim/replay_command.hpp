@@ -1,0 +1,31 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace a351::sim {
+
+/// `a351-sim replay`: a recording behind the handshake of the live device.
+struct ReplayCommand {
+    std::vector<std::filesystem::path> files;
+    std::string link;
+    std::string speed = "1";  ///< A factor, or "max".
+    std::string clock;        ///< Absent, or as in parse_clock_scale().
+    std::string axes = "1,2,Z";
+    std::string profile = "A351";
+    std::string product, serial = "00000001";
+};
+
+/// @return  the subcommand; `command` must outlive its parsing.
+CLI::App* add_replay(CLI::App& app, ReplayCommand& command);
+
+/// Serves the recording until it ends and the host has read it, or `should_stop` says so; then says
+/// on stderr what could not be replayed.
+/// @throws InputError          the files, the clock, the link.
+/// @throws std::runtime_error  the host asked for settings that were not recorded.
+void run_replay(const ReplayCommand& command, const std::function<bool()>& should_stop);
+
+}  // namespace a351::sim

@@ -1,0 +1,217 @@
+#include "sim/scenario/scenario_places.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace a351::sim {
+namespace {
+
+/// The oven only heats: air warmer than its set point would not be held.
+constexpr double kColdestDegC = -40.0, kWarmestDegC = 42.0;
+
+/// A set-up is at least as long as the shortest occupation may be.
+constexpr double kShortestSetUpSeconds = 60.0;
+
+text::Site read_site(text::TomlTable& table) {
+    text::Site site;
+    site.name = table.string_or("name", "");
+    if (site.name.empty()) table.refuse("name", "missing", "a name");
+    if (site.name.find_first_of(",\r\n") != std::string::npos) {
+        table.refuse("name", "no cell of a table", "a name without commas and line ends");
+    }
+    site.longitude = Degrees(required_number(table, "longitude_deg", -180.0, 360.0));
+    site.latitude = Degrees(required_number(table, "latitude_deg", -90.0, 90.0));
+    site.altitude = Metres(required_number(table, "altitude_m", -500.0, 9000.0));
+    site.gravity = MilliGal(required_number(table, "gravity_mgal", 970000.0, 990000.0));
+    table.require_all_read();
+    return site;
+}
+
+std::string read_site_name(text::TomlTable& table, const Scenario& scenario) {
+    std::string name = table.string_or("site", "");
+    if (text::find_site(scenario.sites, name) == nullptr) {
+        table.refuse("site", "no such site", "the name of a [[site]]");
+    }
+    return name;
+}
+
+int read_number(text::TomlTable& table) {
+    return static_cast<int>(table.integer_or("number", 1, 1, std::numeric_limits<int>::max()));
+}
+
+std::vector<Levelling> read_levelling(text::TomlTable& table) {
+    const std::vector<double> about_y_deg = table.numbers("about_y_deg", -30.0, 30.0);
+    const std::vector<double> about_x_deg = table.numbers("about_x_deg", -30.0, 30.0);
+    if (about_y_deg.size() != about_x_deg.size()) {
+        table.refuse(table.has("about_x_deg") ? "about_x_deg" : "about_y_deg", "not a pair",
+                     "about_y_deg and about_x_deg, one angle per set-up each");
+    }
+    std::vector<Levelling> levelling;
+    for (std::size_t i = 0; i < about_y_deg.size(); ++i) {
+        levelling.push_back({about_y_deg[i], about_x_deg[i]});
+    }
+    return levelling;
+}
+
+ListedOccupation read_occupation(text::TomlTable& table, const Scenario& scenario) {
+    ListedOccupation occupation;
+    occupation.site = read_site_name(table, scenario);
+    occupation.number = read_number(table);
+    occupation.centre = required_instant(table, "centre_utc");
+    occupation.length_s = table.number("length_s", 60.0, 1e6);
+    occupation.ambient_degc = table.number("ambient_degc", kColdestDegC, kWarmestDegC);
+    occupation.is_outlier = table.boolean_or("outlier", false);
+    occupation.levelling = read_levelling(table);
+    table.require_all_read();
+    for (const ListedOccupation& other : scenario.occupations) {
+        if (other.site == occupation.site && other.number == occupation.number) {
+            table.refuse("number", "stands twice for this site", "each number once");
+        }
+    }
+    return occupation;
+}
+
+void read_sites(text::TomlTable& document, Scenario& scenario) {
+    if (document.has("site")) scenario.sites.clear();
+    for (text::TomlTable& table : document.tables("site")) {
+        const text::Site site = read_site(table);
+        if (text::find_site(scenario.sites, site.name) != nullptr) {
+            table.refuse("name", "stands twice", "each site once");
+        }
+        scenario.sites.push_back(site);
+    }
+    if (scenario.fixed_record && scenario.sites.size() != 1) {
+        document.refuse("site", "not exactly one", "one [[site]] for a record without occupations");
+    }
+}
+
+void read_occupations(text::TomlTable& document, Scenario& scenario) {
+    if (document.has("occupation")) {
+        if (scenario.fixed_record) {
+            document.refuse("occupation", "beside schedule.start_utc", "one of the two");
+        }
+        scenario.occupations.clear();
+        scenario.ambient.clear();
+        scenario.open_lids.clear();
+    }
+    for (text::TomlTable& table : document.tables("occupation")) {
+        const ListedOccupation occupation = read_occupation(table, scenario);
+        if (!scenario.occupations.empty() &&
+            occupation.centre <= scenario.occupations.back().centre) {
+            table.refuse("centre_utc", "not after the one before", "rising instants");
+        }
+        scenario.occupations.push_back(occupation);
+    }
+    for (const ListedOccupation& one : scenario.occupations) {
+        if (text::find_site(scenario.sites, one.site) == nullptr) {
+            document.refuse("site", "without " + one.site + " of the base's occupations",
+                            "every site in use, or other [[occupation]]s");
+        }
+    }
+    if (!scenario.fixed_record && scenario.occupations.empty()) {
+        document.refuse("occupation", "missing",
+                        "at least one [[occupation]], or schedule.start_utc");
+    }
+}
+
+void read_ambient(text::TomlTable& document, Scenario& scenario) {
+    if (document.has("ambient")) scenario.ambient.clear();
+    for (text::TomlTable& table : document.tables("ambient")) {
+        ListedAmbient knot;
+        knot.hours = table.number("at_h", 0.0, 10'000.0);
+        if (table.has("at_utc") == knot.hours.has_value()) {
+            table.refuse("at_h", "not one instant", "either at_h or at_utc");
+        }
+        if (!knot.hours) knot.utc = required_instant(table, "at_utc");
+        knot.degc = required_number(table, "degc", kColdestDegC, kWarmestDegC);
+        table.require_all_read();
+        scenario.ambient.push_back(knot);
+        const std::vector<AmbientKnot> knots = scenario.ambient_knots();
+        if (knots.size() > 1 && knots.back().time <= knots[knots.size() - 2].time) {
+            table.refuse(knot.hours ? "at_h" : "at_utc", "not after the one before",
+                         "rising instants");
+        }
+    }
+    if (!scenario.ambient.empty()) return;
+    const bool is_course_known =
+        !scenario.fixed_record &&
+        std::all_of(scenario.occupations.begin(), scenario.occupations.end(),
+                    [](const ListedOccupation& one) { return one.ambient_degc.has_value(); });
+    if (!is_course_known) {
+        document.refuse("ambient", "missing",
+                        "at least one [[ambient]], or ambient_degc in every [[occupation]]");
+    }
+}
+
+void read_open_lids(text::TomlTable& document, Scenario& scenario) {
+    if (document.has("lid_open")) scenario.open_lids.clear();
+    for (text::TomlTable& table : document.tables("lid_open")) {
+        ListedOpenLid lid;
+        if (table.has("site")) {
+            lid.site = read_site_name(table, scenario);
+            lid.number = read_number(table);
+            if (std::none_of(scenario.occupations.begin(), scenario.occupations.end(),
+                             [&](const ListedOccupation& one) {
+                                 return one.site == lid.site && one.number == lid.number;
+                             })) {
+                table.refuse("site", "no such stay", "site and number of an [[occupation]]");
+            }
+        } else {
+            lid.from = required_instant(table, "from_utc");
+            lid.to = required_instant(table, "to_utc");
+            if (lid.to <= lid.from) table.refuse("to_utc", "not after from_utc", "a later instant");
+        }
+        lid.outside_degc = required_number(table, "outside_degc", kColdestDegC, kWarmestDegC);
+        table.require_all_read();
+        scenario.open_lids.push_back(lid);
+    }
+}
+
+/// What no single key can say.
+void require_fit(text::TomlTable& document, const Scenario& scenario) {
+    if (scenario.fixed_record) return;
+    const ScheduleParameters& p = scenario.schedule;
+    const auto half_s = [&](const ListedOccupation& one) {
+        return 0.5 * one.length_s.value_or(p.length_s);
+    };
+    const text::TomlTable schedule = document.table("schedule");
+    if (3600.0 * p.lead_in_h < half_s(scenario.occupations.front())) {
+        schedule.refuse("lead_in_h", "shorter than half the first occupation", "a longer one");
+    }
+    if (60.0 * p.lead_out_min < half_s(scenario.occupations.back())) {
+        schedule.refuse("lead_out_min", "shorter than half the last occupation", "a longer one");
+    }
+    for (const ListedOccupation& one : scenario.occupations) {
+        const double parts =
+            one.levelling.empty() ? p.set_ups : static_cast<double>(one.levelling.size());
+        if (std::min(p.shortest_s, one.length_s.value_or(p.shortest_s)) / parts <
+            kShortestSetUpSeconds) {
+            schedule.refuse("setups", "leaves less than 60 s to one",
+                            "fewer, or longer occupations");
+        }
+    }
+}
+
+}  // namespace
+
+double required_number(text::TomlTable& table, std::string_view key, double low, double high) {
+    const std::optional<double> value = table.number(key, low, high);
+    if (!value) table.refuse(key, "missing", "a number");
+    return *value;
+}
+
+UtcTime required_instant(text::TomlTable& table, std::string_view key) {
+    const auto instant = parse_rfc3339(table.string_or(key, ""));
+    if (!instant) table.refuse(key, "not an instant", "RFC 3339");
+    return *instant;
+}
+
+void read_places(text::TomlTable& document, Scenario& scenario) {
+    read_sites(document, scenario);
+    read_occupations(document, scenario);
+    read_ambient(document, scenario);
+    read_open_lids(document, scenario);
+    require_fit(document, scenario);
+}
+
+}  // namespace a351::sim

@@ -1,0 +1,140 @@
+#include "sim/signal/set_up_truth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "protocol/text/csv.hpp"
+#include "sim/signal/disturbance.hpp"
+#include "sim/signal/signal_source.hpp"
+
+namespace a351::sim {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+constexpr std::array<const char*, kTermCount> kTermColumns = {
+    "tide_mgal",      "bias_mgal",    "static_mgal",   "dynamic_mgal", "clock_mgal", "warm_up_mgal",
+    "placement_mgal", "flicker_mgal", "resonant_mgal", "white_mgal",   "drift_mgal", "ripple_mgal"};
+
+/// To what is printed of a mean.
+double rounded(double value) {
+    constexpr double kSteps = 1e5;
+    return std::floor(value * kSteps + 0.5) / kSteps;
+}
+
+/// Left out at either end, since handling spoils it.
+Nanoseconds margin(const PlannedSetUp& set_up) {
+    return std::min<Nanoseconds>(std::chrono::minutes(1), (set_up.end - set_up.start) / 4);
+}
+
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Means of the slow signal's values that fall into each set-up.
+std::vector<SetUpTruth> slow_means(const Scenario& scenario, const std::vector<PlannedSetUp>& plan,
+                                   std::uint64_t seed) {
+    std::vector<SetUpTruth> truth(plan.size());
+    std::vector<int> counts(plan.size());
+    SlowSignal slow(scenario, plan, seed);
+    UtcTime now = scenario.start();
+    while (now < plan.back().end) {
+        const SlowValue value = slow.next();
+        const PlannedSetUp& set_up = plan[value.set_up];
+        const UtcTime start = set_up.start + margin(set_up);
+        if (start <= now && now < set_up.end - margin(set_up)) {
+            SetUpTruth& sums = truth[value.set_up];
+            sums.ambient_degc += value.ambient.value();
+            sums.temperature_degc += value.temperature.value();
+            for (std::size_t i = 0; i < kTermCount; ++i) sums.terms_mgal[i] += value.terms_mgal[i];
+            ++counts[value.set_up];
+        }
+        now += from_seconds(SlowSignal::kStepSeconds);
+    }
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        truth[i].ambient_degc /= counts[i];
+        truth[i].temperature_degc /= counts[i];
+        for (double& term : truth[i].terms_mgal) term /= counts[i];
+    }
+    return truth;
+}
+
+/// Adds what the vector does that its vertical does not: biases, bursts and noise across it.
+void add_vector_terms(const Scenario& scenario, const PlannedSetUp& set_up, const Vector& bias_mgal,
+                      Disturbances& disturbances, SetUpTruth& truth) {
+    const Vector vertical = tilted_vertical(set_up);
+    double force_mgal = set_up.site.gravity->value();
+    for (const double term : truth.terms_mgal) force_mgal += term;
+    Vector total_mgal{};
+    for (std::size_t i = 0; i < 3; ++i) total_mgal[i] = vertical[i] * force_mgal + bias_mgal[i];
+    truth.tilt_mgal = std::sqrt(dot(total_mgal, total_mgal)) - force_mgal;
+
+    constexpr double kRate = SignalSource::kRateHz;
+    const auto first = static_cast<std::int64_t>(
+        std::ceil(kRate * seconds_between(scenario.start(), set_up.start + margin(set_up))));
+    const auto last = static_cast<std::int64_t>(
+        std::ceil(kRate * seconds_between(scenario.start(), set_up.end - margin(set_up))));
+    double across_mgal2 = 0.0;
+    for (std::int64_t i = first; i < last; ++i) {
+        Vector burst_mgal{};
+        disturbances.add_to(burst_mgal, static_cast<double>(i) / kRate);
+        const double along_mgal = dot(burst_mgal, vertical);
+        truth.burst_mgal += along_mgal;
+        across_mgal2 += dot(burst_mgal, burst_mgal) - along_mgal * along_mgal;
+    }
+    const auto count = static_cast<double>(last - first);
+    truth.burst_mgal /= count;
+    const double ground_mgal = scenario.vibration.ground_mgal;
+    const double white_mgal = scenario.sensor.white_mgal;
+    constexpr double kHorizontalAxes = 2.0;
+    truth.rectification_mgal =
+        (across_mgal2 / count +
+         kHorizontalAxes * (ground_mgal * ground_mgal + white_mgal * white_mgal)) /
+        (2.0 * force_mgal);
+}
+
+}  // namespace
+
+std::vector<SetUpTruth> set_up_truth(const Scenario& scenario,
+                                     const std::vector<PlannedSetUp>& plan, std::uint64_t seed) {
+    if (!plan.front().is_occupied) return {};
+    std::vector<SetUpTruth> truth = slow_means(scenario, plan, seed);
+    const Vector bias_mgal = axis_bias_mgal(scenario, seed);
+    Disturbances disturbances(draw_bursts(scenario, plan, seed));
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        add_vector_terms(scenario, plan[i], bias_mgal, disturbances, truth[i]);
+    }
+    return truth;
+}
+
+std::string truth_csv(const Scenario& scenario, const std::vector<PlannedSetUp>& plan,
+                      std::uint64_t seed) {
+    using text::shortest;
+    std::string csv =
+        "site,occupation,start_utc,end_utc,gravity_mgal,used,set_up,ambient_degc,"
+        "temperature_degc,about_y_deg,about_x_deg";
+    for (const char* column : kTermColumns) csv += std::string(",") + column;
+    csv += ",tilt_mgal,burst_mgal,rectification_mgal\n";
+    const std::vector<SetUpTruth> truth = set_up_truth(scenario, plan, seed);
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        const PlannedSetUp& set_up = plan[i];
+        const SetUpTruth& mean = truth[i];
+        csv += set_up.site.name + "," + std::to_string(set_up.number) + "," +
+               to_rfc3339(set_up.start, 3) + "," + to_rfc3339(set_up.end, 3) + "," +
+               shortest(set_up.site.gravity->value()) + (set_up.is_outlier ? ",0," : ",1,") +
+               std::to_string(set_up.part);
+        const auto cell = [&csv](double value) { csv += "," + shortest(rounded(value)); };
+        cell(mean.ambient_degc);
+        cell(mean.temperature_degc);
+        cell(set_up.about_y_rad * kDegreesPerRadian);
+        cell(set_up.about_x_rad * kDegreesPerRadian);
+        std::for_each(mean.terms_mgal.begin(), mean.terms_mgal.end(), cell);
+        cell(mean.tilt_mgal);
+        cell(mean.burst_mgal);
+        cell(mean.rectification_mgal);
+        csv += "\n";
+    }
+    return csv;
+}
+
+}  // namespace a351::sim

@@ -1,0 +1,51 @@
+#pragma once
+/// @file
+/// Simulated records against the statistics of the published ones: Matsuda et al.,
+/// tests/golden/tsukuba/README.md.  Each figure is the mean over seeds and has a range to lie in;
+/// ranges allow for what the publication leaves open and for the scatter of single records.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sim/scenario/scenario.hpp"
+
+namespace a351::sim {
+
+struct Figure {
+    std::string name;       ///< With its unit.
+    std::string published;  ///< As printed; a dash where the publication has no number.
+    double low = 0.0, high = 0.0;
+    std::vector<double> values;  ///< One per seed.
+
+    [[nodiscard]] double mean() const;
+    [[nodiscard]] double deviation() const;  ///< Of single values.
+    [[nodiscard]] bool is_accepted() const { return mean() >= low && mean() <= high; }
+};
+
+/// Means over one occupation without its first and last minute, which handling spoils.
+struct DayRow {
+    double temperature_degc = 0.0;
+    double difference_mgal = 0.0;  ///< Reading minus gravity minus tide.
+    double middle_h = 0.0;         ///< Middle of the occupation since the start of the record.
+};
+[[nodiscard]] std::vector<DayRow> survey_day(const Scenario& scenario, std::uint64_t seed);
+
+/// 20 s means of a record at one point.
+struct IndoorRecord {
+    static constexpr double kStepSeconds = 20.0;
+    std::vector<double> temperature_degc;
+    std::vector<double> difference_mgal;
+};
+[[nodiscard]] IndoorRecord indoor_record(const Scenario& scenario, std::uint64_t seed);
+
+/// Seeds 1 ... `seeds` of the scenario tsukuba, without the samples between whole seconds.
+[[nodiscard]] std::vector<Figure> survey_day_figures(int seeds);
+
+/// Seeds 1 ... `seeds` of the scenario indoor.
+[[nodiscard]] std::vector<Figure> indoor_figures(int seeds);
+
+/// The same decomposed by EEMD: 10 modes, 60 members.
+[[nodiscard]] std::vector<Figure> indoor_eemd_figures(int seeds);
+
+}  // namespace a351::sim

@@ -1,0 +1,66 @@
+"""At --speed 1 frames leave at their instants, and the grid does not drift: seen from a host with its own clock."""
+
+import datetime
+import os
+import statistics
+import subprocess
+import termios
+import time
+
+from programs import BIN, IS_LONG, IS_SANITIZED, Scratch, demand, read_json, run
+
+SECONDS = 600 if IS_LONG else 20
+FRAME = 24
+# 511 / 2 samples of the filter at 4000 Hz, 430 us to data ready, 24 bytes of 10 bits at 460800 baud
+# (M-A352AD10 data sheet, 5.4, table 2.2, 6.2).
+DELAY_NS = 63_875_000 + 430_000 + 24 * 10 * 1_000_000_000 // 460_800
+START_LOGGING = "FE010D 85060D 86060D 88010D 8C030D 8DC70D FE000D 83010D"
+
+
+def listen(port, seconds):
+    """Host time of the read that brought the last byte of each frame."""
+    arrivals, received = [], 0
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        received += len(os.read(port, 4096))
+        now = time.time_ns()
+        arrivals += [now] * (received // FRAME - len(arrivals))
+    return arrivals
+
+
+with Scratch() as scratch:
+    plan = run(BIN / "a351-sim", "plan", "--scenario", "tsukuba", "--out", scratch)
+    start = dict(part.split("=", 1) for part in plan.stdout.split())["start_utc"]
+    host_ns = time.time_ns() // 1000 * 1000
+    host = datetime.datetime.fromtimestamp(host_ns // 10**9, datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%S")
+    sim = subprocess.Popen(
+        [BIN / "a351-sim", "device", "--link", "sensor", "--scenario", "tsukuba", "--report", "report.json",
+         "--clock", f"scaled:1@{start},{host}.{host_ns % 10**9:09d}Z"], cwd=scratch)
+    time.sleep(2.0)
+    port = os.open(scratch / "sensor", os.O_RDWR | os.O_NOCTTY)
+    for command in START_LOGGING.split():
+        os.write(port, bytes.fromhex(command))
+        time.sleep(0.01)
+    arrivals = listen(port, SECONDS)
+    os.write(port, bytes.fromhex("83020D"))
+    time.sleep(0.5)
+    sim.terminate()
+    demand("the emulator ends cleanly", sim.wait(timeout=30) == 0)
+    os.close(port)
+    report = read_json(scratch / "report.json")
+
+    first_ns = host_ns + report["runs"][0]["first_index"] * 20_000_000 + DELAY_NS
+    late_ms = [(arrival - first_ns - k * 20_000_000) / 1e6 for k, arrival in enumerate(arrivals)]
+    within = sum(1 for late in late_ms if late <= 1.0) / len(late_ms)
+    ends = [min(part) for part in (late_ms[:500], late_ms[-500:])]  # Load delays, and never the least delayed.
+    print(f"{len(arrivals)} frames in {SECONDS} s; at the host: {100 * within:.2f} % within 1 ms of their instant, "
+          f"median {statistics.median(late_ms):.3f} ms, largest {max(late_ms):.3f} ms, least in the first "
+          f"and last ten seconds {ends[0]:.3f} and {ends[1]:.3f} ms")
+    print(f"at the emulator: {report['frames_late']} of {report['frames_sent']} frames later than 1 ms, "
+          f"largest {1e3 * report['largest_lateness_s']:.3f} ms")
+    demand("every frame came", len(arrivals) >= 50 * (SECONDS - 1))
+    demand("no frame came before its instant", min(late_ms) >= 0.0)
+    demand("the grid has not drifted", abs(ends[1] - ends[0]) < 0.5)
+    if IS_LONG and not IS_SANITIZED:
+        demand("99 % leave within 1 ms of their instant",
+               report["frames_late"] <= 0.01 * report["frames_sent"])

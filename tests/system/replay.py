@@ -1,0 +1,224 @@
+"""A recorded journal through a fresh daemon: the same bytes, samples, gaps and counters; an archive: the same samples."""
+
+import datetime
+import json
+import signal
+import socket
+import subprocess
+import sys
+import time
+import urllib.request
+
+from programs import BIN, TOOLS, TOP, Scratch, daemon_config, demand, run
+
+LOGS = TOP / "tests" / "golden" / "logs"
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(LOGS))
+import journal_page  # noqa: E402
+
+SPEED = 20
+STREAM_COUNTERS = ["bytes", "frames", "bytes_skipped", "checksum_errors", "framing_errors", "gaps",
+                   "samples_missing", "duplicates", "anomalies", "error_flags", "sessions"]
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def rfc3339(seconds):
+    return datetime.datetime.fromtimestamp(seconds, datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%S.%fZ")
+
+
+class Daemon:
+    """a351d in a directory of its own; `port` names the sensor's link."""
+
+    def __init__(self, directory, clock=None, change=""):
+        self.http = free_port()
+        (directory / "a351d.toml").write_text(
+            daemon_config(self.http).replace("[storage]", change + "[storage]"))
+        command = [BIN / "a351d", "--config", "a351d.toml"] + (["--clock", clock] if clock else [])
+        self.log = open(directory / "a351d.log", "a")
+        self.process = subprocess.Popen(command, cwd=directory, stderr=self.log)
+
+    def status(self):
+        try:
+            with urllib.request.urlopen(f"http://127.0.0.1:{self.http}/api/status", timeout=2) as reply:
+                return json.load(reply)
+        except OSError:
+            return None
+
+    def counters(self):
+        """Of the stream, once they stand still."""
+        before, since = None, time.monotonic()
+        while time.monotonic() - since < 0.6:
+            state = self.status()
+            now = state and {key: state["counters"][key] for key in STREAM_COUNTERS}
+            if now != before:
+                before, since = now, time.monotonic()
+            time.sleep(0.05)
+        return before
+
+    def end(self):
+        self.process.send_signal(signal.SIGTERM)
+        demand("the daemon ends cleanly", self.process.wait(timeout=30) == 0)
+        self.log.close()
+
+
+def streams(journal):
+    """The received bytes of each session, in order."""
+    sessions = {}
+    for file in sorted(journal.glob("*.a351j")):
+        for kind, payload in journal_page.chunks(file):
+            if kind == journal_page.HEAD:
+                session = json.loads(payload)["session"]
+            elif kind == journal_page.RX:
+                for _, data in journal_page.reads(payload):
+                    sessions.setdefault(session, bytearray()).extend(data)
+    return list(sessions.values())
+
+
+def samples(directory):
+    """Per channel: its counts, first and last instant."""
+    out = directory / "counts"
+    out.mkdir(exist_ok=True)
+    channels = {}
+    for line in run(TOOLS / "archive-samples", directory / "data" / "archive", out).stdout.splitlines():
+        fields = dict(part.split("=", 1) for part in line.split())
+        channels[fields["channel"]] = ((out / fields["channel"]).read_text(), fields["first"], fields["last"])
+    return channels
+
+
+def seconds_of(utc):
+    return datetime.datetime.fromisoformat(utc.replace("Z", "+00:00")).timestamp()
+
+
+def record(directory):
+    """Two sessions of an ideal day, each ended by SIGTERM to the emulator."""
+    directory.mkdir()
+    plan = run(BIN / "a351-sim", "plan", "--scenario", "ideal", "--out", directory / "plan")
+    start = dict(part.split("=", 1) for part in plan.stdout.split())["start_utc"]
+    clock = f"scaled:{SPEED}@{start},{rfc3339(time.time())}"
+    daemon = Daemon(directory, clock)
+    for stay_s in (40, 20):
+        sim = subprocess.Popen([BIN / "a351-sim", "device", "--link", "sensor", "--scenario", "ideal",
+                                "--clock", clock], cwd=directory, stderr=subprocess.DEVNULL)
+        time.sleep(stay_s)
+        sim.send_signal(signal.SIGTERM)
+        demand("the emulated device ends cleanly", sim.wait(timeout=30) == 0)
+    counters = daemon.counters()
+    daemon.end()
+    return counters
+
+
+def replay(title, directory, files, *arguments, clock=None):
+    """A fresh daemon is told what `files` hold: its counters of the stream."""
+    directory.mkdir()
+    sim = subprocess.Popen([BIN / "a351-sim", "replay", "--link", "sensor", *arguments, *map(str, files)],
+                           cwd=directory, stderr=subprocess.PIPE, text=True)
+    daemon = Daemon(directory, clock)
+    words = sim.communicate(timeout=300)[1]
+    demand(f"{title}: the replay ends by itself and has nothing to say {words!r}",
+           sim.returncode == 0 and words == "")
+    counters = daemon.counters()
+    daemon.end()
+    return counters
+
+
+def demand_same(title, one, other):
+    """Two daemons archived the same."""
+    held, again = samples(one), samples(other)
+    demand(f"{title}: the same channels, {sorted(again)}", sorted(held) == sorted(again) != [])
+    for channel, (counts, first, last) in held.items():
+        demand(f"{title}: {channel}: {counts.count(chr(10))} samples, bit for bit the same",
+               again[channel][0] == counts != "")
+    return {channel: (seconds_of(again[channel][1]) - seconds_of(first), seconds_of(again[channel][2]) - seconds_of(last))
+            for channel, (_, first, last) in held.items()}
+
+
+def refuse(title, directory, status, parts, *command):
+    result = run(BIN / "a351-sim", "replay", *command, check=False, cwd=directory)
+    line = result.stderr.strip()
+    print(f"{title}: {line}")
+    demand(f"{title}: status {status}", result.returncode == status)
+    demand(f"{title}: one line that names {parts}", "\n" not in line and all(part in line for part in parts))
+
+
+with Scratch() as scratch:
+    first = scratch / "first"
+    counters = record(first)
+    print("recorded:", counters)
+    recorded = streams(first / "data" / "journal")
+    demand("two sessions or more were recorded", counters["sessions"] == len(recorded) >= 2)
+
+    # The shared clock begins 3 s before the recording, time for the handshake.  Where this machine pauses for half a
+    # second the daemon takes the sensor for silent and begins another session: such a try is void.
+    begin = seconds_of(samples(first)["BNZ"][1]) - 3 * SPEED
+    for attempt in range(3):
+        clock = f"scaled:{SPEED}@{rfc3339(begin)},{rfc3339(time.time())}"
+        again = scratch / f"again-{attempt}"
+        found = replay("in time", again, [first / "data" / "journal"], "--clock", clock, clock=clock)
+        print("replayed:", found)
+        if found["sessions"] == counters["sessions"]:
+            break
+    demand("in time: the same counters", found == counters)
+    demand("in time: the same bytes in the same sessions", streams(again / "data" / "journal") == recorded)
+    shifts = demand_same("in time", first, again)
+    print("times beside the recorded ones [s]:", shifts)
+    # A host that is configuring when the first bytes fall due gets them late: the first times tell of that.
+    demand("in time: the last sample within 0.2 s of its recorded time",
+           all(abs(last) < 0.2 for _, last in shifts.values()))
+
+    fast = scratch / "fast"
+    begun = time.monotonic()
+    found = replay("max", fast, sorted((first / "data" / "journal").iterdir()), "--speed", "max")
+    print(f"at max: {counters['frames'] / (time.monotonic() - begun):.0f} frames/s, start and end included")
+    demand("max: the same counters", found == counters)
+    demand("max: the same bytes in the same sessions", streams(fast / "data" / "journal") == recorded)
+    demand_same("max", first, fast)
+
+    encoded = scratch / "encoded"
+    found = replay("archive", encoded, [first / "data" / "archive"], "--speed", "max")
+    demand("archive: as many frames, none damaged",
+           found["frames"] == counters["frames"] and found["bytes_skipped"] == 0)
+    demand_same("archive", first, encoded)
+
+    # gap_over_a_wrap is silent for longer than a daemon waits before it begins a new session.
+    for log in sorted(LOGS.glob("*.a351j")):
+        if log.stem == "gap_over_a_wrap":
+            continue
+        expected = dict(line.split() for line in log.with_suffix(".counters").read_text().splitlines())
+        found = replay(log.stem, scratch / log.stem, [log], "--speed", str(SPEED))
+        demand(f"{log.stem}: the daemon's counters are those beside the log",
+               all(found[key] == int(value) for key, value in expected.items()))
+
+    bad = scratch / "bad"
+    bad.mkdir()
+    (bad / "empty").write_bytes(b"")
+    (bad / "text").write_text("no journal\n" * 100)
+    (bad / "directory").mkdir()
+    log = (LOGS / "clean_start.a351j").read_bytes()
+    (bad / "headless").write_bytes(log[:200])
+    for name in ("absent", "empty", "text", "directory", "headless"):
+        refuse(name, bad, 2, [name, "allowed"], "--link", "sensor", name)
+    refuse("speed", bad, 2, ["--speed", "quick", "max"], "--link", "sensor", "--speed", "quick", LOGS / "duplicates.a351j")
+    demand("nothing was written", sorted(path.name for path in bad.iterdir()) ==
+           ["directory", "empty", "headless", "text"])
+
+    # A torn tail: what is good is replayed, the rest told of.  Other settings: refused, status 1.
+    (bad / "torn.a351j").write_bytes(log[:-100])
+    for title, change, status, parts in (
+            ("torn", "", 0, ["torn.a351j", "torn chunk"]),
+            ("settings", "output_rate_hz = 200\nfilter = \"k512_fc60\"\n", 1, ["200 Hz", "50 Hz", "clean_start"])):
+        directory = scratch / title
+        directory.mkdir()
+        sim = subprocess.Popen([BIN / "a351-sim", "replay", "--link", "sensor", "--speed", "max",
+                                bad / "torn.a351j" if title == "torn" else LOGS / "clean_start.a351j"],
+                               cwd=directory, stderr=subprocess.PIPE, text=True)
+        daemon = Daemon(directory, change=change)
+        line = sim.communicate(timeout=60)[1].strip()
+        print(f"{title}: {line}")
+        demand(f"{title}: status {status}", sim.returncode == status)
+        demand(f"{title}: one line that names {parts}", "\n" not in line and all(part in line for part in parts))
+        daemon.end()

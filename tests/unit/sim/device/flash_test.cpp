@@ -1,0 +1,243 @@
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "protocol/core/input_error.hpp"
+#include "protocol/text/text_file.hpp"
+#include "sim/device/flash_file.hpp"
+#include "tests/unit/sim/device/machine_script.hpp"
+
+using namespace a351;
+using namespace a351::sim;
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const MachineIdentity kIdentity{"A352AD10", "01234567", 0x000D};
+
+const wire::DeviceProfile& profile() { return *wire::find_profile("A352AD10"); }
+
+void back_up(Bench& bench) {
+    bench.send({"FE 01", "8A 08"});
+    bench.wait(RegisterMachine::kFlashBackupTime);
+}
+
+void power_cycle(Bench& bench) {
+    bench.machine.power_cycle(bench.now);
+    bench.wait(RegisterMachine::kPowerOnTime);
+}
+
+std::filesystem::path scratch(const std::string& name) {
+    const auto file = std::filesystem::temp_directory_path() / ("a351-flash-test-" + name);
+    std::filesystem::remove(file);
+    return file;
+}
+
+}  // namespace
+
+TEST_CASE("FLASH_BACKUP reads 1 for 310 ms and then the settings survive power and reset",
+          "[sim][flash]") {
+    Bench bench;
+    bench.send({"FE 01", "85 06", "86 06", "8D C7", "C7 05", "9E 03", "8A 08"});
+    CHECK(bench.read("W1:0A") == "0008");
+    bench.wait(RegisterMachine::kFlashBackupTime);
+    CHECK(bench.read("W1:0A") == "0000");
+    CHECK(bench.read("W0:04") == "0000");
+    bench.write("W1:85 05");  // Not backed up.
+    for (const bool by_reset : {false, true}) {
+        by_reset ? bench.machine.spontaneous_reset(bench.now)
+                 : bench.machine.power_cycle(bench.now);
+        bench.wait(RegisterMachine::kResetTime);
+        CHECK(bench.read("W1:04") == "0600");
+        CHECK(bench.read("W1:06") == "0006");
+        CHECK(bench.read("W1:0C") == "C702");
+        CHECK(bench.read("W1:46") == "05F1");
+        CHECK(bench.read("W1:1E") == "0003");
+    }
+}
+
+TEST_CASE("without a backup a reset brings the old settings back", "[sim][flash]") {
+    Bench bench;
+    bench.write("W1:85 06");
+    power_cycle(bench);
+    CHECK(bench.read("W1:04") == "0400");
+}
+
+TEST_CASE("power that fails during a backup leaves the flash as it was", "[sim][flash]") {
+    Bench bench;
+    bench.send({"FE 01", "85 06", "8A 08"});
+    bench.wait(RegisterMachine::kFlashBackupTime - 2ms);
+    power_cycle(bench);
+    CHECK(bench.read("W1:04") == "0400");
+    CHECK(bench.machine.flash() == FlashMemory{});
+}
+
+TEST_CASE("FLASH_RST takes 1.9 s and shows only after the next reset", "[sim][flash]") {
+    Bench bench;
+    bench.write("W1:85 06");
+    back_up(bench);
+    bench.send({"FE 01", "8A 04"});
+    CHECK(bench.read("W1:0A") == "0004");
+    bench.wait(RegisterMachine::kFlashResetTime - 5ms);
+    CHECK(bench.read("W1:0A") == "0004");
+    CHECK(bench.read("W1:0A") == "0000");
+    CHECK(bench.read("W1:04") == "0600");
+    power_cycle(bench);
+    CHECK(bench.read("W1:04") == "0400");
+}
+
+TEST_CASE("a flash that fails says so in FLASH_BU_ERR and keeps what it had", "[sim][flash]") {
+    Bench bench;
+    bench.machine.fail_tests(0x0001);
+    bench.write("W1:85 06");
+    back_up(bench);
+    CHECK(bench.read("W0:04") == "0001");
+    Bench full;
+    full.machine.on_flash_written([](const FlashMemory&) { return false; });
+    back_up(full);
+    CHECK(full.read("W0:04") == "0001");
+}
+
+TEST_CASE("tests and busy bits are not kept", "[sim][flash]") {
+    Bench bench;
+    bench.send({"FE 01", "86 0E", "83 40", "8A 08"});
+    bench.wait(RegisterMachine::kFlashBackupTime);
+    power_cycle(bench);
+    CHECK(bench.read("W1:02") == "0026");
+    CHECK(bench.read("W1:06") == "000E");
+}
+
+TEST_CASE("with AUTO_START and UART_AUTO in flash the device streams right after its start",
+          "[sim][flash]") {
+    Bench bench;
+    bench.send({"FE 01", "85 06", "86 06", "88 03", "8C 03", "8D C7"});
+    back_up(bench);
+    bench.machine.power_cycle(bench.now);
+    bench.wait(RegisterMachine::kPowerOnTime - 1ns);
+    CHECK_FALSE(bench.machine.is_sampling());
+    bench.wait(1ns);
+    REQUIRE(bench.machine.is_sampling());
+    CHECK(bench.sample(8).size() == 24 * 3 - 1);
+    // The way out that the data sheet prescribes.
+    bench.send({"FE 00", "83 02", "FE 01", "88 01"});
+    back_up(bench);
+    power_cycle(bench);
+    CHECK_FALSE(bench.machine.is_sampling());
+    // AUTO_START alone does nothing.
+    bench.send({"FE 01", "88 02"});
+    back_up(bench);
+    power_cycle(bench);
+    CHECK_FALSE(bench.machine.is_sampling());
+}
+
+TEST_CASE("MESMOD_STAT follows MESMOD_SEL only after backup and reset", "[sim][flash]") {
+    Bench bench;
+    bench.write("W1:80 14");
+    CHECK(bench.read("W1:0A") == "0000");
+    back_up(bench);
+    CHECK(bench.read("W1:0A") == "0000");
+    power_cycle(bench);
+    CHECK(bench.read("W1:0A") == "1000");
+}
+
+TEST_CASE("a baud rate in flash is that of the next start", "[sim][flash]") {
+    Bench bench;
+    bench.write("W1:89 03");
+    back_up(bench);
+    bench.machine.power_cycle(bench.now);
+    CHECK(bench.machine.baud() == 115200);
+}
+
+TEST_CASE("an invalid pair in flash is one after the start", "[sim][flash]") {
+    Bench bench;
+    bench.write("W1:85 06");
+    back_up(bench);
+    power_cycle(bench);
+    CHECK(bench.read("W0:06") == "0002");
+}
+
+TEST_CASE("the flash file brings settings and coefficients to the next run", "[sim][flash]") {
+    const auto file = scratch("round-trip");
+    {
+        Bench bench("A352AD10", kIdentity, read_flash_file(file, profile()));
+        bench.machine.on_flash_written([&file](const FlashMemory& memory) {
+            write_flash_file(file, memory);
+            return true;
+        });
+        bench.send({"FE 01", "85 06", "86 06", "98 A5", "96 02"});
+        back_up(bench);
+    }
+    const FlashMemory kept = read_flash_file(file, profile());
+    CHECK(kept.coefficients[0] == 0xA5);
+    CHECK(kept.coefficients[1] == FlashMemory::kErased);
+    Bench again("A352AD10", kIdentity, kept);
+    CHECK(again.read("W1:04") == "0600");
+    CHECK(again.read("W1:06") == "0006");
+    std::filesystem::remove(file);
+}
+
+TEST_CASE("a new user filter is in the flash once it is selected", "[sim][flash]") {
+    int stores = 0;
+    Bench bench;
+    bench.machine.on_flash_written([&stores](const FlashMemory&) { return ++stores > 0; });
+    bench.send({"FE 01", "98 A5", "96 02"});
+    bench.wait(UserFilter::kWriteTime);
+    CHECK(stores == 0);
+    bench.send({"86 0B", "86 0C"});
+    CHECK(stores == 1);
+}
+
+TEST_CASE("any content of the flash survives the file", "[sim][flash]") {
+    const auto file = scratch("any");
+    FlashMemory memory;
+    for (std::size_t i = 0; i < memory.coefficients.size(); ++i) {
+        memory.coefficients[i] = static_cast<std::uint8_t>(i * 7);
+    }
+    memory.settings.back() = 0x0AF6;
+    write_flash_file(file, memory);
+    CHECK(read_flash_file(file, profile()) == memory);
+    write_flash_file(file, FlashMemory{});
+    CHECK(read_flash_file(file, profile()) == FlashMemory{});
+    std::filesystem::remove(file);
+}
+
+TEST_CASE("a damaged flash file is refused in one line that names it", "[sim][flash]") {
+    const auto file = scratch("damaged");
+    write_flash_file(file, FlashMemory{});
+    const std::string good = text::read_text_file(file);
+    const auto replaced = [&good](std::string_view from, std::string_view to) {
+        std::string text = good;
+        return text.replace(text.find(from), from.size(), to);
+    };
+    const std::pair<std::string, std::string> kDamaged[] = {
+        {good.substr(0, good.find("\nZALARM")), "ZALARM"},
+        {good.substr(0, good.size() / 2), "not TOML"},
+        {"", "format"},
+        {replaced("format = 1", "format = 2"), "format"},
+        {replaced("SMPL_CTRL = 0x0400", "SMPL_CTRL = 0x0900"), "SMPL_CTRL"},
+        {replaced("FILTER_CTRL = 0x0008", "FILTER_CTRL = 0x0028"), "FILTER_CTRL"},
+        {replaced("UART_CTRL = 0x0100", "UART_CTRL = 0x0000"), "UART_CTRL"},
+        {replaced("MSC_CTRL = 0x0026", "MSC_CTRL = 0x0126"), "MSC_CTRL"},
+        {replaced("LONGFILT_TAP = 0x000A", "LONGFILT_TAP = 0x000F"), "LONGFILT_TAP"},
+        {replaced("SIG_CTRL = 0x8E04", "SIG_CTRL = 0x18E04"), "SIG_CTRL"},
+        {replaced("SIG_CTRL = 0x8E04", "SIG_CTRL = \"8E04\""), "SIG_CTRL"},
+        {replaced("XALARM", "WALARM"), "XALARM"},
+        {replaced("ZALARM = 0x0FF1\n", "ZALARM = 0x0FF1\nWALARM = 0\n"), "WALARM"},
+        {replaced("bytes = []", "bytes = [\"0G\"]"), "bytes"},
+        {replaced("bytes = []", "bytes = [\"000\"]"), "bytes"},
+        {replaced("bytes = []", "bytes = [\"" + std::string(4098, '0') + "\"]"), "bytes"},
+    };
+    for (const auto& [text, named] : kDamaged) {
+        CAPTURE(text.substr(0, 80), named);
+        std::ofstream(file, std::ios::trunc) << text;
+        try {
+            static_cast<void>(read_flash_file(file, profile()));
+            FAIL("taken");
+        } catch (const InputError& error) {
+            CHECK_THAT(error.what(), Contains(file.filename().string()) && Contains(named));
+            CHECK_THAT(error.what(), !Contains("\n"));
+        }
+    }
+    std::filesystem::remove(file);
+}

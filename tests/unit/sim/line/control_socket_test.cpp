@@ -1,0 +1,177 @@
+#include "sim/line/control_socket.hpp"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <fstream>
+
+#include "protocol/core/input_error.hpp"
+
+using namespace a351;
+using namespace a351::sim;
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path socket_path(const std::string& name) {
+    return fs::temp_directory_path() / ("a351_" + name + "_" + std::to_string(::getpid()));
+}
+
+std::string echo(const std::string& line) {
+    if (line == "bad") throw InputError("no such thing; allowed: another");
+    if (line == "long") return std::string(100'000, 'x');
+    return line;
+}
+
+class Client {
+public:
+    explicit Client(const fs::path& path)
+        : socket_(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {
+        sockaddr_un address{};
+        address.sun_family = AF_UNIX;
+        std::memcpy(address.sun_path, path.c_str(), path.native().size() + 1);
+        REQUIRE(::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) ==
+                0);
+    }
+    ~Client() { ::close(socket_); }
+    Client(const Client&) = delete;
+    Client& operator=(const Client&) = delete;
+
+    void say(std::string_view text) {
+        REQUIRE(::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) ==
+                static_cast<ssize_t>(text.size()));
+    }
+    std::string hear() {
+        std::string text;
+        std::array<char, 65536> buffer;
+        for (ssize_t got; (got = ::recv(socket_, buffer.data(), buffer.size(), 0)) > 0;) {
+            text.append(buffer.data(), static_cast<std::size_t>(got));
+        }
+        return text;
+    }
+    bool is_dropped() {
+        char byte;
+        return ::recv(socket_, &byte, 1, 0) == 0;
+    }
+
+private:
+    int socket_;
+};
+
+}  // namespace
+
+TEST_CASE("each line is answered with ok or error, wherever it is cut", "[sim][control]") {
+    const auto path = socket_path("lines");
+    ControlSocket socket(path, echo);
+    Client client(path);
+    const std::string text = "one\nbad\n\ntwo\n";
+    for (std::size_t cut = 0; cut <= text.size(); ++cut) {
+        client.say(text.substr(0, cut));
+        socket.serve({});
+        client.say(text.substr(cut));
+        socket.serve({});
+        CHECK(client.hear() == "ok one\nerror no such thing; allowed: another\nok\nok two\n");
+    }
+}
+
+TEST_CASE("a bad client is dropped and the others are served", "[sim][control]") {
+    const auto path = socket_path("bad");
+    ControlSocket socket(path, echo);
+    Client good(path);
+    Client endless(path);
+    auto gone = std::make_unique<Client>(path);
+    gone->say("one\n");
+    gone.reset();
+    const std::string chunk(4000, 'x');
+    endless.say(chunk);
+    socket.serve({});
+    endless.say(chunk);
+    socket.serve({});
+    CHECK(endless.hear().starts_with("error line too long"));
+    CHECK(endless.is_dropped());
+    good.say("still there\n");
+    socket.serve({});
+    CHECK(good.hear() == "ok still there\n");
+}
+
+TEST_CASE("a client that does not read costs no more than a bounded memory", "[sim][control]") {
+    const auto path = socket_path("deaf");
+    ControlSocket socket(path, echo);
+    Client deaf(path);
+    bool was_dropped = false;
+    for (int i = 0; i < 40 && !was_dropped; ++i) {
+        deaf.say("long\n");
+        socket.serve({});
+        std::vector<pollfd> watched;
+        socket.watch(watched);
+        was_dropped = watched.size() == 1;
+    }
+    CHECK(was_dropped);
+}
+
+TEST_CASE("an answer that does not fit at once arrives whole", "[sim][control]") {
+    const auto path = socket_path("whole");
+    ControlSocket socket(path, echo);
+    Client client(path);
+    client.say("long\nlong\nlong\n");
+    std::string heard;
+    for (int i = 0; i < 100; ++i) {
+        socket.serve({});
+        heard += client.hear();
+    }
+    CHECK(heard.size() == 3 * 100'004);
+}
+
+TEST_CASE("more clients than there is room for are turned away", "[sim][control]") {
+    const auto path = socket_path("many");
+    ControlSocket socket(path, echo);
+    std::vector<std::unique_ptr<Client>> clients;
+    for (std::size_t i = 0; i < ControlSocket::kMostClients; ++i) {
+        clients.push_back(std::make_unique<Client>(path));
+        socket.serve({});
+    }
+    Client late(path);
+    socket.serve({});
+    CHECK(late.is_dropped());
+    clients.front()->say("one\n");
+    socket.serve({});
+    CHECK(clients.front()->hear() == "ok one\n");
+}
+
+TEST_CASE("the socket's path is removed at the end, and only if it is ours", "[sim][control]") {
+    const auto path = socket_path("path");
+    { const ControlSocket socket(path, echo); }
+    CHECK_FALSE(fs::exists(path));
+    {
+        const ControlSocket socket(path, echo);
+        fs::remove(path);
+        std::ofstream(path) << "somebody else's";
+    }
+    CHECK(fs::exists(path));
+    CHECK_THROWS_AS(ControlSocket(path, echo), InputError);
+    CHECK(fs::exists(path));
+    fs::remove(path);
+}
+
+TEST_CASE("a socket left behind is replaced, one that is listened to is not", "[sim][control]") {
+    const auto path = socket_path("stale");
+    {
+        const int stale = ::socket(AF_UNIX, SOCK_STREAM, 0);
+        sockaddr_un address{};
+        address.sun_family = AF_UNIX;
+        std::memcpy(address.sun_path, path.c_str(), path.native().size() + 1);
+        REQUIRE(::bind(stale, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+        ::close(stale);
+    }
+    const ControlSocket socket(path, echo);
+    CHECK_THROWS_AS(ControlSocket(path, echo), InputError);
+    CHECK(fs::is_socket(path));
+    CHECK_THROWS_AS(ControlSocket("/nonexistent/socket", echo), InputError);
+    CHECK_THROWS_AS(ControlSocket(fs::temp_directory_path() / std::string(200, 'x'), echo),
+                    InputError);
+}

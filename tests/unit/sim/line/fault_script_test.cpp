@@ -1,0 +1,150 @@
+#include "sim/line/fault_script.hpp"
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <filesystem>
+
+#include "protocol/core/input_error.hpp"
+#include "sim/line/control_orders.hpp"
+
+using namespace a351;
+using namespace a351::sim;
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const UtcTime kStart = *parse_rfc3339("2017-07-16T00:00:00Z");
+const FaultRules kRules{*wire::find_profile("A351"), 20.0, {"oven_silence"}};
+
+FaultScript parse(const std::string& toml) {
+    return parse_fault_script(toml, "faults.toml", kStart, kRules);
+}
+
+}  // namespace
+
+TEST_CASE("every kind can be written in a script and said in words", "[sim][fault_script]") {
+    for (const std::string_view kind : fault_kinds()) {
+        CAPTURE(kind);
+        if (kind == "overrun") continue;
+        std::string keys, words(kind);
+        if (kind == "other_unit") keys = "serial_number = \"12345678\"";
+        if (kind == "other_unit") words += " serial_number=12345678";
+        if (kind == "change_settings") keys = "output_rate_hz = 100";
+        if (kind == "change_settings") words += " output_rate_hz=100";
+        const FaultScript script =
+            parse("[[fault]]\nkind = \"" + std::string(kind) + "\"\nat_s = 1\n" + keys);
+        REQUIRE(script.planned.size() == 1);
+        CHECK(script.planned[0].fault.name == kind);
+        CHECK(static_cast<std::size_t>(script.planned[0].fault.kind) ==
+              static_cast<std::size_t>(std::ranges::find(fault_kinds(), kind) -
+                                       fault_kinds().begin()));
+        CHECK(parse_fault(words, kRules).kind == script.planned[0].fault.kind);
+    }
+}
+
+TEST_CASE("instants are seconds, UTC or frames", "[sim][fault_script]") {
+    const FaultScript script = parse(
+        "[[fault]]\nkind = \"reset\"\nat_s = 2.5\n"
+        "[[fault]]\nkind = \"reset\"\nat_utc = \"2017-07-16T00:00:03Z\"\n"
+        "[[fault]]\nkind = \"reset\"\nat_frame = 7\n");
+    CHECK(script.planned[0].at == kStart + 2500ms);
+    CHECK(script.planned[1].at == kStart + 3s);
+    CHECK(script.planned[2].at_frame == 7);
+    CHECK_FALSE(script.planned[2].at);
+}
+
+TEST_CASE("rates and seed of random faults", "[sim][fault_script]") {
+    const FaultScript script = parse(
+        "answers_cut_frames = true\n[random]\nseed = 9\nflip_bit_per_h = 12.5\n"
+        "oven_silence_per_h = 1\n");
+    CHECK(script.seed == 9);
+    CHECK(script.answers_cut_frames);
+    REQUIRE(script.random.size() == 2);
+    CHECK(script.random[0].fault.kind == FaultKind::flip_bit);
+    CHECK(script.random[0].per_h == 12.5);
+    CHECK(script.random[1].fault.name == "oven_silence");
+}
+
+TEST_CASE("what is wrong in a script is said with file, line, key, value and what is allowed",
+          "[sim][fault_script]") {
+    const auto refused = [](const std::string& toml, std::initializer_list<const char*> parts) {
+        CAPTURE(toml);
+        try {
+            static_cast<void>(parse(toml));
+            FAIL("was taken");
+        } catch (const InputError& error) {
+            for (const char* part : parts) CHECK_THAT(error.what(), Contains(part));
+            CHECK_THAT(error.what(), !Contains("\n"));
+        }
+    };
+    const std::string head = "[[fault]]\nkind = \"flip_bit\"\n";
+    refused(head, {"faults.toml:", "no instant", "at_s, at_utc, at_frame"});
+    refused(head + "at_s = 1\nat_frame = 2", {"several instants"});
+    refused(head + "at_s = -1", {"faults.toml:3", "fault.at_s = -1", "allowed"});
+    refused(head + "at_utc = \"noon\"", {"faults.toml:3", "noon", "RFC 3339"});
+    refused(head + "at_s = 1\nbits = 17", {"faults.toml:4", "fault.bits = 17", "from 1 to 16"});
+    refused(head + "at_s = 1\nseconds = 1", {"faults.toml:4", "seconds", "unknown key", "bits"});
+    refused("[[fault]]\nkind = \"melt\"\nat_s = 1", {"faults.toml:2", "melt", "flip_bit"});
+    refused("[[fault]]\nkind = \"oven_melt\"\nat_s = 1", {"oven_melt", "oven_silence"});
+    refused("[[fault]]\nkind = \"change_baud\"\nat_s = 1\nbaud = 9600",
+            {"faults.toml:4", "9600", "460800"});
+    refused("[[fault]]\nkind = \"change_settings\"\nat_s = 1\noutput_rate_hz = 51", {"51", "50"});
+    refused("[[fault]]\nkind = \"change_settings\"\nat_s = 1\nfilter = \"k1\"", {"k1", "k512_fc9"});
+    refused("[[fault]]\nkind = \"change_settings\"\nat_s = 1\nburst_ctrl = 3", {"burst_ctrl = 3"});
+    refused("[[fault]]\nkind = \"change_settings\"\nat_s = 1", {"changes nothing"});
+    refused("[[fault]]\nkind = \"other_unit\"\nat_s = 1\nserial_number = \"1\"", {"eight"});
+    refused("[random]\noverrun_per_h = 1", {"faults.toml:2", "unknown key"});
+    refused("[random]\nreset_per_h = -1", {"random.reset_per_h = -1"});
+    refused("[[fualt]]\nkind = \"reset\"", {"fualt", "unknown key", "fault"});
+    refused("kind =", {"faults.toml:1", "not TOML"});
+}
+
+TEST_CASE("an overrun needs a speed at which a host gets along", "[sim][fault_script]") {
+    FaultRules rules = kRules;
+    rules.speed = 50.0;
+    CHECK(parse_fault("overrun", rules).kind == FaultKind::overrun);
+    rules.speed = 50.1;
+    CHECK_THROWS_WITH(parse_fault("overrun", rules), Contains("up to 50"));
+}
+
+TEST_CASE("words that are no fault are refused in one line", "[sim][fault_script]") {
+    for (const std::string words :
+         {"", "  ", "melt", "flip_bit 3", "flip_bit count", "flip_bit count=", "flip_bit =3",
+          "flip_bit count=3 count=4", "flip_bit count=x", "flip_bit count=[1]",
+          "flip_bit count=\"3", "reset]\n[x", "flip_bit count=3#", "flip_bit a.b=3"}) {
+        CAPTURE(words);
+        try {
+            static_cast<void>(parse_fault(words, kRules));
+            FAIL("was taken");
+        } catch (const InputError& error) {
+            CHECK_THAT(error.what(), !Contains("\n"));
+        }
+    }
+    const Fault fault = parse_fault("  hang_up   seconds=2.5 loses_power=true", kRules);
+    CHECK(fault.seconds == 2.5);
+    CHECK(fault.loses_power);
+}
+
+TEST_CASE("the example script is read", "[sim][fault_script]") {
+    const auto example = std::filesystem::path(A351_GOLDEN).parent_path().parent_path() /
+                         "config/faults/example.toml";
+    const FaultScript script = read_fault_script(example, kStart, kRules);
+    CHECK(script.planned.size() > 20);
+    CHECK(script.random.size() > 1);
+}
+
+TEST_CASE("orders of the control socket do what they say", "[sim][control]") {
+    std::string done;
+    const ControlActions actions{[] { return std::string("{}"); }, [&done] { done = "edge"; },
+                                 [&done] { done = "quit"; },
+                                 [&done](const Fault& fault) { done = fault.name; }};
+    CHECK(obey("status", actions, kRules) == "{}");
+    CHECK(obey("edge", actions, kRules).empty());
+    CHECK(done == "edge");
+    CHECK(obey("quit", actions, kRules).empty());
+    CHECK(done == "quit");
+    CHECK(obey("lose_frames count=3", actions, kRules).empty());
+    CHECK(done == "lose_frames");
+    CHECK_THROWS_AS(obey("explode", actions, kRules), InputError);
+}

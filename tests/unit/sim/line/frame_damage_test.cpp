@@ -1,0 +1,80 @@
+#include "sim/line/frame_damage.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "protocol/wire/burst_frame.hpp"
+
+using namespace a351;
+using namespace a351::sim;
+
+namespace {
+
+Bytes frame() {
+    wire::BurstValues values;
+    values.flag = 0x8E00;
+    values.temperature = 2466;
+    values.axes = {-203896, 604794, 16713252};
+    values.count = 80;
+    Bytes bytes;
+    wire::append_frame(wire::BurstLayout::recommended(), values, bytes);
+    return bytes;
+}
+
+bool holds(const Bytes& bytes, const Bytes& frame) {
+    return std::ranges::search(bytes, frame).begin() != bytes.end();
+}
+
+std::size_t bits_apart(const Bytes& a, const Bytes& b) {
+    std::size_t bits = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        for (auto rest = std::to_integer<unsigned>(a[i] ^ b[i]); rest != 0; rest &= rest - 1)
+            ++bits;
+    }
+    return bits;
+}
+
+}  // namespace
+
+TEST_CASE("however a frame is spoilt, it is not in there any more", "[sim][frame_damage]") {
+    // 200 000 draws: each place and value of one byte is met 30 times, such as a second end marker.
+    const Bytes whole = frame();
+    RandomStream random(1, "test");
+    for (int i = 0; i < 200'000; ++i) {
+        REQUIRE_FALSE(holds(with_more_bytes(whole, 1, random), whole));
+    }
+    for (int i = 0; i < 2000; ++i) {
+        REQUIRE_FALSE(holds(with_more_bytes(whole, 1 + i % 50, random), whole));
+        REQUIRE(without_bytes(whole, 1 + i % 50, random).size() ==
+                24 - std::min<std::size_t>(1 + static_cast<std::size_t>(i) % 50, 23));
+        const Bytes front = cut_short(whole, random);
+        REQUIRE((!front.empty() && front.size() < 24));
+        REQUIRE(std::equal(front.begin(), front.end(), whole.begin()));
+    }
+}
+
+TEST_CASE("as many bits as asked for are flipped, in one word or marker", "[sim][frame_damage]") {
+    const Bytes whole = frame();
+    RandomStream random(1, "test");
+    for (int i = 0; i < 5000; ++i) {
+        const int bits = 1 + i % 16;
+        const Bytes flipped = with_flipped_bits(whole, bits, random);
+        const auto first = std::ranges::mismatch(whole, flipped).in1 - whole.begin();
+        const bool is_marker = first == 0 || first == 23;
+        REQUIRE(bits_apart(whole, flipped) ==
+                static_cast<std::size_t>(is_marker ? std::min(bits, 8) : bits));
+        REQUIRE((is_marker || !has_right_checksum(flipped)));
+    }
+}
+
+TEST_CASE("a bad checksum leaves the rest alone", "[sim][frame_damage]") {
+    const Bytes whole = frame();
+    REQUIRE(has_right_checksum(whole));
+    RandomStream random(1, "test");
+    for (int i = 0; i < 1000; ++i) {
+        const Bytes bad = with_bad_checksum(whole, random);
+        REQUIRE_FALSE(has_right_checksum(bad));
+        REQUIRE(std::equal(bad.begin(), bad.begin() + 21, whole.begin()));
+        REQUIRE(bad.back() == whole.back());
+    }
+}

@@ -1,0 +1,240 @@
+#include "sim/oven/oven_port.hpp"
+
+#include <modbus/modbus.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <cerrno>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "fake_oven.hpp"
+
+using namespace a351;
+using namespace a351::sim;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr Nanoseconds kNoAnswer = 300ms;  ///< Of waiting where none is expected.
+
+/// The port of a standing oven, attended to in a thread of its own.
+class RunningOven {
+public:
+    FakeOven oven;
+    std::filesystem::path link;
+
+    explicit RunningOven(const OvenOptions& options = {})
+        : link(std::filesystem::temp_directory_path() /
+               ("a351-oven-" + std::to_string(::getpid()))),
+          port_(link, oven, options) {}
+    ~RunningOven() { stop(); }
+
+    void start() {
+        thread_ = std::thread([this] {
+            std::array<Service*, 1> services{&port_};
+            attend(services, ClockScale{1.0, host_now(), host_now()},
+                   [this] { return stop_.load(); });
+        });
+    }
+
+    /// Also makes everything readable that the thread has written.
+    void stop() {
+        stop_ = true;
+        if (thread_.joinable()) thread_.join();
+        stop_ = false;
+    }
+
+    /// While stopped.
+    OvenPort& port() { return port_; }
+
+private:
+    OvenPort port_;
+    std::atomic<bool> stop_ = false;
+    std::thread thread_;
+};
+
+/// libmodbus as a master, which is nobody's friend here.
+class Master {
+public:
+    explicit Master(const std::filesystem::path& link, int unit = 1)
+        : context_(modbus_new_rtu(link.c_str(), 9600, 'N', 8, 1), modbus_free) {
+        REQUIRE(context_);
+        REQUIRE(modbus_set_slave(context_.get(), unit) == 0);
+        wait_at_most(5s);  // An answer takes 50 to 300 ms, and a busy machine its time.
+        REQUIRE(modbus_connect(context_.get()) == 0);
+    }
+    ~Master() { modbus_close(context_.get()); }
+
+    modbus_t* get() { return context_.get(); }
+
+    void wait_at_most(Nanoseconds limit) {
+        const auto us = static_cast<std::uint32_t>(limit / 1us);
+        REQUIRE(modbus_set_response_timeout(get(), us / 1'000'000, us % 1'000'000) == 0);
+    }
+
+    /// Waits for an answer that comes when nobody wants it any more, and throws it away.
+    void await_late_answer() {
+        pollfd watched{modbus_get_socket(get()), POLLIN, 0};
+        REQUIRE(::poll(&watched, 1, 10'000) == 1);
+        modbus_flush(get());
+    }
+
+    /// -1 stands for an answer that did not come, or was none; errno says which.
+    int read(int address) {
+        std::uint16_t word = 0;
+        return modbus_read_registers(get(), address, 1, &word) == 1 ? word : -1;
+    }
+
+private:
+    std::unique_ptr<modbus_t, decltype(&modbus_free)> context_;
+};
+
+}  // namespace
+
+TEST_CASE("libmodbus reads and writes the oven", "[sim][oven_port]") {
+    RunningOven running;
+    running.start();
+    Master master(running.link);
+    modbus_t* context = master.get();
+
+    std::array<std::uint16_t, 5> words{};
+    REQUIRE(modbus_read_registers(context, 0x2000, 5, words.data()) == 5);
+    CHECK(words == std::array<std::uint16_t, 5>{425, 0x0100, 425, 0, 250});
+    CHECK(master.read(0x2410) == 1);
+    std::array<std::uint16_t, 106> many{};
+    CHECK(modbus_read_registers(context, 0x2000, 106, many.data()) == 106);
+
+    CHECK(modbus_write_register(context, 0x2103, 430) == -1);
+    CHECK(errno == EMBXSFAIL);  // 04: communication writing is off.
+    REQUIRE(modbus_write_register(context, 0x0000, 0x0001) == 1);
+    REQUIRE(modbus_write_register(context, 0x2103, 430) == 1);
+    CHECK(master.read(0x2103) == 430);
+    const std::array<std::uint16_t, 2> four_bytes{0, 425};
+    REQUIRE(modbus_write_registers(context, 0x0106, 2, four_bytes.data()) == 2);
+    CHECK(master.read(0x2103) == 425);
+    REQUIRE(modbus_write_register(context, 0x0000, 0x0101) == 1);
+    REQUIRE(modbus_read_registers(context, 0x0002, 2, words.data()) == 2);
+    CHECK(words[0] == 0x0300);  // Stopped, communication writing on.
+
+    CHECK(modbus_write_register(context, 0x2103, 6000) == -1);
+    CHECK(errno == EMBXILVAL);
+    CHECK(master.read(0x2006) == -1);
+    CHECK(errno == EMBXILADD);
+    CHECK(modbus_read_input_registers(context, 0x2000, 1, words.data()) == -1);
+    CHECK(errno == EMBXILFUN);
+    std::uint8_t coil = 0;
+    CHECK(modbus_read_bits(context, 0x2000, 1, &coil) == -1);
+    CHECK(errno == EMBXILFUN);
+    running.stop();
+    CHECK(running.oven.target == DegC(42.5));
+    CHECK_FALSE(running.oven.runs);
+    CHECK(running.port().report().unreadable == 0);
+}
+
+TEST_CASE("libmodbus as the master of another unit hears nothing", "[sim][oven_port]") {
+    RunningOven running;
+    running.start();
+    Master master(running.link, 2);
+    master.wait_at_most(kNoAnswer);
+    CHECK(master.read(0x2000) == -1);
+    CHECK(errno == ETIMEDOUT);
+}
+
+TEST_CASE("libmodbus sees each fault for what it is, and the next answer is good",
+          "[sim][oven_port]") {
+    struct Case {
+        std::string_view kind;
+        int error;
+    };
+    for (const Case& c :
+         {Case{"oven_exception", EMBXSFAIL}, Case{"oven_crc_error", EMBBADCRC},
+          Case{"oven_wrong_unit", EMBBADSLAVE}, Case{"oven_truncated", ETIMEDOUT}}) {
+        CAPTURE(c.kind);
+        RunningOven running;
+        REQUIRE(running.port().apply_fault(c.kind, 1));
+        running.start();
+        Master master(running.link);
+        CHECK(master.read(0x2000) == -1);
+        CHECK(errno == c.error);
+        CHECK(master.read(0x2000) == 425);
+    }
+}
+
+TEST_CASE("libmodbus gives up on silence and on a late answer", "[sim][oven_port]") {
+    const bool is_late = GENERATE(false, true);
+    RunningOven running;
+    REQUIRE(running.port().apply_fault(is_late ? "oven_delay" : "oven_silence", 1));
+    running.start();
+    Master master(running.link);
+    master.wait_at_most(kNoAnswer);
+    CHECK(master.read(0x2000) == -1);
+    CHECK(errno == ETIMEDOUT);
+    if (is_late) master.await_late_answer();
+    master.wait_at_most(5s);
+    CHECK(master.read(0x2000) == 425);
+}
+
+TEST_CASE("the sensor opens and is mended by name", "[sim][oven_port]") {
+    RunningOven running;
+    CHECK_FALSE(running.port().apply_fault("oven_fire", 1));
+    for (const std::string_view kind : OvenPort::fault_kinds()) {
+        CAPTURE(kind);
+        CHECK((kind == "oven_power_cycle" || running.port().apply_fault(kind, 0)));
+    }
+    REQUIRE(running.port().apply_fault("oven_sensor_break", 1));
+    running.start();
+    Master master(running.link);
+    CHECK(master.read(0x2000) == 5000);
+    CHECK(master.read(0x2001) == 0x1040);  // Input error and, at the end of the range, alarm 1.
+    running.stop();
+    REQUIRE(running.port().apply_fault("oven_sensor_break", 0));
+    running.start();
+    CHECK(master.read(0x2001) == 0x0100);
+}
+
+TEST_CASE("after a power cycle the oven takes its time to answer", "[sim][oven_port]") {
+    OvenOptions options;
+    options.server.restart_time = 2s;
+    RunningOven running(options);
+    REQUIRE(running.port().apply_fault("oven_power_cycle", 1));
+    running.start();
+    Master master(running.link);
+    master.wait_at_most(kNoAnswer);
+    CHECK(master.read(0x2000) == -1);
+    int answer = -1;
+    for (int i = 0; i < 50 && answer == -1; ++i) answer = master.read(0x2000);
+    CHECK(answer == 425);
+}
+
+TEST_CASE("a master at another speed is not understood", "[sim][oven_port]") {
+    OvenOptions options;
+    options.server.baud = 19200;
+    RunningOven running(options);
+    running.start();
+    Master master(running.link);
+    master.wait_at_most(1s);
+    CHECK(master.read(0x2000) == -1);
+    CHECK(errno == ETIMEDOUT);
+    running.stop();
+    CHECK(running.port().report().unreadable == 1);
+    CHECK(running.port().report().answers == 0);
+}
+
+TEST_CASE("an oven unplugged and plugged in again is found under its link", "[sim][oven_port]") {
+    RunningOven running;
+    const std::filesystem::path before = std::filesystem::read_symlink(running.link);
+    REQUIRE(running.port().apply_fault("oven_unplug", 1));
+    CHECK_FALSE(std::filesystem::is_symlink(running.link));
+    running.start();
+    running.stop();
+    REQUIRE(running.port().apply_fault("oven_unplug", 0));
+    CHECK(std::filesystem::read_symlink(running.link) != before);
+    running.start();
+    Master master(running.link);
+    CHECK(master.read(0x2000) == 425);
+}

@@ -1,0 +1,257 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <utility>
+
+#include "protocol/core/input_error.hpp"
+#include "protocol/record/miniseed.hpp"
+#include "protocol/wire/burst_decoder.hpp"
+#include "sim/replay/archive_source.hpp"
+#include "sim/replay/open_recording.hpp"
+#include "tests/unit/record/file_bytes.hpp"
+#include "tests/unit/record/temporary_directory.hpp"
+#include "tests/unit/sim/replay/replay_host.hpp"
+
+namespace a351::sim {
+namespace {
+
+using namespace std::chrono_literals;
+
+const UtcTime kStart = *parse_rfc3339("2026-03-01T12:00:00Z");
+constexpr Nanoseconds kPeriod = 20ms;
+
+/// The values of sample k: x, y, z, temperature.
+std::array<std::int32_t, 4> values_of(int k) { return {k, -7 * k, 16'777'216 + k % 11, -1981 - k}; }
+
+/// A small archive: one file per channel, in records of a few samples.
+class Archive {
+public:
+    /// Appends samples [first, end) of the channel of `field`, sample k at kStart + k periods + late.
+    void add(std::size_t field, int first, int end, Nanoseconds late = 0ns, bool is_run = false) {
+        static constexpr std::array<const char*, 4> kChannels{"BN1", "BN2", "BNZ", "BK1"};
+        record::RecordHeader header;
+        header.network = "XX";
+        header.station = "A351";
+        header.location = "00";
+        header.channel = kChannels.at(field);
+        header.nominal_rate = Hertz(50);
+        while (first < end) {
+            std::vector<std::int32_t> counts;
+            const int most = 30 + static_cast<int>(7 * field);  // Records end at different samples.
+            for (int k = first; k < std::min(first + most, end); ++k) {
+                counts.push_back(values_of(k).at(field));
+            }
+            header.start = kStart + first * kPeriod + late;
+            header.starts_series = std::exchange(is_run, false);
+            const auto packed = record::pack_record(header, counts);
+            std::ofstream(file(field), std::ios::binary | std::ios::app)
+                .write(reinterpret_cast<const char*>(packed.bytes.data()), record::kRecordSize);
+            first += static_cast<int>(packed.sample_count);
+        }
+    }
+    void add_all(int first, int end, Nanoseconds late = 0ns) {
+        for (std::size_t field = 0; field < 4; ++field) add(field, first, end, late);
+    }
+
+    [[nodiscard]] std::filesystem::path file(std::size_t field) const {
+        return directory_.path() / ("XX.A351.00.F" + std::to_string(field) + ".D.2026.060");
+    }
+    [[nodiscard]] std::unique_ptr<Recording> open() const {
+        return open_recording({.files = {directory_.path()},
+                               .archive_unit = {wire::find_profile("A351"), {}, 460800}});
+    }
+    [[nodiscard]] ArchiveSource source() const {
+        return ArchiveSource({file(0), file(1), file(2), file(3)}, {"1", "2", "Z"});
+    }
+
+private:
+    test::TemporaryDirectory directory_;
+};
+
+std::vector<TimedSample> all_of(ArchiveSource& source) {
+    std::vector<TimedSample> samples;
+    while (source.next_instant()) samples.push_back(source.next());
+    return samples;
+}
+
+std::vector<wire::BurstValues> frames_of(const SentPieces& line, wire::BurstLayout layout) {
+    wire::BurstDecoder decoder(layout, 80);
+    std::vector<wire::BurstValues> values;
+    const auto bytes = line.bytes();
+    std::span<const std::byte> input(bytes);
+    while (const auto event = decoder.next(input)) {
+        REQUIRE(std::holds_alternative<wire::BurstFrame>(*event));
+        values.push_back(std::get<wire::BurstFrame>(*event).values());
+    }
+    return values;
+}
+
+}  // namespace
+
+TEST_CASE("an archive gives its samples back, joined over channels by time", "[sim][replay]") {
+    Archive archive;
+    archive.add_all(0, 500);
+    ArchiveSource source = archive.source();
+    CHECK(source.rate_hz() == 50);
+    const auto samples = all_of(source);
+    REQUIRE(samples.size() == 500);
+    for (int k = 0; k < 500; ++k) {
+        const TimedSample& sample = samples[static_cast<std::size_t>(k)];
+        const auto [x, y, z, temperature] = values_of(k);
+        REQUIRE(sample.index == k);
+        REQUIRE(sample.instant == kStart + k * kPeriod);
+        REQUIRE(sample.values == SensorSample{{x, y, z}, temperature});
+    }
+    CHECK(source.incomplete() == 0);
+}
+
+TEST_CASE("a gap of an archive is a jump of the index, exact after 100 s at 10 ppm",
+          "[sim][replay]") {
+    Archive archive;
+    archive.add_all(0, 100);
+    archive.add_all(150, 200);
+    archive.add_all(5200, 5300, 1ms);  // The device's clock gained on the header's rate.
+    ArchiveSource source = archive.source();
+    const auto samples = all_of(source);
+    REQUIRE(samples.size() == 250);
+    CHECK(samples[99].index == 99);
+    CHECK(samples[100].index == 150);
+    CHECK(samples[149].index == 199);
+    CHECK(samples[150].index == 5200);
+    CHECK(samples.back().index == 5299);
+}
+
+TEST_CASE("a slow drift of record starts against the header's rate makes no gap", "[sim][replay]") {
+    Archive archive;
+    // 20 ppm over an hour: 72 ms, several samples.
+    for (int k = 0; k < 180'000; k += 1000) {
+        archive.add_all(k, k + 1000, Nanoseconds(std::llround(k * 20e6 * 20e-6)));
+    }
+    ArchiveSource source = archive.source();
+    const auto samples = all_of(source);
+    REQUIRE(samples.size() == 180'000);
+    CHECK(samples.back().index == 179'999);
+}
+
+TEST_CASE("an instant that one channel lacks is left out, and the index tells", "[sim][replay]") {
+    Archive archive;
+    for (const std::size_t field : {0U, 1U, 3U}) archive.add(field, 0, 300);
+    archive.add(2, 0, 120);
+    archive.add(2, 160, 300);
+    ArchiveSource source = archive.source();
+    const auto samples = all_of(source);
+    REQUIRE(samples.size() == 260);
+    CHECK(samples[119].index == 119);
+    CHECK(samples[120].index == 160);
+    CHECK(samples[120].values.axes_counts[2] == values_of(160)[2]);
+    CHECK(source.incomplete() == 40);
+}
+
+TEST_CASE("damage in a day file is passed over and told of", "[sim][replay]") {
+    Archive archive;
+    archive.add_all(0, 300);
+    auto bytes = test::read_bytes(archive.file(1));
+    bytes.insert(bytes.begin() + record::kRecordSize, 100, std::byte{0x55});
+    test::write_bytes(archive.file(1), bytes);
+    ArchiveSource source = archive.source();
+    CHECK(all_of(source).size() == 300);
+    REQUIRE(source.damage().size() == 1);
+    CHECK(source.damage().front().offset == record::kRecordSize);
+    CHECK(source.damage().front().byte_count == 100);
+}
+
+TEST_CASE("archives of two stations, or without an axis, are refused", "[sim][replay]") {
+    Archive archive;
+    archive.add(3, 0, 10);
+    CHECK_THROWS_WITH(archive.open(), Catch::Contains("no axis among the files"));
+    archive.add(0, 0, 10);
+    CHECK_NOTHROW(archive.open());
+    CHECK_THROWS_WITH(ArchiveSource({archive.file(0)}, {"N", "E", "Z"}),
+                      Catch::Contains("BN1: not of the axes N,E,Z; allowed: --axes"));
+}
+
+TEST_CASE("an archive is sent in the layout that the host configures, transient or not",
+          "[sim][replay]") {
+    Archive archive;
+    archive.add_all(0, 200);
+    archive.add_all(1300, 1400);
+    const auto burst_ctrl = GENERATE(as<std::uint16_t>{}, 0xC703, 0x4702, 0x0701, 0x0103);
+    CAPTURE(burst_ctrl);
+    wire::SensorSettings settings;
+    settings.layout = *wire::BurstLayout::from_burst_ctrl(burst_ctrl);
+    const auto timing = GENERATE(ReplayTiming::as_recorded, ReplayTiming::as_fast_as_read);
+    ReplayDevice device(archive.open(), timing, Nanoseconds(0));
+    ReplayHost host(device, kStart - 10s);
+    host.configure(settings);
+    host.listen();
+    const auto frames = frames_of(host.line, settings.layout);
+    REQUIRE(frames.size() == 300);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const int k = static_cast<int>(i < 200 ? i : i + 1100);
+        const auto expected = values_of(k);
+        REQUIRE(frames[i].axes[2] == expected[2]);
+        if (settings.layout.has_axis(wire::Axis::x)) REQUIRE(frames[i].axes[0] == expected[0]);
+        if (settings.layout.has_temperature()) REQUIRE(frames[i].temperature == expected[3]);
+        if (settings.layout.has_count()) {
+            REQUIRE(frames[i].count == static_cast<std::uint16_t>(80 * (k + 1)));
+        }
+    }
+    CHECK_FALSE(device.next_due());
+}
+
+TEST_CASE("a run of sampling in an archive is a session that the host starts", "[sim][replay]") {
+    Archive archive;
+    for (std::size_t field = 0; field < 4; ++field) {
+        archive.add(field, 0, 100, 0ns, true);
+        archive.add(field, 3000, 3050, 0ns, true);
+    }
+    ReplayDevice device(archive.open(), ReplayTiming::as_fast_as_read, Nanoseconds(0));
+    ReplayHost host(device, kStart);
+    const auto layout = wire::SensorSettings{}.layout;
+    host.configure();
+    host.listen();
+    CHECK(frames_of(host.line, layout).size() == 100);
+    REQUIRE(device.next_due());
+    host.line.pieces.clear();
+    host.configure();
+    host.listen();
+    const auto frames = frames_of(host.line, layout);
+    REQUIRE(frames.size() == 50);
+    CHECK(frames.front().count == 80);
+    CHECK(frames.front().axes[0] == 3000);
+    CHECK(device.report().sessions == 2);
+    CHECK_FALSE(device.next_due());
+}
+
+TEST_CASE("samples of an archive leave the device by its delay after their instants",
+          "[sim][replay]") {
+    Archive archive;
+    archive.add_all(0, 3);
+    ReplayDevice device(archive.open(), ReplayTiming::as_recorded, Nanoseconds(0));
+    ReplayHost host(device, kStart - 10s);
+    host.configure();
+    host.listen();
+    REQUIRE(host.line.pieces.size() == 3);
+    // 511/2 of 1/4000 s, at most 430 us to data ready, 240 bits at 460800 baud.
+    const Nanoseconds delay = 63'875us + 430us + 520'833ns;
+    for (int k = 0; k < 3; ++k) {
+        CHECK(host.line.pieces[static_cast<std::size_t>(k)].leaves == kStart + k * kPeriod + delay);
+    }
+}
+
+TEST_CASE("fields and rates that an archive lacks are refused in one line", "[sim][replay]") {
+    Archive archive;
+    for (const std::size_t field : {0U, 1U, 2U}) archive.add(field, 0, 100);
+    ReplayDevice device(archive.open(), ReplayTiming::as_recorded, Nanoseconds(0));
+    ReplayHost host(device, kStart);
+    CHECK_THROWS_WITH(host.configure(), "the host asks for temperature, which the archive lacks");
+    wire::SensorSettings settings;
+    settings.output_rate_hz = 200;
+    settings.filter_code = 0x8;
+    CHECK_THROWS_WITH(host.configure(settings), "the host asks for 200 Hz; the archive has 50 Hz");
+    settings = {};
+    settings.layout = *wire::BurstLayout::from_burst_ctrl(0x0703);
+    CHECK_NOTHROW(host.configure(settings));
+}
+
+}  // namespace a351::sim

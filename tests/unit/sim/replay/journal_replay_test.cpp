@@ -1,0 +1,317 @@
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "protocol/record/journal_codec.hpp"
+#include "sim/replay/journal_recording.hpp"
+#include "tests/unit/record/file_bytes.hpp"
+#include "tests/unit/record/temporary_directory.hpp"
+#include "tests/unit/sim/replay/replay_host.hpp"
+
+namespace a351::sim {
+namespace {
+
+using namespace std::chrono_literals;
+
+const UtcTime kStart = *parse_rfc3339("2026-03-01T12:00:00Z");
+constexpr RawTime kRawStart{1000s};
+
+record::JournalHeader header_of(std::uint8_t session, Nanoseconds since_start = 0s) {
+    record::JournalHeader header;
+    header.session.bytes[0] = session;
+    header.boot_id = "boot";
+    header.program_version = "test";
+    header.profile = "A352AD10";
+    header.product_id = "A352AD10";
+    header.serial_number = "T0000007";
+    header.firmware = 0x0102;
+    header.output_rate_hz = 50;
+    header.filter = "k512_fc9";
+    header.burst_ctrl = 0xC703;
+    header.baud = 460800;
+    header.clock.raw = kRawStart + since_start;
+    header.clock.realtime = kStart + since_start;
+    return header;
+}
+
+/// One read of `text` at that time since the start.
+record::RxChunk read_of(const std::string& text, Nanoseconds since_start) {
+    const auto bytes = test::bytes_of(text);
+    return {{bytes.begin(), bytes.end()},
+            {{static_cast<std::uint32_t>(text.size()), kRawStart + since_start}}};
+}
+
+/// A directory of segments, and what comes of replaying them.
+class Recorded {
+public:
+    std::filesystem::path segment(const std::vector<record::JournalChunk>& chunks) {
+        auto bytes = record::encode_preamble();
+        std::uint32_t sequence = 0;
+        for (const auto& chunk : chunks) {
+            const auto more = record::encode_chunk(chunk, sequence++);
+            bytes.insert(bytes.end(), more.begin(), more.end());
+        }
+        files_.push_back(directory_.path() /
+                         ("0000000" + std::to_string(files_.size() + 1) + "_x.a351j"));
+        test::write_bytes(files_.back(), bytes);
+        return files_.back();
+    }
+
+    [[nodiscard]] ReplayDevice device(ReplayTiming timing = ReplayTiming::as_recorded) const {
+        return {std::make_unique<JournalRecording>(files_), timing, Nanoseconds(0)};
+    }
+
+private:
+    test::TemporaryDirectory directory_;
+    std::vector<std::filesystem::path> files_;
+};
+
+std::string text_of(const SentPieces& line) {
+    std::string text;
+    for (const std::byte byte : line.bytes()) text += static_cast<char>(byte);
+    return text;
+}
+
+constexpr const char* kProfile = "A352AD10";
+
+}  // namespace
+
+TEST_CASE("the device of a journal has the recorded unit's identity", "[sim][replay]") {
+    Recorded recorded;
+    recorded.segment({header_of(1), read_of("a", 5s)});
+    ReplayDevice device = recorded.device();
+    ReplayHost host(device, kStart);
+    const auto identity = host.configure({}, kProfile);
+    CHECK(identity.product_id == "A352AD10");
+    CHECK(identity.serial_number == "T0000007");
+    CHECK(identity.firmware == 0x0102);
+    CHECK(device.baud() == 460800);
+}
+
+TEST_CASE("the device of a journal comes up at the recorded baud rate", "[sim][replay]") {
+    Recorded recorded;
+    auto header = header_of(1);
+    header.baud = 115200;
+    recorded.segment({header, read_of("a", 5s)});
+    ReplayDevice device = recorded.device();
+    CHECK(device.baud() == 115200);
+    ReplayHost host(device, kStart);
+    host.configure({}, kProfile);
+    CHECK(device.baud() == 115200);
+}
+
+TEST_CASE("recorded bytes leave at their recorded instants, and not before the host samples",
+          "[sim][replay]") {
+    Recorded recorded;
+    recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
+    ReplayDevice device = recorded.device();
+    ReplayHost host(device, kStart);
+    host.wait(4s);
+    host.configure({}, kProfile);
+    CHECK(device.next_due() == kStart + 5s);
+    host.wait_until(kStart + 5s - 1ns);
+    CHECK(host.line.pieces.empty());
+    host.listen();
+    REQUIRE(host.line.pieces.size() == 3);
+    CHECK(text_of(host.line) == "onetwothree");
+    CHECK(host.line.pieces[0].leaves == kStart + 5s);
+    CHECK(host.line.pieces[1].leaves == kStart + 6s);
+    CHECK(host.line.pieces[2].leaves == kStart + 9s);
+    CHECK_FALSE(device.next_due());
+}
+
+TEST_CASE("reads of one chunk keep their own instants", "[sim][replay]") {
+    Recorded recorded;
+    record::RxChunk chunk = read_of("abcdef", 5s);
+    chunk.reads = {{2, kRawStart + 5s}, {3, kRawStart + 5500ms}, {6, kRawStart + 7s}};
+    // A journal of no clock of this world: what follows stays behind.
+    recorded.segment({header_of(1), chunk, read_of("earlier", 6s)});
+    ReplayDevice device = recorded.device();
+    ReplayHost host(device, kStart);
+    host.configure({}, kProfile);
+    host.listen();
+    REQUIRE(host.line.pieces.size() == 4);
+    CHECK(host.line.pieces[1].bytes.size() == 1);
+    CHECK(host.line.pieces[1].leaves == kStart + 5500ms);
+    CHECK(host.line.pieces[2].leaves == kStart + 7s);
+    CHECK(host.line.pieces[3].leaves == kStart + 7s);
+}
+
+TEST_CASE("a host that comes late is sent at once what it missed, and then the rest in time",
+          "[sim][replay]") {
+    Recorded recorded;
+    recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
+    ReplayDevice device = recorded.device();
+    ReplayHost host(device, kStart + 7s);
+    host.configure({}, kProfile);
+    host.wait(0s);
+    CHECK(text_of(host.line) == "onetwo");
+    CHECK(host.line.pieces.front().leaves == kStart + 7s);
+    host.listen();
+    CHECK(text_of(host.line) == "onetwothree");
+    CHECK(host.line.pieces.back().leaves == kStart + 9s);
+}
+
+TEST_CASE("without a shared clock the recording begins when the host begins", "[sim][replay]") {
+    Recorded recorded;
+    recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s)});
+    ReplayDevice device = recorded.device(ReplayTiming::from_host_start);
+    ReplayHost host(device, kStart + 24h);
+    host.wait(1h);
+    host.configure({}, kProfile);
+    host.listen();
+    REQUIRE(host.line.pieces.size() == 2);
+    CHECK(host.line.pieces[0].leaves == kStart + 25h);
+    CHECK(host.line.pieces[1].leaves == kStart + 25h + 1s);
+}
+
+TEST_CASE("as fast as it is read means whenever the line takes more", "[sim][replay]") {
+    Recorded recorded;
+    recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 600s), read_of("3", 700s)});
+    ReplayDevice device = recorded.device(ReplayTiming::as_fast_as_read);
+    ReplayHost host(device, kStart - 1h);
+    host.configure({}, kProfile);
+    host.line.capacity = 2;
+    host.wait(0s);
+    CHECK(text_of(host.line) == "onetwo");
+    CHECK(device.next_due() == host.now());
+    host.line.pieces.clear();
+    host.wait(0s);
+    CHECK(text_of(host.line) == "3");
+    CHECK_FALSE(device.next_due());
+}
+
+TEST_CASE("segments of a session follow each other without a break", "[sim][replay]") {
+    Recorded recorded;
+    recorded.segment({header_of(1), read_of("one", 5s)});
+    recorded.segment({header_of(1, 6s)});
+    recorded.segment({header_of(1, 7s), read_of("two", 8s)});
+    ReplayDevice device = recorded.device();
+    ReplayHost host(device, kStart);
+    host.configure({}, kProfile);
+    host.listen();
+    CHECK(text_of(host.line) == "onetwo");
+    CHECK(device.report().sessions == 1);
+    CHECK_FALSE(device.next_due());
+}
+
+TEST_CASE("a session ends in configuration mode, and the next waits for a new start",
+          "[sim][replay]") {
+    Recorded recorded;
+    recorded.segment({header_of(1), read_of("one", 5s)});
+    recorded.segment({header_of(2, 6s)});  // begun, and nothing came
+    auto third = header_of(3, 20s);
+    third.serial_number = GENERATE("T0000007", "T0000008");
+    recorded.segment({third, read_of("three", 25s)});
+    const auto timing = GENERATE(ReplayTiming::as_recorded, ReplayTiming::as_fast_as_read);
+    ReplayDevice device = recorded.device(timing);
+    ReplayHost host(device, kStart);
+    host.configure({}, kProfile);
+    host.listen();
+    CHECK(text_of(host.line) == "one");
+    host.wait(1h);
+    CHECK(text_of(host.line) == "one");
+    REQUIRE(device.next_due());
+    host.line.pieces.clear();
+    CHECK(host.configure({}, kProfile).serial_number == third.serial_number);
+    host.listen();
+    CHECK(text_of(host.line) == "three");
+    CHECK(device.report().sessions == 2);
+    CHECK_FALSE(device.next_due());
+}
+
+TEST_CASE("a host that stops and starts again goes on with the next recorded byte",
+          "[sim][replay]") {
+    Recorded recorded;
+    recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
+    ReplayDevice device = recorded.device();
+    ReplayHost host(device, kStart);
+    host.configure({}, kProfile);
+    host.wait_until(kStart + 5s);
+    CHECK(text_of(host.line) == "one");
+    host.stop();
+    host.wait(30s);
+    CHECK(text_of(host.line) == "one");
+    host.configure({}, kProfile);
+    host.listen();
+    CHECK(text_of(host.line) == "twothree");
+    CHECK(device.report().sessions == 1);
+}
+
+TEST_CASE("a step of the recording host's clock within a boot is not replayed, nor one back",
+          "[sim][replay]") {
+    Recorded recorded;
+    recorded.segment({header_of(1), read_of("one", 5s)});
+    auto stepped = header_of(2, 10s);
+    stepped.clock.realtime += 1h;
+    recorded.segment({stepped, read_of("two", 12s)});
+    auto rebooted = header_of(3, 20s);
+    rebooted.boot_id = "another";
+    rebooted.clock.raw = RawTime(3s);
+    recorded.segment({rebooted, {record::RxChunk{{std::byte{1}}, {{1, RawTime(5s)}}}}});
+    auto set_back = rebooted;
+    set_back.session.bytes[0] = 4;
+    set_back.boot_id = "a third";
+    set_back.clock.realtime -= 24h;
+    recorded.segment({set_back, {record::RxChunk{{std::byte{1}}, {{1, RawTime(9s)}}}}});
+    ReplayDevice device = recorded.device();
+    ReplayHost host(device, kStart);
+    std::vector<UtcTime> left;
+    for (int session = 0; session < 4; ++session) {
+        host.configure({}, kProfile);
+        host.listen();
+        left.push_back(host.line.pieces.back().leaves);
+    }
+    CHECK(left == std::vector<UtcTime>{kStart + 5s, kStart + 12s, kStart + 22s, kStart + 22s});
+}
+
+TEST_CASE("settings other than the recorded ones are refused in one line", "[sim][replay]") {
+    Recorded recorded;
+    const auto file = recorded.segment({header_of(1), read_of("one", 5s)});
+    wire::SensorSettings settings;
+    const auto refusal = [&] {
+        ReplayDevice device = recorded.device();
+        ReplayHost host(device, kStart);
+        try {
+            host.configure(settings, kProfile);
+        } catch (const std::runtime_error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const std::string recorded_with =
+        "; " + file.string() + " was recorded with 50 Hz, k512_fc9, BURST_CTRL 0xC703";
+    CHECK(refusal().empty());
+    settings.output_rate_hz = 100;
+    CHECK(refusal() == "the host asks for 100 Hz, k512_fc9, BURST_CTRL 0xC703" + recorded_with);
+    settings = {};
+    settings.layout = *wire::BurstLayout::from_burst_ctrl(0x4702);
+    CHECK(refusal() == "the host asks for 50 Hz, k512_fc9, BURST_CTRL 0x4702" + recorded_with);
+    settings = {};
+    settings.filter_code = 0xE;
+    CHECK(refusal() == "the host asks for 50 Hz, user512, BURST_CTRL 0xC703" + recorded_with);
+}
+
+TEST_CASE("a damaged tail is left out and told of; what is good before and behind it is replayed",
+          "[sim][replay]") {
+    Recorded recorded;
+    const auto file =
+        recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("x", 7s)});
+    recorded.segment({header_of(1, 10s), read_of("three", 12s)});
+    auto bytes = test::read_bytes(file);
+    const std::size_t last_chunk = record::kChunkHeaderSize + 12 + 12 + 1;
+    bytes[bytes.size() - 1] ^= std::byte{1};
+    test::write_bytes(file, bytes);
+    ReplayDevice device = recorded.device();
+    ReplayHost host(device, kStart);
+    host.configure({}, kProfile);
+    host.listen();
+    CHECK(text_of(host.line) == "onetwothree");
+    REQUIRE(device.recording().damage().size() == 1);
+    const RecordingDamage& damage = device.recording().damage().front();
+    CHECK(damage.file == file);
+    CHECK(damage.offset == bytes.size() - last_chunk);
+    CHECK(damage.byte_count == last_chunk);
+    CHECK(damage.reason == "wrong checksum");
+}
+
+}  // namespace a351::sim

@@ -1,0 +1,109 @@
+#include <catch2/catch.hpp>
+
+#include "protocol/core/input_error.hpp"
+#include "protocol/record/journal_codec.hpp"
+#include "sim/replay/open_recording.hpp"
+#include "tests/unit/record/file_bytes.hpp"
+#include "tests/unit/record/journal_samples.hpp"
+#include "tests/unit/record/temporary_directory.hpp"
+
+namespace a351::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::byte> segment_of(const std::vector<record::JournalChunk>& chunks) {
+    auto bytes = record::encode_preamble();
+    std::uint32_t sequence = 0;
+    for (const auto& chunk : chunks) {
+        const auto more = record::encode_chunk(chunk, sequence++);
+        bytes.insert(bytes.end(), more.begin(), more.end());
+    }
+    return bytes;
+}
+
+std::vector<std::byte> good_segment(std::uint16_t firmware = 1) {
+    auto header = test::journal_header();
+    header.firmware = firmware;
+    return segment_of({header, test::rx_chunk("\x80"
+                                              "ABC",
+                                              "DEF\r")});
+}
+
+std::string refusal(std::vector<fs::path> files) {
+    try {
+        static_cast<void>(open_recording({.files = std::move(files)}));
+    } catch (const InputError& error) {
+        const std::string line = error.what();
+        CHECK(line.find('\n') == std::string::npos);
+        return line;
+    }
+    return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("a file that cannot be replayed is refused with its name and what is allowed",
+          "[sim][replay]") {
+    const test::TemporaryDirectory directory;
+    const fs::path file = directory.path() / "00000001_x.a351j";
+    const auto with = [&](std::span<const std::byte> bytes) {
+        test::write_bytes(file, bytes);
+        return refusal({file});
+    };
+    const std::string name = file.string();
+    const std::string either = "; allowed: journal segments, or miniSEED files of a data root";
+    CHECK(refusal({file}) == name + ": no such file" + either);
+    CHECK(with({}) == name + ": empty" + either);
+    CHECK(with(test::bytes_of("no journal")).starts_with(name + ": begins with no record"));
+    CHECK(with(test::bytes_of("A351JRNL")) ==
+          name + ": shorter than its preamble; allowed: journal segments with a whole header");
+    auto newer = good_segment();
+    newer[8] = std::byte{2};
+    CHECK(with(newer).starts_with(name + ": not a journal of this version"));
+    CHECK(with(segment_of({test::journal_header()})).starts_with(name + ": no byte was received"));
+    auto torn = good_segment();
+    torn.resize(100);
+    CHECK(with(torn).starts_with(name + ": torn chunk; "));
+
+    auto header = test::journal_header();
+    header.profile = "A999";
+    CHECK(with(segment_of({header})) == name + ": profile A999: unknown; allowed: A351, A352AD10");
+    for (int field = 0; field < 4; ++field) {
+        header = test::journal_header();
+        if (field == 0) header.output_rate_hz = 51;
+        if (field == 1) header.filter = "k513_fc9";
+        if (field == 2) header.burst_ctrl = 0x0003;
+        if (field == 3) header.baud = 9600;
+        CAPTURE(field);
+        CHECK(with(segment_of({header})).find("settings that profile A351 has not") !=
+              std::string::npos);
+    }
+    CHECK(with(good_segment()) == "accepted");
+}
+
+TEST_CASE("a directory stands for its segments in the order of their numbers", "[sim][replay]") {
+    const test::TemporaryDirectory directory;
+    CHECK(refusal({directory.path()}) ==
+          directory.path().string() +
+              ": neither journal segments nor day files in it; allowed: journal segments, or "
+              "miniSEED files of a data root");
+    test::write_bytes(directory.path() / "00000012_x.a351j", good_segment(12));
+    test::write_bytes(directory.path() / "00000003_y.a351j", good_segment(3));
+    test::write_bytes(directory.path() / "notes.txt", test::bytes_of("not of it"));
+    CHECK(open_recording({.files = {directory.path()}})->unit().identity.firmware == 3);
+    CHECK(open_recording({.files = {directory.path() / "00000012_x.a351j",
+                                    directory.path() / "00000003_y.a351j"}})
+              ->unit()
+              .identity.firmware == 3);
+}
+
+TEST_CASE("journal and other files are not mixed", "[sim][replay]") {
+    const test::TemporaryDirectory directory;
+    test::write_bytes(directory.path() / "a.a351j", good_segment());
+    test::write_bytes(directory.path() / "b", test::bytes_of("000001D "));
+    CHECK(refusal({directory.path() / "a.a351j", directory.path() / "b"})
+              .starts_with((directory.path() / "b").string() + ": no journal segment, beside one"));
+}
+
+}  // namespace a351::sim

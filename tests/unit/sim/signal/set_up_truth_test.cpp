@@ -1,0 +1,111 @@
+#include "sim/signal/set_up_truth.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "protocol/text/csv.hpp"
+#include "sim/signal/signal_source.hpp"
+
+using namespace a351;
+using namespace a351::sim;
+
+namespace {
+
+/// Mean norm of the samples of each set-up without its first and last minute.
+std::vector<double> mean_norms_mgal(const Scenario& scenario, std::uint64_t seed) {
+    const wire::DeviceProfile& profile = *wire::find_profile("A351");
+    SignalSource source(scenario, profile, seed);
+    std::vector<double> means;
+    for (const PlannedSetUp& set_up : source.plan()) {
+        constexpr std::chrono::minutes kMargin{1};
+        double sum = 0.0;
+        int count = 0;
+        while (*source.next_instant() < set_up.end - kMargin) {
+            const TimedSample sample = source.next();
+            if (sample.instant < set_up.start + kMargin) continue;
+            double square = 0.0;
+            for (const std::int32_t axis : sample.values.axes_counts) {
+                const double mgal = to_milligal(profile.acceleration(axis)).value();
+                square += mgal * mgal;
+            }
+            sum += std::sqrt(square);
+            ++count;
+        }
+        means.push_back(sum / count);
+    }
+    return means;
+}
+
+double sum_of(const text::CsvTable& table, std::size_t row) {
+    double sum = 0.0;
+    for (const char* column :
+         {"gravity_mgal", "tide_mgal", "bias_mgal", "static_mgal", "dynamic_mgal", "clock_mgal",
+          "warm_up_mgal", "placement_mgal", "flicker_mgal", "resonant_mgal", "white_mgal",
+          "drift_mgal", "ripple_mgal", "tilt_mgal", "burst_mgal", "rectification_mgal"}) {
+        sum += table.number(row, column);
+    }
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("the truth's terms add up to what the samples' norm reads", "[sim][truth]") {
+    // Everything at once: axis biases, two set-ups, traffic without pause, drift, an open lid.
+    const Scenario scenario = parse_scenario(
+        "base = \"tilted\"\nname = \"x\"\n"
+        "[schedule]\nsetups = 2\nlead_in_h = 0.5\n"
+        "[slow_noise]\ndrift_linear_mgal_per_h = 5.0\ndrift_walk_mgal_per_sqrt_h = 1.0\n"
+        "resonant_mgal = 1.4\nwhite_20s_mgal = 0.4\n"
+        "[vibration]\nvehicles_per_h = 60\nground_mgal = 300\nspike_probability = 0\n"
+        "[[occupation]]\nsite = \"No.5\"\ncentre_utc = \"2017-07-16T00:00:00Z\"\nambient_degc = "
+        "25\n"
+        "[[occupation]]\nsite = \"No.12\"\ncentre_utc = \"2017-07-16T00:40:00Z\"\n"
+        "ambient_degc = 30\n"
+        "[[lid_open]]\nsite = \"No.12\"\noutside_degc = 35\n",
+        "x.toml");
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        const auto norms = mean_norms_mgal(scenario, seed);
+        const auto table = text::CsvTable::parse(
+            truth_csv(scenario, plan_survey(scenario, seed), seed), "truth.csv");
+        REQUIRE(norms.size() == 4);
+        REQUIRE(table.row_count() == 4);
+        for (std::size_t row = 0; row < 4; ++row) {
+            CAPTURE(seed, row);
+            CHECK(table.number(row, "set_up") == static_cast<double>(row % 2 + 1));
+            CHECK(table.number(row, "rectification_mgal") > 0.09);  // 300^2 / g alone.
+            // The mean of 12 000 samples of ground noise, which has little power below 1 Hz; the
+            // cross terms of noise and axis bias; means by the second instead of by the sample.
+            CHECK(norms[row] == Approx(sum_of(table, row)).margin(0.15));
+        }
+    }
+}
+
+TEST_CASE("an ideal day's truth has tide and bias, and no error", "[sim][truth]") {
+    const Scenario scenario = load_scenario("ideal");
+    const auto plan = plan_survey(scenario, 3);
+    for (const SetUpTruth& mean : set_up_truth(scenario, plan, 3)) {
+        const auto term = [&mean](Term t) { return mean.terms_mgal[static_cast<std::size_t>(t)]; };
+        CHECK(term(Term::bias) == Approx(1838.0));
+        CHECK(std::abs(term(Term::tide)) < 0.3);
+        double errors_mgal = mean.burst_mgal;
+        for (std::size_t i = static_cast<std::size_t>(Term::crystal_static); i < kTermCount; ++i) {
+            errors_mgal += std::abs(mean.terms_mgal[i]);
+        }
+        CHECK(errors_mgal == 0.0);
+        CHECK(std::abs(mean.tilt_mgal) < 1e-9);
+        CHECK(mean.rectification_mgal < 1e-7);
+    }
+}
+
+TEST_CASE("tilting by two degrees to each side shows the axis bias", "[sim][truth]") {
+    const Scenario scenario = load_scenario("tilt-series");
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        const auto truth = set_up_truth(scenario, plan_survey(scenario, seed), seed);
+        const auto bias_mgal = axis_bias_mgal(scenario, seed);
+        const double sine = std::sin(2.0 * 3.14159265358979 / 180.0);
+        CHECK(truth[1].tilt_mgal - truth[2].tilt_mgal ==
+              Approx(2.0 * bias_mgal[0] * sine).margin(0.01));
+        CHECK(truth[3].tilt_mgal - truth[4].tilt_mgal ==
+              Approx(-2.0 * bias_mgal[1] * sine).margin(0.01));
+    }
+}
