@@ -81,9 +81,7 @@ private:
 class Server::Impl {
 public:
     Impl(const ServerOptions& options, ApiSources sources)
-        : options_(options),
-          listen_(options.listen),
-          sources_(std::move(sources)) {
+        : options_(options), listen_(options.listen), sources_(std::move(sources)) {
         bind();
         const std::string token = options.token.empty() ? random_token() : options.token;
         guard_.emplace(port_, options.hosts, token);

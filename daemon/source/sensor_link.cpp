@@ -17,7 +17,7 @@ using std::chrono::seconds;
 using std::chrono::steady_clock;
 
 // A busy host pauses this long without anything being wrong.
-constexpr milliseconds kShortestRealStall{500};
+constexpr milliseconds kShortestRealStall{1000};
 constexpr milliseconds kShortestRealWait{50};
 // Of instrument time.
 constexpr seconds kSilenceIsStall{2};

@@ -14,7 +14,6 @@ using std::chrono::steady_clock;
 constexpr seconds kSyncInterval{30};
 constexpr seconds kModelInterval{10};  // Of instrument time, and
 constexpr milliseconds kShortestModelInterval{100};
-constexpr seconds kRetryInterval{10};
 constexpr std::size_t kMostWaitingBytes = std::size_t{64} << 20;
 constexpr std::size_t kSessionsRemembered = 16;  // Each with 24 h of times, some 100 kB.
 
@@ -22,7 +21,7 @@ constexpr std::size_t kSessionsRemembered = 16;  // Each with 24 h of times, som
 
 ArchiveThread::ArchiveThread(record::FileLayer& files, std::filesystem::path archive,
                              record::StationCodes codes, const HostClock& clock, ChunkQueue& chunks,
-                             Progress& progress, Hooks hooks)
+                             Progress& progress, Hooks hooks, milliseconds retry_interval)
     : files_(files),
       archive_(std::move(archive)),
       codes_(std::move(codes)),
@@ -30,6 +29,7 @@ ArchiveThread::ArchiveThread(record::FileLayer& files, std::filesystem::path arc
       chunks_(chunks),
       progress_(progress),
       hooks_(std::move(hooks)),
+      retry_interval_(retry_interval),
       writer_(std::make_unique<record::ArchiveWriter>(files_, archive_, codes_)),
       archiver_(outbox_) {}
 
@@ -119,7 +119,7 @@ bool ArchiveThread::put_away(bool is_last) {
         if (is_last || steady_clock::now() - last_sync_ >= kSyncInterval) sync();
     } catch (const std::exception& error) {
         note_fault(error.what());
-        retry_at_ = steady_clock::now() + kRetryInterval;
+        retry_at_ = steady_clock::now() + retry_interval_;
         return false;
     }
     retry_at_.reset();

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
 /// The archive thread: journal chunks -> samples, times, miniSEED records.  While the archive
-/// cannot be written, records wait in memory, tried every 10 s, and the journal goes on: 64 MiB
+/// cannot be written, records wait in memory, tried now and then, and the journal goes on: 64 MiB
 /// here, 18 h at 50 Hz, then what ChunkQueue holds; from then on the journal waits.
 
 #include <atomic>
@@ -51,7 +51,7 @@ public:
     /// All referred to must outlive this.
     ArchiveThread(record::FileLayer& files, std::filesystem::path archive,
                   record::StationCodes codes, const HostClock& clock, ChunkQueue& chunks,
-                  Progress& progress, Hooks hooks);
+                  Progress& progress, Hooks hooks, std::chrono::milliseconds retry_interval);
     ~ArchiveThread();
 
     void start();
@@ -115,6 +115,7 @@ private:
     ChunkQueue& chunks_;
     Progress& progress_;
     Hooks hooks_;
+    std::chrono::milliseconds retry_interval_;
 
     using steady_time = std::chrono::steady_clock::time_point;
 

@@ -6,11 +6,6 @@
 #include "daemon/store/assess.hpp"
 
 namespace a351::daemon {
-namespace {
-
-constexpr std::chrono::seconds kCommitPatience{10};
-
-}  // namespace
 
 Store::Store(record::FileLayer& files, StoreOptions options, const HostClock& clock,
              ReadQueue& reads)
@@ -20,10 +15,10 @@ Store::Store(record::FileLayer& files, StoreOptions options, const HostClock& cl
       recovery_(record::recover(files, options_.root)),
       profile_(wire::find_profile(options_.station.profile)),
       journal_(files, options_.root, clock, reads, chunks_, progress_, options_.retry_interval),
-      archive_(
-          files, options_.root / "archive", options_.station.codes, clock, chunks_, progress_,
-          {.post = [this](record::JournalChunk chunk) { journal_.post(std::move(chunk)); },
-           .session_began = [this](const record::JournalHeader& header) { describe(header); }}) {}
+      archive_(files, options_.root / "archive", options_.station.codes, clock, chunks_, progress_,
+               {.post = [this](record::JournalChunk chunk) { journal_.post(std::move(chunk)); },
+                .session_began = [this](const record::JournalHeader& header) { describe(header); }},
+               options_.retry_interval) {}
 
 Store::~Store() { stop(); }
 
@@ -46,7 +41,7 @@ std::optional<Instant> Store::latest() { return archive_.latest(); }
 
 std::optional<Instant> Store::at(UtcTime utc) { return archive_.at(utc); }
 
-void Store::commit(const record::Event& event) { journal_.commit(event, kCommitPatience); }
+void Store::commit(const record::Event& event) { journal_.commit(event, options_.commit_patience); }
 
 void Store::describe(const record::JournalHeader& header) {
     record::StationDescription description = options_.station;

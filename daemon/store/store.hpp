@@ -29,7 +29,10 @@ struct StoreOptions {
     std::filesystem::path root;
     /// What the configuration knows of the station; device and instants come with each session.
     record::StationDescription station = {};
-    std::chrono::milliseconds retry_interval{10'000};  ///< Of a journal that could not be written.
+    /// Between tries when journal or archive could not be written.
+    std::chrono::milliseconds retry_interval{10'000};
+    /// How long an event waits for its turn.
+    std::chrono::milliseconds commit_patience{10'000};
 };
 
 class Store : public Recorder {

@@ -3,6 +3,12 @@
 #include <algorithm>
 
 namespace a351::sim {
+namespace {
+
+/// Whoever has fallen behind by hours must still answer commands at once while catching up.
+constexpr int kMostAtOnce = 1024;
+
+}  // namespace
 
 DeviceStream::DeviceStream(SampleSource& source, RegisterMachine& machine)
     : source_(source), machine_(machine) {}
@@ -33,7 +39,7 @@ void DeviceStream::receive(std::span<const std::byte> bytes, const Instant& now,
 
 void DeviceStream::advance_to(const Instant& now, LineSink& line) {
     machine_.pass_time(now.steady);
-    while (!line.is_full()) {
+    for (int taken = 0; taken < kMostAtOnce && !line.is_full(); ++taken) {
         const std::optional<UtcTime> due = next_due();
         if (!due || *due > now.simulated) return;
         if (!held_) take_sample();

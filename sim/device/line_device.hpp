@@ -39,7 +39,8 @@ public:
     /// Commands from the host.
     virtual void receive(std::span<const std::byte> bytes, const Instant& now, LineSink& line) = 0;
 
-    /// Sends what is due, as long as the line is not full.
+    /// Sends what is due, as long as the line is not full and it takes no time to speak of: what is
+    /// left stays due.
     virtual void advance_to(const Instant& now, LineSink& line) = 0;
 
     /// When the next sample falls due; std::nullopt after the last.

@@ -11,13 +11,13 @@ namespace a351::sim {
 namespace {
 
 /// In the order of FaultKind.
-constexpr std::array<std::string_view, 23> kNames{
+constexpr std::array<std::string_view, 24> kNames{
     "flip_bit",    "bad_checksum",    "drop_bytes",     "insert_bytes",
     "garbage",     "duplicate_frame", "reorder_frames", "truncate_frame",
     "lose_frames", "counter_jump",    "counter_stuck",  "counter_reset",
     "error_flags", "reset",           "power_cycle",    "stop",
-    "other_unit",  "change_settings", "change_baud",    "silence",
-    "stall",       "hang_up",         "overrun"};
+    "other_unit",  "change_settings", "change_baud",    "failing_tests",
+    "silence",     "stall",           "hang_up",        "overrun"};
 static_assert(kNames.size() == static_cast<std::size_t>(FaultKind::oven));
 
 constexpr int kMostFrames = 1'000'000;
@@ -149,6 +149,9 @@ Fault read_fault(text::TomlTable& table, const std::string& kind, const FaultRul
             break;
         case FaultKind::change_baud:
             fault.baud = coded(table, "baud", 115200, rules.profile.baud_rates);
+            break;
+        case FaultKind::failing_tests:
+            fault.diag_stat = integer(table, "diag_stat", wire::kDiagHardError, 0, 0xFFFF);
             break;
         case FaultKind::silence:
         case FaultKind::stall:

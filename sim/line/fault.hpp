@@ -37,6 +37,7 @@ enum class FaultKind {
     other_unit,
     change_settings,
     change_baud,
+    failing_tests,
     // Of the line.
     silence,
     stall,
@@ -55,7 +56,7 @@ struct Fault {
     int bytes = 1;         ///< Dropped or inserted per frame; of garbage.
     int ticks = 0;         ///< Of a counter_jump by no whole number of samples; 0: `count` samples.
     double seconds = 0.0;  ///< Simulated; 0 of an overrun: to the end.
-    int diag_stat = 0;     ///< Bits of DIAG_STAT raised.
+    int diag_stat = 0;     ///< Bits of DIAG_STAT raised, or found by tests.
     bool loses_power = false;     ///< While unplugged.
     bool when_unplugged = false;  ///< Another unit comes with the next hang_up only.
     std::string serial_number;

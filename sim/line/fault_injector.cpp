@@ -220,6 +220,9 @@ void FaultInjector::apply(const Fault& fault, UtcTime simulated) {
         case FaultKind::change_baud:
             change_settings(machine_, profile_, fault, steady_);
             break;
+        case FaultKind::failing_tests:
+            machine_.fail_tests(static_cast<std::uint16_t>(fault.diag_stat));
+            break;
         case FaultKind::stall:
             line_.hold_until(end);
             break;

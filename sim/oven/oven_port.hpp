@@ -36,6 +36,7 @@ public:
     /// @throws InputError  something else has taken the place of the link.
     bool apply_fault(std::string_view kind, int count);
 
+    /// Those names; first the spoilt answers, in the order of OvenFault.
     [[nodiscard]] static std::vector<std::string_view> fault_kinds();
 
     [[nodiscard]] const OvenReport& report() const noexcept { return server_.report(); }

@@ -100,6 +100,9 @@ with Scratch() as scratch:
     refuse("control socket in place of a file", scratch, ["taken", "no socket"], *device, "sensor",
            "--control", "taken")
     refuse("missing fault script", scratch, ["absent.toml"], *device, "sensor", "--faults", "absent.toml")
+    (scratch / "flash.toml").write_text("format = 1\n[registers]\nSIG_CTRL = 0x1FFFF\n")
+    refuse("impossible flash memory", scratch, ["flash.toml:3", "registers.SIG_CTRL", "65535"], *device,
+           "sensor", "--state", "flash.toml")
     (scratch / "faults.toml").write_text("[[fault]]\nkind = \"flip_bit\"\nat_s = 1\nbits = 17\n")
     refuse("impossible fault", scratch, ["faults.toml:4", "fault.bits = 17", "from 1 to 16"], *device,
            "sensor", "--faults", "faults.toml")

@@ -12,7 +12,7 @@ import termios
 import time
 import tty
 
-from programs import BIN, TOP, Scratch, demand
+from programs import BIN, TOP, Scratch, demand, read_json
 
 ANSWER_S = 5.0  # A busy machine is slow; an answer takes 40 to 100 ms.
 SILENCE_S = 0.3
@@ -131,6 +131,10 @@ def is_good(answer):
     return len(answer) == 7 and answer[:3] == b"\x01\x03\x02" and answer[-2:] == crc(answer[:-2])
 
 
+SPOILS = ["oven_silence", "oven_babble", "oven_exception", "oven_crc_error", "oven_wrong_unit", "oven_truncated",
+          "oven_delay"]
+
+
 def play_faults(port, control):
     demand("silence", spoilt(port, control, "oven_silence")[0] == b"")
     demand("babble", len(spoilt(port, control, "oven_babble")[0]) == 64)
@@ -162,7 +166,7 @@ def main():
     with Scratch() as scratch:
         link = scratch / "oven"
         sim = subprocess.Popen([BIN / "a351-sim", "device", "--link", "sensor", "--oven-link", "oven",
-                                "--control", "control", "--scenario", "tsukuba", "--speed", str(SPEED)],
+                                "--control", "control", "--report", "report.json", "--scenario", "tsukuba", "--speed", str(SPEED)],
                                cwd=scratch)
         try:
             wait_for("the oven has its link", link.is_symlink, 10)
@@ -199,6 +203,10 @@ def main():
             sim.wait()
         demand("the emulator ends well and takes its link along",
                sim.returncode == 0 and not link.is_symlink())
+        report = read_json(scratch / "report.json")["oven"]
+        print("emulator:", report)
+        demand("it reports one spoilt answer of each kind",
+               report["faults"] == {kind: 1 for kind in SPOILS} and report["answers"] > requests)
 
 
 if __name__ == "__main__":

@@ -141,39 +141,55 @@ def lines(file):
             yield number, text
 
 
-def play(host, file):
+def play(emulator, file):
     for number, text in lines(file):
         words = text.split()
         if words[0] == "device":
             continue
         if words[0] == "play":
-            play(host, FOLDER / words[1])
+            play(emulator, FOLDER / words[1])
+            continue
+        if words[0] == "restart":
+            emulator.stop()
+            emulator.start()
             continue
         try:
-            perform(host, words)
+            perform(emulator.host, words)
         except Broken as trouble:
             raise Broken(f"{file.name}:{number}: {text}: {trouble}") from None
 
 
-def converse(file, scratch):
-    """Plays one file against an emulator of its own."""
-    options = shlex.split(next(lines(file))[1])[1:]
-    link = scratch / "sensor"
-    emulator = subprocess.Popen([BIN / "a351-sim", "device", "--link", link, *options])
-    try:
+class Emulator:
+    """A running a351-sim and the host's end of its line."""
+
+    def __init__(self, options, scratch):
+        self.options, self.scratch = options, scratch
+        self.start()
+
+    def start(self):
+        link = self.scratch / "sensor"
+        self.program = subprocess.Popen([BIN / "a351-sim", "device", "--link", "sensor", *self.options],
+                                        cwd=self.scratch)
         end = time.monotonic() + 20
         while not link.exists():
-            if emulator.poll() is not None or time.monotonic() > end:
-                raise Broken(f"{file.name}: the emulator did not start")
+            if self.program.poll() is not None or time.monotonic() > end:
+                raise Broken("the emulator did not start")
             time.sleep(0.01)
-        host = Host(link)
-        try:
-            play(host, file)
-        finally:
-            host.close()
+        self.host = Host(link)
+
+    def stop(self):
+        self.host.close()
+        self.program.send_signal(signal.SIGTERM)
+        self.program.wait(20)
+
+
+def converse(file, scratch):
+    """Plays one file against an emulator of its own."""
+    emulator = Emulator(shlex.split(next(lines(file))[1])[1:], scratch)
+    try:
+        play(emulator, file)
     finally:
-        emulator.send_signal(signal.SIGTERM)
-        emulator.wait(20)
+        emulator.stop()
 
 
 def main():

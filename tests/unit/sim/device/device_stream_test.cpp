@@ -105,6 +105,22 @@ TEST_CASE("a full line holds the device up and changes nothing it sends", "[sim]
     CHECK(blocked.line.times == flowing.line.times);
 }
 
+TEST_CASE("far behind, it catches up in pieces and answers between them", "[sim][device_stream]") {
+    Rig rig;
+    rig.bench.start_logging();
+    const UtcTime end = rig.scenario.start() + 1h;
+    rig.advance_to(end);
+    const std::size_t piece = rig.line.truth.size();
+    CHECK(piece < 2000);
+    rig.receive("FE 00 0D 83 02 0D");  // Stops sampling.
+    rig.advance_to(end);
+    CHECK(rig.line.truth.size() == piece);
+    REQUIRE(rig.stream.next_due());
+    CHECK(*rig.stream.next_due() < end);  // Unheard samples take their pieces too.
+    while (*rig.stream.next_due() <= end) rig.advance_to(end);
+    CHECK(*rig.stream.next_due() == end + 20ms);
+}
+
 TEST_CASE("frames decode to the truth, COUNT steps evenly", "[sim][device_stream]") {
     Rig rig;
     rig.bench.start_logging();

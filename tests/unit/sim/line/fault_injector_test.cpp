@@ -293,6 +293,20 @@ TEST_CASE("a reset, a power cut and a stop end the stream in configuration mode"
     CHECK(rig.bench.send({"FE 01", "0C 00"}) == (kind == "stop" ? "0C C7 03 0D" : "0C 47 02 0D"));
 }
 
+TEST_CASE("tests fail from the next start-up on until they are healed", "[sim][fault]") {
+    Rig rig(fault("failing_tests", "at_frame = 50\ndiag_stat = 0x20") +
+            fault("power_cycle", "at_frame = 100"));
+    check_report(rig);
+    const auto diagnostics_after_start = [&rig] {
+        rig.bench.now += 1s;
+        return rig.bench.send({"FE 00", "04 00"});
+    };
+    CHECK(diagnostics_after_start() == "04 00 20 0D");
+    rig.bench.machine.fail_tests(0);
+    rig.bench.machine.power_cycle(rig.bench.now);
+    CHECK(diagnostics_after_start() == "04 00 00 0D");
+}
+
 TEST_CASE("a silent device goes on counting", "[sim][fault]") {
     Rig rig(fault("silence", "at_frame = 100\nseconds = 4"));
     Heard heard = check_report(rig);

@@ -1,4 +1,4 @@
-#include "sim/replay_command.hpp"
+#include "sim/command/replay_command.hpp"
 
 #include <array>
 #include <charconv>
@@ -34,37 +34,15 @@ std::array<std::string, 3> axes_of(const std::string& text) {
 }
 
 RecordingFiles files_of(const ReplayCommand& command) {
-    const wire::DeviceProfile* const profile = wire::find_profile(command.profile);
-    RecordedUnit unit{profile, {}, 460800};
-    unit.identity.product_id = command.product.empty() ? product_id_of(*profile) : command.product;
-    unit.identity.serial_number = command.serial;
+    RecordedUnit unit{&profile_of(command.unit.profile), {}, 460800};
+    unit.identity.product_id = product_of(command.unit);
+    unit.identity.serial_number = command.unit.serial;
     return {command.files, axes_of(command.axes), unit};
-}
-
-ClockScale clock_of(const ReplayCommand& command, UtcTime first_due) {
-    const UtcTime now = host_now();
-    if (command.clock.empty()) {
-        return {command.speed == "max" ? 1.0 : factor_of(command.speed), first_due, now};
-    }
-    const auto clock = parse_clock_scale(command.clock, now);
-    if (!clock) {
-        throw InputError("--clock " + command.clock +
-                         ": not a clock; allowed: scaled:FACTOR@UTC[,HOST]");
-    }
-    return *clock;
 }
 
 ReplayTiming timing_of(const ReplayCommand& command) {
     if (!command.clock.empty()) return ReplayTiming::as_recorded;
     return command.speed == "max" ? ReplayTiming::as_fast_as_read : ReplayTiming::from_host_start;
-}
-
-CLI::Validator eight_characters() {
-    return CLI::Validator(
-        [](const std::string& value) {
-            return value.size() == 8 ? std::string() : "not 8 characters";
-        },
-        "8 characters");
 }
 
 }  // namespace
@@ -74,27 +52,20 @@ CLI::App* add_replay(CLI::App& app, ReplayCommand& command) {
     replay->add_option("FILE", command.files, "Journal segments, or miniSEED files of a data root")
         ->required();
     replay->add_option("--link", command.link, "Symbolic link that names the terminal")->required();
-    CLI::Option* clock =
-        replay->add_option("--clock", command.clock, "Simulated time, scaled:FACTOR@UTC[,HOST]");
+    CLI::Option* clock = add_clock(*replay, command.clock);
     replay->add_option("--speed", command.speed, "Recorded seconds per second, or max")
         ->excludes(clock)
         ->capture_default_str();
     replay->add_option("--axes", command.axes, "miniSEED: last letters of the channels of x, y, z")
         ->capture_default_str();
-    replay->add_option("--profile", command.profile, "miniSEED: kind of device")
-        ->check(CLI::IsMember({"A351", "A352AD10"}))
-        ->capture_default_str();
-    replay->add_option("--product", command.product, "miniSEED: product identifier")
-        ->check(eight_characters());
-    replay->add_option("--serial", command.serial, "miniSEED: serial number")
-        ->check(eight_characters())
-        ->capture_default_str();
+    add_unit(*replay, command.unit, "miniSEED: ");
     return replay;
 }
 
-void run_replay(const ReplayCommand& command, const std::function<bool()>& should_stop) {
+void run(const ReplayCommand& command, const std::function<bool()>& should_stop) {
     ReplayDevice device(open_recording(files_of(command)), timing_of(command), steady_now());
-    const ClockScale clock = clock_of(command, device.first_due());
+    const double factor = command.speed == "max" ? 1.0 : factor_of(command.speed);
+    const ClockScale clock = clock_of(command.clock, factor, device.first_due());
     Line line({}, 0, clock.utc, [](const TruthRecord&) {});
     Pty pty(command.link, device.baud());
     SensorPort port(pty, device, line);

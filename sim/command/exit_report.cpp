@@ -1,7 +1,9 @@
-#include "sim/line/exit_report.hpp"
+#include "sim/command/exit_report.hpp"
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+
+#include "sim/oven/oven_port.hpp"
 
 namespace a351::sim {
 namespace {
@@ -37,6 +39,21 @@ ordered_json applied(const FaultReport& faults) {
     return list;
 }
 
+ordered_json to_json(const OvenReport& oven) {
+    const auto kinds = OvenPort::fault_kinds();
+    ordered_json faults = ordered_json::object();
+    for (std::size_t i = 0; i < kOvenFaultCount; ++i) {
+        if (oven.faults[i] > 0) faults[std::string(kinds[i])] = oven.faults[i];
+    }
+    return {{"answers", oven.answers},
+            {"exceptions", oven.exceptions},
+            {"broadcasts", oven.broadcasts},
+            {"for_other_units", oven.for_other_units},
+            {"unreadable", oven.unreadable},
+            {"unheard", oven.unheard},
+            {"faults", faults}};
+}
+
 }  // namespace
 
 std::string to_json(const ExitReport& report, int indent) {
@@ -45,7 +62,7 @@ std::string to_json(const ExitReport& report, int indent) {
     const double rate_hz = report.real_seconds > 0.0
                                ? static_cast<double>(line.frames_sent) / report.real_seconds
                                : 0.0;
-    const ordered_json json = {
+    ordered_json json = {
         {"scenario", report.scenario},
         {"seed", report.seed},
         {"frames_made", line.frames_made},
@@ -75,6 +92,7 @@ std::string to_json(const ExitReport& report, int indent) {
         {"faults", by_kind(report.faults)},
         {"faults_applied", applied(report.faults)},
     };
+    if (report.oven) json["oven"] = to_json(*report.oven);
     return json.dump(indent);
 }
 

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "sim/command/options.hpp"
 
 namespace a351::sim {
 
@@ -13,10 +14,9 @@ struct ReplayCommand {
     std::vector<std::filesystem::path> files;
     std::string link;
     std::string speed = "1";  ///< A factor, or "max".
-    std::string clock;        ///< Absent, or as in parse_clock_scale().
+    std::string clock;
     std::string axes = "1,2,Z";
-    std::string profile = "A351";
-    std::string product, serial = "00000001";
+    UnitOptions unit;  ///< Of miniSEED, which does not name it.
 };
 
 /// @return  the subcommand; `command` must outlive its parsing.
@@ -26,6 +26,6 @@ CLI::App* add_replay(CLI::App& app, ReplayCommand& command);
 /// on stderr what could not be replayed.
 /// @throws InputError          the files, the clock, the link.
 /// @throws std::runtime_error  the host asked for settings that were not recorded.
-void run_replay(const ReplayCommand& command, const std::function<bool()>& should_stop);
+void run(const ReplayCommand& command, const std::function<bool()>& should_stop);
 
 }  // namespace a351::sim

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "sim/line/fault_injector.hpp"
 #include "sim/line/line.hpp"
+#include "sim/oven/modbus_server.hpp"
 
 namespace a351::sim {
 
@@ -19,6 +21,7 @@ struct ExitReport {
     std::size_t bytes_unread = 0;  ///< When the port was pulled out.
     LineReport line;
     FaultReport faults;
+    std::optional<OvenReport> oven;  ///< If it was served.
 };
 
 /// One JSON object; keys: a351-sim(1), REPORT.

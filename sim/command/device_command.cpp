@@ -1,0 +1,137 @@
+#include "sim/command/device_command.hpp"
+
+#include <system_error>
+
+#include "protocol/core/input_error.hpp"
+#include "sim/command/exit_report.hpp"
+#include "sim/device/device_stream.hpp"
+#include "sim/device/flash_file.hpp"
+#include "sim/line/control_orders.hpp"
+#include "sim/line/control_socket.hpp"
+#include "sim/line/sensor_port.hpp"
+#include "sim/oven/oven_port.hpp"
+#include "sim/scenario/survey_plan.hpp"
+#include "sim/signal/signal_source.hpp"
+#include "sim/survey/plan_files.hpp"
+
+namespace a351::sim {
+namespace {
+
+MachineIdentity identity_of(const DeviceCommand& command) {
+    return {product_of(command.unit), command.unit.serial, command.firmware,
+            !command.lacks_id_register};
+}
+
+FaultRules fault_rules(const DeviceCommand& command, double speed) {
+    FaultRules rules{profile_of(command.unit.profile), speed};
+    if (!command.oven_link.empty()) rules.oven_kinds = OvenPort::fault_kinds();
+    return rules;
+}
+
+FlashMemory flash_of(const DeviceCommand& command) {
+    if (command.state.empty()) return {};
+    return read_flash_file(command.state, profile_of(command.unit.profile));
+}
+
+/// What cannot be kept is the device's own trouble: FLASH_BU_ERR.
+RegisterMachine::FlashStore store_in(const std::string& file) {
+    return [file](const FlashMemory& memory) {
+        try {
+            write_flash_file(file, memory);
+        } catch (const std::system_error&) {
+            return false;
+        }
+        return true;
+    };
+}
+
+}  // namespace
+
+CLI::App* add_device(CLI::App& app, DeviceCommand& command) {
+    CLI::App* device = app.add_subcommand("device", "Serve the sensor on a pseudo-terminal");
+    add_day(*device, command.day);
+    add_unit(*device, command.unit);
+    device->add_option("--firmware", command.firmware, "Firmware version")->capture_default_str();
+    device->add_flag("--no-id", command.lacks_id_register,
+                     "Answer 0 where the data sheet has no register");
+    device->add_option("--state", command.state, "TOML file that keeps the flash memory");
+    device->add_option("--link", command.link, "Symbolic link that names the terminal")->required();
+    device->add_option("--oven-link", command.oven_link,
+                       "Symbolic link that names the terminal of the oven's controller");
+    CLI::Option* clock = add_clock(*device, command.clock);
+    device->add_option("--speed", command.speed, "Simulated seconds per second from now on")
+        ->check(CLI::Range(1e-3, 1e6))
+        ->excludes(clock)
+        ->capture_default_str();
+    device->add_option("--truth", command.truth, "File for the frames as sent");
+    device->add_option("--report", command.report, "JSON file written at the end");
+    device->add_option("--faults", command.faults, "TOML file: which faults happen when");
+    device->add_option("--control", command.control, "Unix socket that takes faults and orders");
+    return device;
+}
+
+void run(const DeviceCommand& command, const std::function<bool()>& should_stop) {
+    const Scenario scenario = load_scenario(command.day.scenario);
+    const wire::DeviceProfile& profile = profile_of(command.unit.profile);
+    const MachineIdentity identity = identity_of(command);
+    const FlashMemory flash = flash_of(command);
+    const ClockScale clock = clock_of(command.clock, command.speed, scenario.start());
+    const FaultRules rules = fault_rules(command, clock.factor);
+    FaultScript script;
+    if (!command.faults.empty()) {
+        script = read_fault_script(command.faults, scenario.start(), rules);
+    }
+
+    Pty pty(command.link);
+    std::optional<TruthWriter> truth;
+    if (!command.truth.empty()) truth.emplace(command.truth);
+    SignalSource source(scenario, profile, command.day.seed);
+    RegisterMachine machine(profile, identity, steady_now(), flash);
+    if (!command.state.empty()) machine.on_flash_written(store_in(command.state));
+    DeviceStream stream(source, machine);
+    Line line(scenario.line, command.day.seed, scenario.start(),
+              [&truth](const TruthRecord& record) {
+                  if (truth) truth->append(record);
+              });
+    std::optional<OvenPort> oven;
+    if (!command.oven_link.empty()) oven.emplace(command.oven_link, source.oven());
+    FaultInjector faults(script, scenario.start(), line, machine, profile, identity,
+                         [&oven](std::string_view kind, int count) {
+                             return oven && oven->apply_fault(kind, count);
+                         });
+    SensorPort port(pty, stream, line, &faults);
+
+    const auto report = [&] {
+        return ExitReport{command.day.scenario,
+                          command.day.seed,
+                          clock.factor,
+                          port.real_seconds(),
+                          machine.command_count(),
+                          port.was_drained(),
+                          port.bytes_unread(),
+                          line.report(),
+                          faults.report(),
+                          oven ? std::optional(oven->report()) : std::nullopt};
+    };
+    bool is_asked_to_quit = false;
+    const ControlActions actions{
+        [&report] { return to_json(report(), -1); },
+        [&machine] { machine.external_edge(steady_now()); },
+        [&is_asked_to_quit] { is_asked_to_quit = true; },
+        [&](const Fault& fault) { faults.apply(fault, clock.simulated(host_now())); }};
+    std::optional<ControlSocket> control;
+    if (!command.control.empty()) {
+        control.emplace(command.control,
+                        [&](const std::string& order) { return obey(order, actions, rules); });
+    }
+
+    std::vector<Service*> services{&port};
+    if (oven) services.push_back(&*oven);
+    if (control) services.push_back(&*control);
+    attend(services, clock,
+           [&] { return is_asked_to_quit || should_stop() || port.is_finished(); });
+    if (truth) truth->close();
+    if (!command.report.empty()) write_text_file(command.report, to_json(report(), 2) + "\n");
+}
+
+}  // namespace a351::sim

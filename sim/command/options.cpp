@@ -1,0 +1,61 @@
+#include "sim/command/options.hpp"
+
+#include "protocol/core/input_error.hpp"
+#include "sim/device/register_machine.hpp"
+#include "sim/line/service.hpp"
+
+namespace a351::sim {
+namespace {
+
+CLI::Validator eight_characters() {
+    return CLI::Validator(
+        [](const std::string& value) {
+            return value.size() == 8 ? std::string() : "not 8 characters";
+        },
+        "8 characters");
+}
+
+}  // namespace
+
+void add_day(CLI::App& command, DayOptions& day) {
+    command.add_option("--scenario", day.scenario, "A named scenario, or a TOML file")
+        ->capture_default_str();
+    command.add_option("--seed", day.seed, "Of all random numbers")->capture_default_str();
+}
+
+void add_profile(CLI::App& command, std::string& profile, const std::string& used_for) {
+    command.add_option("--profile", profile, used_for + "Kind of device")
+        ->check(CLI::IsMember({"A351", "A352AD10"}))
+        ->capture_default_str();
+}
+
+void add_unit(CLI::App& command, UnitOptions& unit, const std::string& used_for) {
+    add_profile(command, unit.profile, used_for);
+    command.add_option("--product", unit.product, used_for + "Product identifier")
+        ->check(eight_characters());
+    command.add_option("--serial", unit.serial, used_for + "Serial number")
+        ->check(eight_characters())
+        ->capture_default_str();
+}
+
+const wire::DeviceProfile& profile_of(const std::string& name) { return *wire::find_profile(name); }
+
+std::string product_of(const UnitOptions& unit) {
+    return unit.product.empty() ? product_id_of(profile_of(unit.profile)) : unit.product;
+}
+
+CLI::Option* add_clock(CLI::App& command, std::string& clock) {
+    return command.add_option("--clock", clock, "Simulated time, scaled:FACTOR@UTC[,HOST]");
+}
+
+ClockScale clock_of(const std::string& clock, double factor, UtcTime start) {
+    const UtcTime now = host_now();
+    if (clock.empty()) return {factor, start, now};
+    const auto scale = parse_clock_scale(clock, now);
+    if (!scale) {
+        throw InputError("--clock " + clock + ": not a clock; allowed: scaled:FACTOR@UTC[,HOST]");
+    }
+    return *scale;
+}
+
+}  // namespace a351::sim

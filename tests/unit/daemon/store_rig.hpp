@@ -1,0 +1,176 @@
+#pragma once
+/// @file
+/// A store over files that can be made to hang or fail, fed with frames of known values.
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <memory>
+#include <system_error>
+#include <vector>
+
+#include "daemon/store/store.hpp"
+#include "protocol/record/archive_reader.hpp"
+#include "protocol/record/journal_reader.hpp"
+#include "protocol/wire/burst_frame.hpp"
+#include "tests/unit/daemon/fake_sensor.hpp"
+#include "tests/unit/daemon/temporary_directory.hpp"
+
+namespace a351::daemon {
+
+inline constexpr int kFrames = 2000;
+inline constexpr Nanoseconds kPeriod = std::chrono::milliseconds(20);
+
+/// Files whose journal can be made to hang or fail, and whose archive can be made to fail.
+class TroubledFiles : public record::FileLayer {
+public:
+    std::atomic<bool> does_sync_hang{false};
+    std::atomic<bool> does_sync_fail{false};
+    std::atomic<bool> does_append_fail{false};
+    std::atomic<bool> does_archive_fail{false};
+    std::atomic<int> hanging{0};
+
+    std::unique_ptr<record::AppendFile> open_append(const std::filesystem::path& file) override {
+        if (file.extension() != ".a351j") {
+            const bool is_archive = file.string().find("/archive/") != std::string::npos;
+            if (is_archive && does_archive_fail)
+                throw std::system_error(ENOSPC, std::generic_category());
+            return files_.open_append(file);
+        }
+        return std::make_unique<File>(*this, files_.open_append(file));
+    }
+    void create_directories(const std::filesystem::path& directory) override {
+        files_.create_directories(directory);
+    }
+    void sync_directory(const std::filesystem::path& directory) override {
+        files_.sync_directory(directory);
+    }
+    void truncate(const std::filesystem::path& file, std::uint64_t size) override {
+        files_.truncate(file, size);
+    }
+    void rename(const std::filesystem::path& from, const std::filesystem::path& to) override {
+        files_.rename(from, to);
+    }
+    void remove(const std::filesystem::path& file) override { files_.remove(file); }
+
+private:
+    class File : public record::AppendFile {
+    public:
+        File(TroubledFiles& owner, std::unique_ptr<record::AppendFile> file)
+            : owner_(owner), file_(std::move(file)) {}
+        void append(std::span<const std::byte> bytes) override {
+            if (owner_.does_append_fail) throw std::system_error(ENOSPC, std::generic_category());
+            file_->append(bytes);
+        }
+        void sync() override {
+            while (owner_.does_sync_hang) {
+                owner_.hanging = 1;
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            }
+            if (owner_.does_sync_fail) throw std::system_error(EIO, std::generic_category());
+            file_->sync();
+        }
+        [[nodiscard]] std::uint64_t size() const override { return file_->size(); }
+
+    private:
+        TroubledFiles& owner_;
+        std::unique_ptr<record::AppendFile> file_;
+    };
+
+    record::FileLayer& files_ = record::posix_files();
+};
+
+struct Rig {
+    TemporaryDirectory directory;
+    std::filesystem::path root = directory.path() / "data";
+    TroubledFiles files;
+    HostClock clock;
+    ReadQueue reads;
+    RawTime first = clock.raw() - kFrames * kPeriod;
+    int fed = 0;
+    std::vector<std::byte> bytes;
+
+    [[nodiscard]] StoreOptions options() const {
+        StoreOptions options;
+        options.root = root;
+        options.retry_interval = std::chrono::milliseconds(100);
+        options.commit_patience = std::chrono::milliseconds(500);
+        options.station.profile = "A351";
+        options.station.output_rate_hz = 50;
+        options.station.filter = "k512_fc9";
+        return options;
+    }
+
+    void begin_session(std::uint8_t id = 42) {
+        record::JournalHeader header;
+        header.session.bytes[0] = id;
+        header.boot_id = clock.boot_id();
+        header.profile = "A351";
+        header.product_id = "A351AU10";
+        header.serial_number = "00000042";
+        header.output_rate_hz = 50;
+        header.filter = "k512_fc9";
+        header.burst_ctrl = wire::BurstLayout::recommended().burst_ctrl();
+        header.baud = 460800;
+        header.clock = clock.read();
+        REQUIRE(reads.push_session(header, header.clock.raw));
+    }
+
+    void feed(int count) {
+        std::vector<std::byte> frame;
+        for (int i = 0; i < count; ++i, ++fed) {
+            frame.clear();
+            wire::append_frame(wire::BurstLayout::recommended(), FakeSensor::values(fed), frame);
+            REQUIRE(reads.push(ReadQueue::Kind::rx, first + fed * kPeriod, frame));
+            bytes.insert(bytes.end(), frame.begin(), frame.end());
+        }
+    }
+};
+
+inline Status status_of(Store& store) {
+    Status status;
+    store.fill(status);
+    return status;
+}
+
+struct JournalContent {
+    std::vector<std::byte> bytes;
+    std::vector<std::string> events;
+    std::vector<record::MarkChunk> marks;
+};
+
+inline JournalContent read_journal(const std::filesystem::path& root) {
+    JournalContent content;
+    for (const auto& segment : record::journal_segments(root / "journal")) {
+        record::JournalReader reader(segment);
+        while (const auto chunk = reader.next()) {
+            if (const auto* rx = std::get_if<record::RxChunk>(&*chunk)) {
+                content.bytes.insert(content.bytes.end(), rx->bytes.begin(), rx->bytes.end());
+            } else if (const auto* event = std::get_if<record::EventChunk>(&*chunk)) {
+                content.events.push_back(event->json);
+            } else if (const auto* mark = std::get_if<record::MarkChunk>(&*chunk)) {
+                content.marks.push_back(*mark);
+            }
+        }
+    }
+    return content;
+}
+
+inline std::vector<std::int32_t> archived_counts(const std::filesystem::path& root,
+                                                 const char* channel) {
+    const auto data =
+        record::read_channel(root / "archive", {}, channel, UtcTime(std::chrono::hours(0)),
+                             UtcTime(std::chrono::hours(24 * 365 * 200)));
+    std::vector<std::int32_t> counts;
+    for (const record::Segment& segment : data.segments) {
+        counts.insert(counts.end(), segment.counts.begin(), segment.counts.end());
+    }
+    return counts;
+}
+
+inline std::vector<std::int32_t> expected_counts(int frames) {
+    std::vector<std::int32_t> counts;
+    for (int i = 0; i < frames; ++i) counts.push_back(FakeSensor::values(i).axes[2]);
+    return counts;
+}
+
+}  // namespace a351::daemon

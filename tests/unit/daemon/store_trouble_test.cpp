@@ -1,0 +1,159 @@
+#include <fstream>
+
+#include "tests/unit/daemon/store_rig.hpp"
+
+using namespace a351;
+using namespace a351::daemon;
+
+TEST_CASE_METHOD(Rig, "no sample is called journaled before its bytes are synced",
+                 "[daemon][store]") {
+    Store store(files, options(), clock, reads);
+    store.start();
+    begin_session();
+    feed(100);
+    REQUIRE(eventually([&] { return status_of(store).journaled == 99; }));
+
+    files.does_sync_hang = true;
+    feed(100);
+    REQUIRE(eventually([&] { return status_of(store).received == 199 && files.hanging == 1; }));
+    CHECK(status_of(store).journaled == 99);
+    files.does_sync_hang = false;
+    CHECK(eventually([&] { return status_of(store).journaled == 199; }));
+    CHECK(store.stop());
+}
+
+TEST_CASE_METHOD(Rig, "after a failed sync its samples are called journaled only when archived",
+                 "[daemon][store]") {
+    Store store(files, options(), clock, reads);
+    store.start();
+    begin_session();
+    feed(100);
+    REQUIRE(eventually([&] { return status_of(store).journaled == 99; }));
+
+    files.does_sync_fail = true;
+    feed(100);
+    REQUIRE(eventually([&] { return status_of(store).more_counters["journal_faults"] > 0; }));
+    files.does_sync_fail = false;
+    feed(100);
+    REQUIRE(eventually([&] { return status_of(store).received == 299; }));
+    CHECK(status_of(store).journaled == 99);
+    CHECK(store.stop());
+    CHECK(status_of(store).journaled == 299);
+    CHECK(archived_counts(root, "BNZ") == expected_counts(300));
+}
+
+TEST_CASE_METHOD(Rig, "what a full disk refused is kept and written when there is space",
+                 "[daemon][store]") {
+    Store store(files, options(), clock, reads);
+    store.start();
+    begin_session();
+    feed(100);
+    REQUIRE(eventually([&] { return status_of(store).journaled == 99; }));
+
+    files.does_append_fail = true;
+    feed(100);
+    REQUIRE(eventually([&] { return status_of(store).more_counters["journal_faults"] > 0; }));
+    feed(100);
+    CHECK(status_of(store).level == Status::Level::fault);
+    files.does_append_fail = false;
+    CHECK(store.stop());
+    CHECK(read_journal(root).bytes == bytes);
+    CHECK(archived_counts(root, "BNZ") == expected_counts(300));
+}
+
+TEST_CASE_METHOD(Rig, "after a crash the next start completes the archive", "[daemon][store]") {
+    const auto crashed = directory.path() / "crashed";
+    {
+        Store store(files, options(), clock, reads);
+        store.start();
+        begin_session();
+        feed(kFrames);
+        REQUIRE(eventually([&] { return status_of(store).journaled == kFrames - 1; }));
+        std::filesystem::copy(root, crashed, std::filesystem::copy_options::recursive);
+    }
+    const auto segments = record::journal_segments(crashed / "journal");
+    REQUIRE(segments.size() == 1);
+    std::ofstream(segments[0], std::ios::app) << "torn";
+
+    StoreOptions again = options();
+    again.root = crashed;
+    Store store(files, again, clock, reads);
+    CHECK(store.recovery().journal.has_value());
+    CHECK(store.recovery().records_added > 0);
+    CHECK(archived_counts(crashed, "BNZ") == expected_counts(kFrames));
+}
+
+TEST_CASE_METHOD(Rig, "while the archive cannot be written the journal goes on",
+                 "[daemon][store]") {
+    Store store(files, options(), clock, reads);
+    store.start();
+    begin_session();
+    feed(100);
+    REQUIRE(eventually([&] { return status_of(store).journaled == 99; }));
+
+    files.does_archive_fail = true;
+    feed(kFrames);  // More than a record holds.
+    REQUIRE(eventually([&] { return status_of(store).more_counters["archive_faults"] > 1; }));
+    REQUIRE(eventually([&] { return status_of(store).journaled == 99 + kFrames; }));
+    const Status troubled = status_of(store);
+    CHECK(troubled.level == Status::Level::fault);
+    CHECK(troubled.more_counters.at("archive_records_waiting") > 0);
+    CHECK(troubled.more_counters.at("archive_waits") == 0);
+    CHECK(read_journal(root).bytes == bytes);
+    CHECK(archived_counts(root, "BNZ").empty());
+
+    files.does_archive_fail = false;
+    feed(1);
+    REQUIRE(
+        eventually([&] { return status_of(store).more_counters["archive_records_waiting"] == 0; }));
+    CHECK(store.stop());
+    CHECK(archived_counts(root, "BNZ") == expected_counts(fed));
+    CHECK(status_of(store).archived == fed - 1);
+}
+
+TEST_CASE_METHOD(Rig, "an archive that fails to the end is a failure of stop, not of the journal",
+                 "[daemon][store]") {
+    {
+        Store store(files, options(), clock, reads);
+        store.start();
+        files.does_archive_fail = true;
+        begin_session();
+        feed(kFrames);
+        CHECK_FALSE(store.stop());
+    }
+    CHECK(read_journal(root).bytes == bytes);
+    files.does_archive_fail = false;
+    const Store again(files, options(), clock, reads);
+    CHECK(again.recovery().records_added > 0);
+    CHECK(archived_counts(root, "BNZ") == expected_counts(kFrames));
+}
+
+TEST_CASE_METHOD(Rig, "an event whose turn did not come is withdrawn, not written later",
+                 "[daemon][store]") {
+    Store store(files, options(), clock, reads);
+    store.start();
+    begin_session();
+    feed(100);
+    REQUIRE(eventually([&] { return status_of(store).journaled == 99; }));
+    files.does_sync_hang = true;
+    feed(100);
+    REQUIRE(eventually([&] { return files.hanging == 1; }));
+    record::Event event;
+    event.type = "note";
+    event.utc = clock.now();
+    event.details["note"] = "late";
+    try {
+        store.commit(event);
+        FAIL("committed while the disk hung");
+    } catch (const std::system_error& error) {
+        CHECK(error.code() == std::errc::timed_out);
+    }
+    files.does_sync_hang = false;
+    event.details["note"] = "in time";
+    store.commit(event);
+    CHECK(store.stop());
+    const JournalContent journal = read_journal(root);
+    REQUIRE(journal.events.size() == 1);
+    CHECK(journal.events[0] == record::to_json(event));
+    CHECK(record::read_events(root / "events").events.size() == 1);
+}
