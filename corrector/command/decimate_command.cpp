@@ -2,15 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <filesystem>
-#include <iostream>
 #include <limits>
 #include <memory>
 #include <vector>
 
+#include "corrector/command/csv_output.hpp"
 #include "corrector/command/option_values.hpp"
 #include "corrector/signal/decimation.hpp"
-#include "corrector/survey/result_files.hpp"
 #include "protocol/text/csv.hpp"
 
 namespace a351::corrector {
@@ -51,12 +49,7 @@ void write_decimated(const DecimateOptions& options) {
         csv += std::to_string(k) + ',' + (is_valid ? text::shortest(samples[k]) : "") + ',' +
                (is_valid ? '1' : '0') + '\n';
     }
-    if (options.output.empty()) {
-        std::cout << csv;
-        return;
-    }
-    const std::filesystem::path file = std::filesystem::absolute(options.output);
-    write_together(file.parent_path(), {{file.filename().string(), std::move(csv)}});
+    write_or_print(options.output, std::move(csv));
 }
 
 }  // namespace

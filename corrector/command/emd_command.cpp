@@ -2,14 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "corrector/command/csv_output.hpp"
 #include "corrector/command/option_values.hpp"
 #include "corrector/eemd/eemd.hpp"
-#include "corrector/survey/result_files.hpp"
 #include "protocol/text/csv.hpp"
 
 namespace a351::corrector {
@@ -74,9 +73,7 @@ void write_modes(const EmdCommandOptions& options) {
     for (std::size_t row = 0; row < table.row_count(); ++row) {
         signal.push_back(table.number(row, options.column, -1e300, 1e300));
     }
-    const std::filesystem::path file = std::filesystem::absolute(options.output);
-    write_together(file.parent_path(),
-                   {{file.filename().string(), to_csv(eemd(signal, eemd_options))}});
+    write_or_print(options.output, to_csv(eemd(signal, eemd_options)));
 }
 
 }  // namespace

@@ -1,13 +1,11 @@
 #include "corrector/command/tide_command.hpp"
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
-#include <iostream>
 #include <memory>
 
+#include "corrector/command/csv_output.hpp"
 #include "corrector/command/option_values.hpp"
 #include "corrector/survey/aligned_text.hpp"
-#include "corrector/survey/result_files.hpp"
 #include "corrector/survey/tide_choice.hpp"
 #include "corrector/tide/earth_tide.hpp"
 #include "protocol/core/input_error.hpp"
@@ -57,17 +55,8 @@ void write_series(const TideOptions& options) {
     for (UtcTime time = from; time <= to; time += step) {
         csv += to_rfc3339(time, decimals) + ',' +
                fixed(earth_tide(model, time, station, factors).value(), 6) + '\n';
-        if (options.output.empty() && csv.size() > 65536) {
-            std::cout << csv;
-            csv.clear();
-        }
     }
-    if (options.output.empty()) {
-        std::cout << csv;
-        return;
-    }
-    const std::filesystem::path file = std::filesystem::absolute(options.output);
-    write_together(file.parent_path(), {{file.filename().string(), std::move(csv)}});
+    write_or_print(options.output, std::move(csv));
 }
 
 }  // namespace

@@ -79,6 +79,12 @@ private:
     record::FileLayer& files_ = record::posix_files();
 };
 
+inline Status status_of(Store& store) {
+    Status status;
+    store.fill(status);
+    return status;
+}
+
 struct Rig {
     TemporaryDirectory directory;
     std::filesystem::path root = directory.path() / "data";
@@ -115,6 +121,14 @@ struct Rig {
         REQUIRE(reads.push_session(header, header.clock.raw));
     }
 
+    /// Starts the store and records samples 0 ... 99.
+    void record_first(Store& store) {
+        store.start();
+        begin_session();
+        feed(100);
+        REQUIRE(eventually([&] { return status_of(store).journaled == 99; }));
+    }
+
     void feed(int count) {
         std::vector<std::byte> frame;
         for (int i = 0; i < count; ++i, ++fed) {
@@ -125,12 +139,6 @@ struct Rig {
         }
     }
 };
-
-inline Status status_of(Store& store) {
-    Status status;
-    store.fill(status);
-    return status;
-}
 
 struct JournalContent {
     std::vector<std::byte> bytes;

@@ -8,10 +8,7 @@ using namespace a351::daemon;
 TEST_CASE_METHOD(Rig, "no sample is called journaled before its bytes are synced",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
-    store.start();
-    begin_session();
-    feed(100);
-    REQUIRE(eventually([&] { return status_of(store).journaled == 99; }));
+    record_first(store);
 
     files.does_sync_hang = true;
     feed(100);
@@ -25,10 +22,7 @@ TEST_CASE_METHOD(Rig, "no sample is called journaled before its bytes are synced
 TEST_CASE_METHOD(Rig, "after a failed sync its samples are called journaled only when archived",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
-    store.start();
-    begin_session();
-    feed(100);
-    REQUIRE(eventually([&] { return status_of(store).journaled == 99; }));
+    record_first(store);
 
     files.does_sync_fail = true;
     feed(100);
@@ -45,10 +39,7 @@ TEST_CASE_METHOD(Rig, "after a failed sync its samples are called journaled only
 TEST_CASE_METHOD(Rig, "what a full disk refused is kept and written when there is space",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
-    store.start();
-    begin_session();
-    feed(100);
-    REQUIRE(eventually([&] { return status_of(store).journaled == 99; }));
+    record_first(store);
 
     files.does_append_fail = true;
     feed(100);
@@ -86,10 +77,7 @@ TEST_CASE_METHOD(Rig, "after a crash the next start completes the archive", "[da
 TEST_CASE_METHOD(Rig, "while the archive cannot be written the journal goes on",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
-    store.start();
-    begin_session();
-    feed(100);
-    REQUIRE(eventually([&] { return status_of(store).journaled == 99; }));
+    record_first(store);
 
     files.does_archive_fail = true;
     feed(kFrames);  // More than a record holds.
@@ -131,10 +119,7 @@ TEST_CASE_METHOD(Rig, "an archive that fails to the end is a failure of stop, no
 TEST_CASE_METHOD(Rig, "an event whose turn did not come is withdrawn, not written later",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
-    store.start();
-    begin_session();
-    feed(100);
-    REQUIRE(eventually([&] { return status_of(store).journaled == 99; }));
+    record_first(store);
     files.does_sync_hang = true;
     feed(100);
     REQUIRE(eventually([&] { return files.hanging == 1; }));
