@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
 #include <chrono>
-#include <fstream>
 #include <span>
-#include <system_error>
 
+#include "protocol/record/file_bytes.hpp"
 #include "protocol/record/miniseed.hpp"
 #include "protocol/record/sds.hpp"
 
@@ -16,14 +14,6 @@ namespace a351::record {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<std::byte> read_file(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::vector<std::byte> bytes(fs::file_size(file));
-    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (!in) throw std::system_error(EIO, std::generic_category(), "read " + file.string());
-    return bytes;
-}
 
 class Collector {
 public:
@@ -83,7 +73,7 @@ ChannelData read_channel(const fs::path& archive, const StationCodes& codes,
     const auto last = sds_file(archive, codes, channel, to - Nanoseconds(1)).filename();
     for (const auto& file : day_files(archive, codes, channel)) {
         if (file.filename() < first || file.filename() > last) continue;
-        const auto bytes = read_file(file);
+        const auto bytes = read_bytes(file);
         std::uint64_t damaged = 0;
         std::uint64_t at = 0;
         const auto report = [&] {

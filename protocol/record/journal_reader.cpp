@@ -7,23 +7,10 @@
 #include <system_error>
 #include <utility>
 
+#include "protocol/record/file_bytes.hpp"
 #include "protocol/record/journal_codec.hpp"
 
 namespace a351::record {
-
-namespace {
-
-std::vector<std::byte> read_from(const std::filesystem::path& file, std::uint64_t offset,
-                                 std::uint64_t count) {
-    std::ifstream in(file, std::ios::binary);
-    std::vector<std::byte> bytes(count);
-    in.seekg(static_cast<std::streamoff>(offset));
-    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
-    if (!in) throw std::system_error(EIO, std::generic_category(), "read " + file.string());
-    return bytes;
-}
-
-}  // namespace
 
 JournalReader::JournalReader(std::filesystem::path segment)
     : path_(std::move(segment)), in_(path_, std::ios::binary) {
@@ -119,7 +106,7 @@ std::optional<JournalDamage> repair_newest_segment(FileLayer& files,
         files.rename(damage->file, side);
         files.sync_directory(directory);
     } else {
-        replace_file(files, side, read_from(damage->file, damage->offset, damage->byte_count));
+        replace_file(files, side, read_bytes(damage->file, damage->offset, damage->byte_count));
         files.truncate(damage->file, damage->offset);
     }
     return damage;

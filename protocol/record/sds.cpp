@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <chrono>
-#include <fstream>
 #include <set>
-#include <system_error>
 #include <utility>
+
+#include "protocol/record/file_bytes.hpp"
 
 namespace a351::record {
 
@@ -42,15 +41,6 @@ std::vector<fs::path> station_directories(const fs::path& archive, const Station
     }
     std::sort(directories.begin(), directories.end());
     return directories;
-}
-
-std::vector<std::byte> read_bytes(std::ifstream& in, const fs::path& file, std::uint64_t offset,
-                                  std::uint64_t count) {
-    std::vector<std::byte> bytes(count);
-    in.seekg(static_cast<std::streamoff>(offset));
-    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
-    if (!in) throw std::system_error(EIO, std::generic_category(), "read " + file.string());
-    return bytes;
 }
 
 }  // namespace
@@ -105,12 +95,9 @@ std::optional<fs::path> newest_day_file(const fs::path& archive, const StationCo
 }
 
 std::optional<TornTail> repair_tail(FileLayer& files, const fs::path& day_file) {
-    std::ifstream in(day_file, std::ios::binary);
-    if (!in) throw std::system_error(errno, std::generic_category(), "open " + day_file.string());
     const std::uint64_t size = fs::file_size(day_file);
     std::uint64_t whole = size / kRecordSize * kRecordSize;
-    while (whole > 0 &&
-           !decode_record(read_bytes(in, day_file, whole - kRecordSize, kRecordSize))) {
+    while (whole > 0 && !decode_record(read_bytes(day_file, whole - kRecordSize, kRecordSize))) {
         whole -= kRecordSize;
     }
     if (whole == size && size > 0) return std::nullopt;
@@ -121,7 +108,7 @@ std::optional<TornTail> repair_tail(FileLayer& files, const fs::path& day_file) 
         side += '.';
         side += std::to_string(whole);
         side += ".torn";
-        replace_file(files, side, read_bytes(in, day_file, whole, tail.byte_count));
+        replace_file(files, side, read_bytes(day_file, whole, tail.byte_count));
     }
     if (whole > 0) {
         files.truncate(day_file, whole);

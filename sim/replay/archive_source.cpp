@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <system_error>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/record/file_bytes.hpp"
 #include "protocol/record/miniseed.hpp"
 
 namespace a351::sim {
@@ -14,14 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kTemperatureField = 3;
-
-std::vector<std::byte> read_file(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::vector<std::byte> bytes(fs::file_size(file));
-    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (!in) throw std::system_error(EIO, std::generic_category(), "read " + file.string());
-    return bytes;
-}
 
 /// The record at the front of a file.
 record::RecordHeader first_header(const fs::path& file) {
@@ -107,7 +99,7 @@ private:
             passed_over = 0;
             if (file_ == files_.size()) break;
             path_ = files_[file_++].path;
-            bytes_ = read_file(path_);
+            bytes_ = record::read_bytes(path_);
             offset_ = 0;
         }
         record_.samples.clear();

@@ -1,31 +1,21 @@
 """kill -9 in the middle of a day at 20x: what was journaled stays, the day goes on, nothing doubles."""
 
 import datetime
-import json
 import random
 import signal
 import subprocess
 import threading
 import time
-import urllib.request
 
-from programs import BIN, IS_LONG, Scratch, compare_truth, daemon_config, demand, read_json, run
+from programs import BIN, IS_LONG, Scratch, compare_truth, daemon_config, daemon_status, demand, read_json, run
 
 SPEED = 20
-
-
-def status(port):
-    try:
-        with urllib.request.urlopen(f"http://127.0.0.1:{port}/api/status", timeout=2) as reply:
-            return json.load(reply)
-    except OSError:
-        return None
 
 
 def wait_for_samples(port, count, seconds=30):
     end = time.monotonic() + seconds
     while time.monotonic() < end:
-        state = status(port)
+        state = daemon_status(port)
         if state and (state.get("journaled") or 0) >= count:
             return state
         time.sleep(0.05)
@@ -66,7 +56,7 @@ def round_of(number, scratch):
         def watch():
             nonlocal last_published
             while not stop.is_set():
-                state = status(port)
+                state = daemon_status(port)
                 if state:
                     last_published = max(last_published, state.get("journaled") or 0)
 

@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import urllib.request
 
 BIN = pathlib.Path(os.environ["A351_BIN"])
 TOOLS = pathlib.Path(os.environ["A351_TOOLS"])
@@ -40,6 +41,15 @@ root = "data"
 [page]
 listen = "127.0.0.1:{port}"
 """
+
+
+def daemon_status(port):
+    """What the daemon on that port says of itself; None while it does not answer."""
+    try:
+        with urllib.request.urlopen(f"http://127.0.0.1:{port}/api/status", timeout=2) as reply:
+            return json.load(reply)
+    except OSError:
+        return None
 
 
 def rows(file):

@@ -7,9 +7,8 @@ import socket
 import subprocess
 import sys
 import time
-import urllib.request
 
-from programs import BIN, TOOLS, TOP, Scratch, daemon_config, demand, run
+from programs import BIN, TOOLS, TOP, Scratch, daemon_config, daemon_status, demand, run
 
 LOGS = TOP / "tests" / "golden" / "logs"
 sys.dont_write_bytecode = True
@@ -43,11 +42,7 @@ class Daemon:
         self.process = subprocess.Popen(command, cwd=directory, stderr=self.log)
 
     def status(self):
-        try:
-            with urllib.request.urlopen(f"http://127.0.0.1:{self.http}/api/status", timeout=2) as reply:
-                return json.load(reply)
-        except OSError:
-            return None
+        return daemon_status(self.http)
 
     def counters(self):
         """Of the stream, once they stand still."""
