@@ -54,7 +54,7 @@ void ArchiveThread::hurry() {
 bool ArchiveThread::join() {
     if (thread_.joinable()) thread_.join();
     const std::lock_guard lock(mutex_);
-    return !status_.is_faulty;
+    return !status_.is_faulty && status_.chunks_lost == 0;
 }
 
 void ArchiveThread::run() noexcept {
@@ -64,6 +64,8 @@ void ArchiveThread::run() noexcept {
             post_model();
         } catch (const std::exception& error) {
             note_fault(error.what());
+            const std::lock_guard lock(mutex_);
+            ++status_.chunks_lost;
         }
         if (may_write()) put_away(false);
     }

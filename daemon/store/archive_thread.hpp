@@ -30,6 +30,7 @@ struct ArchiveStatus {
     bool is_faulty = false;
     std::string trouble;
     std::uint64_t faults = 0;
+    std::uint64_t chunks_lost = 0;  ///< Not parsed; the journal holds them.
     bool is_marking = true;  ///< False once a sync failed: until a new session nothing is marked.
     std::uint64_t records = 0;
     std::uint64_t records_waiting = 0;

@@ -117,15 +117,18 @@ void JournalThread::work() {
     if (may_try_again()) {
         retry_unwritten();
         write_reads();
-        std::vector<record::JournalChunk> posted;
-        {
-            const std::lock_guard lock(mutex_);
-            posted.swap(posted_);
-        }
-        for (record::JournalChunk& chunk : posted) write(std::move(chunk));
+        while (auto chunk = next_posted()) write(std::move(*chunk));
     }
     carry_out_commits();
     if (is_dirty_ && steady_clock::now() - last_sync_ >= kSyncInterval) sync();
+}
+
+std::optional<record::JournalChunk> JournalThread::next_posted() {
+    const std::lock_guard lock(mutex_);
+    if (posted_.empty()) return std::nullopt;
+    std::optional<record::JournalChunk> chunk(std::move(posted_.front()));
+    posted_.pop_front();
+    return chunk;
 }
 
 void JournalThread::write_reads() {
@@ -225,26 +228,27 @@ void JournalThread::carry_out_commits() {
     }
 }
 
-// Without a session there is no journal to write to: then the event log alone keeps the event.
+// The event log decides: the journal's copy follows, at once unless the journal is in trouble.
 void JournalThread::carry_out(Commit& commit) {
     try {
-        if (unwritten_ || !may_try_again()) {
-            throw std::system_error(std::make_error_code(std::errc::io_error),
-                                    "the journal is not being written");
-        }
-        if (has_segment_) {
-            write(record::EventChunk{record::to_json(commit.event)});
-            sync();
-        }
         record::append_event(files_, events_, commit.event);
-    } catch (const std::exception& error) {
-        // Whoever asked is told that it did not happen.
-        if (unwritten_ && std::holds_alternative<record::EventChunk>(*unwritten_)) {
-            unwritten_.reset();
+    } catch (const std::exception&) {
+        {
+            const std::lock_guard lock(mutex_);
+            ++status_.events_refused;
         }
-        note_fault(error.what());
         commit.done.set_exception(std::current_exception());
         return;
+    }
+    try {
+        post(record::EventChunk{record::to_json(commit.event)});
+        if (may_try_again()) {
+            retry_unwritten();
+            while (auto chunk = next_posted()) write(std::move(*chunk));
+            sync();
+        }
+    } catch (const std::exception& error) {
+        note_fault(error.what());
     }
     commit.done.set_value();
 }

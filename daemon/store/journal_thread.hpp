@@ -33,7 +33,8 @@ struct JournalStatus {
     std::string trouble;  ///< The last fault of the disk.
     std::uint64_t faults = 0;
     std::uint64_t bytes_written = 0;
-    std::uint64_t archive_waits = 0;  ///< Times it had to wait for the archive.
+    std::uint64_t archive_waits = 0;   ///< Times it had to wait for the archive.
+    std::uint64_t events_refused = 0;  ///< That the event log did not take.
 };
 
 class JournalThread {
@@ -55,9 +56,11 @@ public:
     /// A chunk to be written soon: MARK, MODEL.
     void post(record::JournalChunk chunk);
 
-    /// Waits until journal and event log hold the event, synced.
-    /// @throws std::system_error  what prevented that; timed_out when its turn did not come within
-    ///                            `patience`: then it is withdrawn and never written.
+    /// Waits until the event log holds the event, synced; the journal has it then too, or as soon
+    /// as it can be written.
+    /// @throws std::system_error  what kept it out of the event log: nothing of it is written;
+    ///                            timed_out when its turn did not come within `patience`: then it is
+    ///                            withdrawn.
     void commit(const record::Event& event, std::chrono::milliseconds patience);
 
     [[nodiscard]] JournalStatus status() const;
@@ -72,6 +75,7 @@ private:
     void run() noexcept;
     void work();
     void write_reads();
+    [[nodiscard]] std::optional<record::JournalChunk> next_posted();
     void write(record::JournalChunk chunk);
     void retry_unwritten();
     void hand_over(record::JournalChunk chunk);
@@ -105,7 +109,7 @@ private:
     std::condition_variable woken_;
     Phase phase_ = Phase::running;
     bool is_drained_ = false;
-    std::vector<record::JournalChunk> posted_;
+    std::deque<record::JournalChunk> posted_;
     std::deque<std::shared_ptr<Commit>> commits_;
     JournalStatus status_;
     std::thread thread_;

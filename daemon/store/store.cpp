@@ -75,6 +75,7 @@ void Store::fill(Status& status) {
     const JournalStatus journal = journal_.status();
     status.more_counters["journal_bytes"] = journal.bytes_written;
     status.more_counters["journal_faults"] = journal.faults;
+    status.more_counters["events_refused"] = journal.events_refused;
     status.more_counters["archive_faults"] = archive.faults;
     status.more_counters["archive_records"] = archive.records;
     status.more_counters["archive_records_waiting"] = archive.records_waiting;
@@ -82,6 +83,11 @@ void Store::fill(Status& status) {
     if (journal.is_faulty) complain(status, Status::Level::fault, "journal: " + journal.trouble);
     if (archive.is_faulty) complain(status, Status::Level::fault, "archive: " + archive.trouble);
 
+    if (archive.chunks_lost > 0) {
+        complain(status, Status::Level::fault,
+                 "archive: chunks that it could not take: " + std::to_string(archive.chunks_lost) +
+                     "; the journal holds them");
+    }
     if (!archive.is_marking) {
         complain(status, Status::Level::warning,
                  "archive: a sync failed, so nothing is called archived until the next session; "

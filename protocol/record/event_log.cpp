@@ -43,6 +43,15 @@ bool ends_without_newline(const fs::path& file) {
     return in.get() != '\n';
 }
 
+/// What was refused must not be found later.
+void take_back(FileLayer& files, const fs::path& file, std::uint64_t size) {
+    try {
+        files.truncate(file, size);
+    } catch (const std::system_error&) {
+        // The first trouble is the one to be told.
+    }
+}
+
 }  // namespace
 
 std::string to_json(const Event& event) {
@@ -94,9 +103,15 @@ void append_event(FileLayer& files, const fs::path& directory, const Event& even
     line += to_json(event);
     line += '\n';
     const auto file = files.open_append(path);
-    file->append(std::as_bytes(std::span(line)));
-    file->sync();
-    if (is_new) files.sync_directory(directory);
+    const std::uint64_t size_before = file->size();
+    try {
+        file->append(std::as_bytes(std::span(line)));
+        file->sync();
+        if (is_new) files.sync_directory(directory);
+    } catch (const std::system_error&) {
+        take_back(files, path, size_before);
+        throw;
+    }
 }
 
 EventLog read_events(const fs::path& directory) {

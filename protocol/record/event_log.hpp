@@ -33,6 +33,7 @@ struct Event {
 [[nodiscard]] std::optional<Event> parse_event(std::string_view json);
 
 /// Appends one line to the file of the event's month and syncs it.
+/// @throws std::system_error  nothing of it is there, unless the disk does not even take it back.
 void append_event(FileLayer& files, const std::filesystem::path& directory, const Event& event);
 
 struct EventDamage {

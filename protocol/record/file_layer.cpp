@@ -126,8 +126,8 @@ FileLayer& posix_files() {
     return files;
 }
 
-void replace_file(FileLayer& files, const std::filesystem::path& file,
-                  std::span<const std::byte> content) {
+void place_file(FileLayer& files, const std::filesystem::path& file,
+                std::span<const std::byte> content) {
     auto temporary = file;
     temporary += ".tmp";
     if (std::filesystem::exists(temporary)) files.remove(temporary);  // Left by a crash.
@@ -135,6 +135,11 @@ void replace_file(FileLayer& files, const std::filesystem::path& file,
     opened->append(content);
     opened->sync();
     files.rename(temporary, file);
+}
+
+void replace_file(FileLayer& files, const std::filesystem::path& file,
+                  std::span<const std::byte> content) {
+    place_file(files, file, content);
     files.sync_directory(file.has_parent_path() ? file.parent_path() : ".");
 }
 

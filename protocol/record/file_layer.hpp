@@ -37,8 +37,12 @@ public:
 /// The operating system's files.
 [[nodiscard]] FileLayer& posix_files();
 
-/// Replaces a small file so that a reader, or a crash, sees the old or the new content: temporary
-/// name, sync, rename, directory sync.
+/// Puts a small file in its place so that a reader, or a crash, sees the old or the new content:
+/// temporary name, sync, rename.  When it throws, the old one stands.  The directory is not synced.
+void place_file(FileLayer& files, const std::filesystem::path& file,
+                std::span<const std::byte> content);
+
+/// The same, and the directory is synced.
 void replace_file(FileLayer& files, const std::filesystem::path& file,
                   std::span<const std::byte> content);
 

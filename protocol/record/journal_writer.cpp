@@ -4,6 +4,7 @@
 #include <cassert>
 #include <chrono>
 #include <cstdio>
+#include <system_error>
 #include <utility>
 
 #include "protocol/record/journal_codec.hpp"
@@ -23,6 +24,15 @@ std::string segment_name(std::uint64_t number, UtcTime time) {
     std::string digits = std::to_string(number);
     digits.insert(0, digits.size() < 8 ? 8 - digits.size() : 0, '0');
     return digits + "_" + stamp + ".a351j";
+}
+
+/// On a disk that is full or bad enough to refuse a header.
+void remove_if_possible(FileLayer& files, const std::filesystem::path& path) {
+    try {
+        files.remove(path);
+    } catch (const std::system_error&) {
+        // Readers pass over a segment without a header.
+    }
 }
 
 }  // namespace
@@ -49,9 +59,14 @@ void JournalWriter::begin_segment(const JournalHeader& header) {
     bytes.insert(bytes.end(), chunk.begin(), chunk.end());
     ++next_number_;  // Also when what follows fails: the name is taken.
     auto segment = files_.open_append(path);
-    segment->append(bytes);
-    segment->sync();
-    files_.sync_directory(directory_);
+    try {
+        segment->append(bytes);
+        segment->sync();
+        files_.sync_directory(directory_);
+    } catch (...) {
+        remove_if_possible(files_, path);
+        throw;
+    }
     segment_ = std::move(segment);
     bytes_written_ += bytes.size();
 }

@@ -17,6 +17,8 @@ public:
     JournalWriter(FileLayer& files, std::filesystem::path directory);
 
     /// Begins a segment: header written and synced, then the directory.  Closes the one before.
+    /// @throws std::system_error  no file is left that has no header, unless the disk is so bad that
+    ///         it cannot be removed either.
     void begin_segment(const JournalHeader& header);
 
     /// One write per chunk.  A segment older than one hour of raw time, or larger than 64 MiB, is

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include "protocol/record/file_bytes.hpp"
@@ -124,17 +126,14 @@ SdsWriter::SdsWriter(FileLayer& files, fs::path archive, StationCodes codes)
 
 void SdsWriter::append(const std::string& channel, const PackedRecord& record) {
     const auto path = sds_file(archive_, codes_, channel, record.start);
-    const auto found = open_.find(channel);
-    if (found != open_.end() && found->second.path != path) {
-        sync(found->second);
-        open_.erase(found);
-    }
+    if (open_.contains(channel) && open_.at(channel).path != path) close(channel);
     if (!open_.contains(channel)) {
         if (fs::exists(path)) repair_tail(files_, path);
         if (!fs::exists(path)) {
             // Comes into being whole: readers fail on a day file that is empty.
             files_.create_directories(path.parent_path());
-            replace_file(files_, path, record.bytes);
+            place_file(files_, path, record.bytes);
+            new_entries_.insert(path.parent_path());
             return;
         }
         open_[channel] = {path, files_.open_append(path), false};
@@ -144,26 +143,36 @@ void SdsWriter::append(const std::string& channel, const PackedRecord& record) {
     try {
         open.file->append(record.bytes);
     } catch (...) {
-        open_.erase(channel);  // Its tail is looked at again before the next append.
+        close(channel);  // Its tail is looked at again before the next append.
         throw;
     }
 }
 
-void SdsWriter::sync(Open& open) {
-    if (!open.is_dirty) return;
-    open.file->sync();
-    open.is_dirty = false;
+/// Syncs the file, since nobody will be able to later.
+void SdsWriter::close(const std::string& channel) {
+    const auto node = open_.extract(channel);
+    if (!node.mapped().is_dirty) return;
+    try {
+        node.mapped().file->sync();
+    } catch (...) {
+        may_have_lost_ = true;
+        throw;
+    }
 }
 
 void SdsWriter::sync() {
-    for (auto open = open_.begin(); open != open_.end(); ++open) {
-        try {
-            sync(open->second);
-        } catch (...) {
-            open_.erase(open);  // A failed sync is final for the descriptor.
-            throw;
-        }
+    if (may_have_lost_) {
+        throw std::system_error(EIO, std::generic_category(),
+                                "sync " + archive_.string() + ": an earlier one failed");
     }
+    may_have_lost_ = true;  // Unless all goes well.
+    for (const fs::path& directory : new_entries_) files_.sync_directory(directory);
+    new_entries_.clear();
+    for (auto& [channel, open] : open_) {
+        if (open.is_dirty) open.file->sync();
+        open.is_dirty = false;
+    }
+    may_have_lost_ = false;
 }
 
 }  // namespace a351::record

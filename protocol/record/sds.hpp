@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -47,10 +48,12 @@ struct TornTail {
 /// and removes a file that becomes or is empty.  @return what was cut, if anything.
 std::optional<TornTail> repair_tail(FileLayer& files, const std::filesystem::path& day_file);
 
-/// Appends records to day files, keeping one file open per channel.  The first record of a day file is
-/// synced at once; a torn tail is cut before the first append; the day before is synced at its end.
-/// @throws std::system_error  the file is given up, as after a failed sync(): what was not synced may
-///         be lost.  The next append() opens it anew.
+/// Appends records to day files, keeping one file open per channel.  The first record of a day file
+/// comes into being with it; a torn tail is cut before the first append; the day before is synced
+/// at its end.
+/// @throws std::system_error  append: nothing of the record is there, it can be appended again.
+///         sync, or the sync of the day before within append: what was not synced may be lost, and
+///         every later sync() throws.
 class SdsWriter {
 public:
     SdsWriter(FileLayer& files, std::filesystem::path archive, StationCodes codes);
@@ -64,12 +67,14 @@ private:
         std::unique_ptr<AppendFile> file;
         bool is_dirty = false;
     };
-    static void sync(Open& open);
+    void close(const std::string& channel);
 
     FileLayer& files_;
     std::filesystem::path archive_;
     StationCodes codes_;
     std::map<std::string, Open> open_;
+    std::set<std::filesystem::path> new_entries_;  ///< Directories to be synced.
+    bool may_have_lost_ = false;
 };
 
 }  // namespace a351::record

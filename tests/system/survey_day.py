@@ -5,11 +5,24 @@ import sys
 from programs import IS_SANITIZED, TOP, Scratch, compare_truth, demand, read_json, rows, run
 
 scenario = sys.argv[1]
-# Sanitized programs run several times slower; at 1000x they would fall behind for hours of the day.
+# Sanitized programs run several times slower: a shorter day at a lower speed.
 speed = "150" if IS_SANITIZED else "1000"
+
+
+def shorter(day, name):
+    """The first stays of the scenario, as a scenario of its own."""
+    stays = (("No.0", 1, "2017-07-15T23:42:00Z"), ("No.12", 1, "2017-07-16T00:40:00Z"),
+             ("No.0", 2, "2017-07-16T01:13:00Z"), ("No.1", 1, "2017-07-16T02:11:00Z"))
+    day.write_text(f'base = "{name}"\nname = "{name}, shorter"\n' + "".join(
+        f'[[occupation]]\nsite = "{site}"\nnumber = {number}\ncentre_utc = "{centre}"\nambient_degc = 25\n'
+        for site, number, centre in stays))
+    return day
+
 
 with Scratch() as scratch:
     out = scratch / "day"
+    if IS_SANITIZED:
+        scenario = shorter(scratch / "shorter.toml", scenario)
     demo = run(TOP / "sim" / "demo", scenario, "--seed", "7", "--speed", speed, "--out", out)
     print(demo.stdout)
     demand("the demo prints its own day's RMS of Error_1",
@@ -18,8 +31,9 @@ with Scratch() as scratch:
 
     truth = {(row["site"], row["occupation"]): row for row in rows(out / "truth.csv")}
     table = rows(out / "result" / "occupations.csv")
-    demand("all 19 occupations are in the table", len(table) == 19 and len(truth) == 19)
-    if scenario == "ideal":
+    expected = 4 if IS_SANITIZED else 19
+    demand(f"all {expected} occupations are in the table", len(table) == len(truth) == expected)
+    if "ideal" in sys.argv:
         errors = [abs(float(row["corrected_mgal"])
                       - float(truth[row["site"], row["occupation"]]["gravity_mgal"]))
                   for row in table]

@@ -10,7 +10,10 @@
 
 #include "daemon/store/store.hpp"
 #include "protocol/record/archive_reader.hpp"
+#include "protocol/record/file_bytes.hpp"
 #include "protocol/record/journal_reader.hpp"
+#include "protocol/record/miniseed.hpp"
+#include "protocol/record/sds.hpp"
 #include "protocol/wire/burst_frame.hpp"
 #include "tests/unit/daemon/fake_sensor.hpp"
 #include "tests/unit/daemon/temporary_directory.hpp"
@@ -106,11 +109,11 @@ struct Rig {
         return options;
     }
 
-    void begin_session(std::uint8_t id = 42) {
+    void begin_session(std::uint8_t id = 42, const char* profile = "A351") {
         record::JournalHeader header;
         header.session.bytes[0] = id;
         header.boot_id = clock.boot_id();
-        header.profile = "A351";
+        header.profile = profile;
         header.product_id = "A351AU10";
         header.serial_number = "00000042";
         header.output_rate_hz = 50;
@@ -173,6 +176,21 @@ inline std::vector<std::int32_t> archived_counts(const std::filesystem::path& ro
         counts.insert(counts.end(), segment.counts.begin(), segment.counts.end());
     }
     return counts;
+}
+
+/// As the records are, whether they overlap or not.
+inline std::size_t samples_in_records(const std::filesystem::path& root, const char* channel) {
+    std::size_t count = 0;
+    for (const auto& file : record::day_files(root / "archive", {}, channel)) {
+        const auto bytes = record::read_bytes(file);
+        for (std::size_t at = 0; at < bytes.size(); at += record::kRecordSize) {
+            const auto decoded =
+                record::decode_record(std::span(bytes).subspan(at, record::kRecordSize));
+            REQUIRE(decoded);
+            count += decoded->samples.size();
+        }
+    }
+    return count;
 }
 
 inline std::vector<std::int32_t> expected_counts(int frames) {

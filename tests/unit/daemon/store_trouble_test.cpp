@@ -1,6 +1,7 @@
 #include <fstream>
 
 #include "tests/unit/daemon/store_rig.hpp"
+#include "tests/unit/record/failing_files.hpp"
 
 using namespace a351;
 using namespace a351::daemon;
@@ -141,4 +142,100 @@ TEST_CASE_METHOD(Rig, "an event whose turn did not come is withdrawn, not writte
     REQUIRE(journal.events.size() == 1);
     CHECK(journal.events[0] == record::to_json(event));
     CHECK(record::read_events(root / "events").events.size() == 1);
+}
+
+TEST_CASE_METHOD(Rig, "a journal in trouble gets an event as soon as it can be written",
+                 "[daemon][store]") {
+    Store store(files, options(), clock, reads);
+    record_first(store);
+    files.does_append_fail = true;
+    record::Event event;
+    event.type = "note";
+    event.utc = clock.now();
+    store.commit(event);
+    store.commit(event);
+    CHECK(record::read_events(root / "events").events.size() == 2);
+    CHECK(read_journal(root).events.empty());
+    files.does_append_fail = false;
+    CHECK(store.stop());
+    CHECK(read_journal(root).events.size() == 2);
+    CHECK(status_of(store).more_counters["journal_faults"] > 0);
+}
+
+TEST_CASE_METHOD(Rig, "an event log that cannot be written leaves the journal alone",
+                 "[daemon][store]") {
+    Store store(files, options(), clock, reads);
+    record_first(store);
+    record::Event event;
+    event.type = "note";
+    event.utc = clock.now();
+    std::filesystem::create_directories(root / "events" /
+                                        (to_rfc3339(event.utc).substr(0, 7) + ".jsonl"));
+    CHECK_THROWS_AS(store.commit(event), std::system_error);
+    feed(100);
+    CHECK(eventually([&] { return status_of(store).journaled == 199; }));
+    CHECK_THROWS_AS(store.commit(event), std::system_error);
+    const Status status = status_of(store);
+    CHECK(status.more_counters.at("events_refused") == 2);
+    CHECK(status.more_counters.at("journal_faults") == 0);
+    CHECK(store.stop());
+    CHECK(read_journal(root).events.empty());
+}
+
+TEST_CASE_METHOD(Rig, "a full disk leaves no segments without a header", "[daemon][store]") {
+    Store store(files, options(), clock, reads);
+    record_first(store);
+    files.does_append_fail = true;
+    feed(100);
+    REQUIRE(eventually([&] { return status_of(store).more_counters["journal_faults"] > 3; }));
+    files.does_append_fail = false;
+    CHECK(store.stop());
+    for (const auto& segment : record::journal_segments(root / "journal")) {
+        CHECK(std::filesystem::file_size(segment) > 0);
+    }
+    CHECK(read_journal(root).bytes == bytes);
+}
+
+TEST_CASE_METHOD(Rig, "whichever file operation fails once, nothing is lost or doubled",
+                 "[daemon][store]") {
+    int operations = 1;
+    int failed = 0;
+    for (int fail_at = 1; fail_at <= operations; ++fail_at) {
+        CAPTURE(fail_at);
+        Rig rig;
+        test::FailingFiles failing;
+        {
+            Store store(failing, rig.options(), rig.clock, rig.reads);
+            failing.fail_at(failing.operations() + fail_at);
+            store.start();
+            rig.begin_session();
+            rig.feed(kFrames);
+            REQUIRE(eventually([&] { return status_of(store).received == kFrames - 1; }));
+            const int before = failing.operations();
+            store.stop();
+            operations = std::min(failing.operations(), 40);
+            const Status status = status_of(store);
+            failed += status.more_counters.at("journal_faults") > 0 ||
+                      status.more_counters.at("archive_faults") > 0;
+            CHECK(before > 0);
+        }
+        CHECK(read_journal(rig.root).bytes == rig.bytes);
+        const Store again(rig.files, rig.options(), rig.clock, rig.reads);
+        CHECK(archived_counts(rig.root, "BNZ") == expected_counts(kFrames));
+        CHECK(samples_in_records(rig.root, "BNZ") == kFrames);
+    }
+    CHECK(operations > 20);
+    CHECK(failed > 20);
+}
+
+TEST_CASE_METHOD(Rig, "what the archive cannot take stays a fault, and the journal has it",
+                 "[daemon][store]") {
+    Store store(files, options(), clock, reads);
+    store.start();
+    begin_session(42, "nobody's");
+    feed(100);
+    REQUIRE(eventually([&] { return status_of(store).level == Status::Level::fault; }));
+    CHECK_FALSE(store.stop());
+    CHECK(status_of(store).level == Status::Level::fault);
+    CHECK(read_journal(root).bytes == bytes);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -8,7 +9,8 @@
 
 namespace a351::test {
 
-/// The real files, of which one operation fails: the n-th, counted from 1; 0 never.
+/// The real files, of which one operation fails: the n-th, counted from 1; 0 never.  For any
+/// number of threads.
 class FailingFiles : public record::FileLayer {
 public:
     explicit FailingFiles(int fail_at = 0) : fail_at_(fail_at) {}
@@ -73,8 +75,8 @@ private:
     }
 
     record::FileLayer& files_ = record::posix_files();
-    int fail_at_ = 0;
-    int operations_ = 0;
+    std::atomic<int> fail_at_ = 0;
+    std::atomic<int> operations_ = 0;
 };
 
 }  // namespace a351::test
