@@ -45,7 +45,7 @@ struct Status {
     record::ArchiverCounters counters;
     std::map<std::string, std::uint64_t> more_counters;  ///< Of link and store, by name.
 
-    std::uint64_t disk_free_bytes = 0;
+    std::optional<std::uint64_t> disk_free_bytes;  ///< Absent: it cannot be told.
 };
 
 }  // namespace a351::daemon

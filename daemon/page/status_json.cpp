@@ -111,7 +111,8 @@ json to_json(const Status& status, const Occupations& occupations, Nanoseconds s
               {"serial_number", status.serial_number},
               {"filter", status.filter},
               {"output_rate_hz", status.output_rate_hz}}},
-            {"disk", {{"free_bytes", status.disk_free_bytes}}}};
+            {"disk",
+             {{"free_bytes", status.disk_free_bytes ? json(*status.disk_free_bytes) : json()}}}};
 }
 
 json to_json(const RunningOccupation& running, UtcTime now) {

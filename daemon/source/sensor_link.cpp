@@ -82,6 +82,7 @@ LinkStatus SensorLink::status() const {
     const std::lock_guard lock(mutex_);
     LinkStatus status = status_;
     status.queue_full = queue_full_;
+    status.is_held_up = is_held_up_;
     return status;
 }
 
@@ -167,10 +168,8 @@ void SensorLink::back_off(const std::string& trouble) {
 }
 
 void SensorLink::begin_session() {
-    while (!queue_.push_session(begun_->header, begun_->header.clock.raw) && !stop_) {
-        ++queue_full_;
-        std::this_thread::sleep_for(kQueueRetry);
-    }
+    while (!queue_.push_session(begun_->header, begun_->header.clock.raw) && !stop_) hold_up();
+    is_held_up_ = false;
     for (const record::TxChunk& chunk : begun_->sent) {
         push(ReadQueue::Kind::tx, chunk.time, chunk.bytes);
     }
@@ -238,9 +237,15 @@ void SensorLink::note_stall(End end) {
 void SensorLink::push(ReadQueue::Kind kind, RawTime time, std::span<const std::byte> bytes) {
     while (!queue_.push(kind, time, bytes)) {
         if (stop_) return;
-        ++queue_full_;
-        std::this_thread::sleep_for(kQueueRetry);
+        hold_up();
     }
+    is_held_up_ = false;
+}
+
+void SensorLink::hold_up() {
+    ++queue_full_;
+    is_held_up_ = true;
+    std::this_thread::sleep_for(kQueueRetry);
 }
 
 void SensorLink::stop_sensor() {

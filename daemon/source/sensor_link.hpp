@@ -45,6 +45,7 @@ struct LinkStatus {
     std::uint64_t ports_lost = 0;
     std::uint64_t handshake_failures = 0;
     std::uint64_t queue_full = 0;  ///< Times the reader had to wait for the journal.
+    bool is_held_up = false;       ///< It waits now.
 };
 
 [[nodiscard]] const char* to_text(LinkStatus::State state) noexcept;
@@ -75,6 +76,7 @@ private:
     void take_up(const wire::DeviceIdentity& device, std::vector<record::TxChunk> sent);
     void begin_session();
     void back_off(const std::string& trouble);
+    void hold_up();
     void push(ReadQueue::Kind kind, RawTime time, std::span<const std::byte> bytes);
     void stop_sensor();
     void lose_port();
@@ -96,6 +98,7 @@ private:
 
     std::atomic<bool> stop_{false};
     std::atomic<std::uint64_t> queue_full_{0};
+    std::atomic<bool> is_held_up_{false};
     mutable std::mutex mutex_;  ///< Of status_ and for woken_; never held while bytes flow.
     std::condition_variable woken_;
     LinkStatus status_;

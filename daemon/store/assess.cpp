@@ -36,6 +36,9 @@ void fill(Status& status, const LinkStatus& link) {
     status.more_counters["ports_lost"] = link.ports_lost;
     status.more_counters["handshake_failures"] = link.handshake_failures;
     status.more_counters["queue_full"] = link.queue_full;
+    if (link.is_held_up) {
+        complain(status, Status::Level::warning, "the disk is too slow: the reader has to wait");
+    }
     if (link.state != LinkStatus::State::sampling) {
         complain(status, Status::Level::fault, "no data: " + link.trouble);
     } else if (link.device && !link.device->has_expected_product_id) {
@@ -56,12 +59,10 @@ void assess(Status& status) {
         case timing::TimingState::locked:
             break;
     }
-    if (status.disk_free_bytes < kLittleSpace_bytes) {
+    if (!status.disk_free_bytes) {
+        complain(status, Status::Level::warning, "free space of the record cannot be told");
+    } else if (*status.disk_free_bytes < kLittleSpace_bytes) {
         complain(status, Status::Level::warning, "less than 1 GiB free for the record");
-    }
-    const auto full = status.more_counters.find("queue_full");
-    if (full != status.more_counters.end() && full->second > 0) {
-        complain(status, Status::Level::warning, "the disk was too slow: the reader had to wait");
     }
 }
 

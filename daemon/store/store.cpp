@@ -96,7 +96,7 @@ void Store::fill(Status& status) {
 
     std::error_code error;
     const auto space = std::filesystem::space(options_.root, error);
-    status.disk_free_bytes = error ? 0 : space.available;
+    if (!error) status.disk_free_bytes = space.available;
 }
 
 }  // namespace a351::daemon

@@ -46,4 +46,15 @@ TEST_CASE("each trouble raises the level and is named", "[daemon][assess]") {
     status.disk_free_bytes = 1000;
     assess(status);
     CHECK(status.level == Status::Level::warning);
+
+    status = healthy();
+    status.disk_free_bytes.reset();
+    assess(status);
+    CHECK(status.reasons == std::vector<std::string>{"free space of the record cannot be told"});
+
+    status = healthy();
+    link.state = LinkStatus::State::sampling;
+    link.is_held_up = true;
+    fill(status, link);
+    CHECK(status.level == Status::Level::warning);
 }
