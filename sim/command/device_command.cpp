@@ -1,5 +1,8 @@
 #include "sim/command/device_command.hpp"
 
+#include <exception>
+#include <initializer_list>
+#include <iostream>
 #include <system_error>
 
 #include "protocol/core/input_error.hpp"
@@ -8,6 +11,7 @@
 #include "sim/device/flash_file.hpp"
 #include "sim/line/control_orders.hpp"
 #include "sim/line/control_socket.hpp"
+#include "sim/line/place.hpp"
 #include "sim/line/sensor_port.hpp"
 #include "sim/oven/oven_port.hpp"
 #include "sim/scenario/survey_plan.hpp"
@@ -45,6 +49,32 @@ RegisterMachine::FlashStore store_in(const std::string& file) {
     };
 }
 
+/// Before anything is made.
+void check_paths(const DeviceCommand& command) {
+    Pty::require_place(command.link);
+    if (!command.oven_link.empty()) Pty::require_place(command.oven_link);
+    if (!command.control.empty()) ControlSocket::require_place(command.control);
+    for (const std::string& file : {command.truth, command.report, command.state}) {
+        if (!file.empty()) require_file_place(file);
+    }
+    if (!command.truth.empty()) TruthWriter::require_own(command.truth);
+}
+
+/// Takes every step, whatever becomes of the others; then throws the first trouble.
+void take_all(std::initializer_list<std::function<void()>> steps) {
+    std::exception_ptr trouble;
+    for (const auto& step : steps) {
+        try {
+            step();
+        } catch (...) {
+            if (!trouble) trouble = std::current_exception();
+        }
+    }
+    if (trouble) std::rethrow_exception(trouble);
+}
+
+void say(const std::string& trouble) { std::cerr << "a351-sim: " << trouble << std::endl; }
+
 }  // namespace
 
 CLI::App* add_device(CLI::App& app, DeviceCommand& command) {
@@ -71,6 +101,7 @@ CLI::App* add_device(CLI::App& app, DeviceCommand& command) {
 }
 
 void run(const DeviceCommand& command, const std::function<bool()>& should_stop) {
+    check_paths(command);
     const Scenario scenario = load_scenario(command.day.scenario);
     const wire::DeviceProfile& profile = profile_of(command.unit.profile);
     const MachineIdentity identity = identity_of(command);
@@ -84,7 +115,6 @@ void run(const DeviceCommand& command, const std::function<bool()>& should_stop)
 
     Pty pty(command.link);
     std::optional<TruthWriter> truth;
-    if (!command.truth.empty()) truth.emplace(command.truth);
     SignalSource source(scenario, profile, command.day.seed);
     RegisterMachine machine(profile, identity, steady_now(), flash);
     if (!command.state.empty()) machine.on_flash_written(store_in(command.state));
@@ -99,7 +129,7 @@ void run(const DeviceCommand& command, const std::function<bool()>& should_stop)
                          [&oven](std::string_view kind, int count) {
                              return oven && oven->apply_fault(kind, count);
                          });
-    SensorPort port(pty, stream, line, &faults);
+    SensorPort port(pty, stream, line, &faults, say);
 
     const auto report = [&] {
         return ExitReport{command.day.scenario,
@@ -125,13 +155,21 @@ void run(const DeviceCommand& command, const std::function<bool()>& should_stop)
                         [&](const std::string& order) { return obey(order, actions, rules); });
     }
 
+    if (!command.truth.empty()) truth.emplace(command.truth);
+
     std::vector<Service*> services{&port};
     if (oven) services.push_back(&*oven);
     if (control) services.push_back(&*control);
-    attend(services, clock,
-           [&] { return is_asked_to_quit || should_stop() || port.is_finished(); });
-    if (truth) truth->close();
-    if (!command.report.empty()) write_text_file(command.report, to_json(report(), 2) + "\n");
+    const auto should_end = [&] { return is_asked_to_quit || should_stop() || port.is_finished(); };
+    const auto write_report = [&] {
+        if (!command.report.empty()) write_text_file(command.report, to_json(report(), 2) + "\n");
+    };
+    take_all({[&] { attend(services, clock, should_end); },
+              [&] { port.finish(clock.simulated(host_now())); },
+              [&] {
+                  if (truth) truth->close();
+              },
+              write_report});
 }
 
 }  // namespace a351::sim

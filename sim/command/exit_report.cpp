@@ -39,6 +39,15 @@ ordered_json applied(const FaultReport& faults) {
     return list;
 }
 
+ordered_json refused(const FaultReport& faults) {
+    ordered_json list = ordered_json::array();
+    for (const RefusedFault& fault : faults.refused) {
+        list.push_back(
+            {{"kind", fault.name}, {"utc", to_rfc3339(fault.at)}, {"reason", fault.reason}});
+    }
+    return list;
+}
+
 ordered_json to_json(const OvenReport& oven) {
     const auto kinds = OvenPort::fault_kinds();
     ordered_json faults = ordered_json::object();
@@ -47,6 +56,8 @@ ordered_json to_json(const OvenReport& oven) {
     }
     return {{"answers", oven.answers},
             {"exceptions", oven.exceptions},
+            {"answers_lost", oven.answers_lost},
+            {"resets", oven.resets},
             {"broadcasts", oven.broadcasts},
             {"for_other_units", oven.for_other_units},
             {"unreadable", oven.unreadable},
@@ -71,6 +82,7 @@ std::string to_json(const ExitReport& report, int indent) {
         {"frames_lost", line.frames_lost},
         {"frames_lost_by_overrun", line.lost_by_overrun},
         {"frames_lost_unplugged", line.lost_unplugged},
+        {"frames_pending", line.frames_pending},
         {"frames_repeated", line.frames_repeated},
         {"frames_misplaced", line.frames_misplaced},
         {"frames_flagged", line.frames_flagged},
@@ -91,9 +103,11 @@ std::string to_json(const ExitReport& report, int indent) {
         {"frames_cut", report.faults.frames_cut},
         {"faults", by_kind(report.faults)},
         {"faults_applied", applied(report.faults)},
+        {"faults_refused", refused(report.faults)},
     };
     if (report.oven) json["oven"] = to_json(*report.oven);
-    return json.dump(indent);
+    // A file name of the scenario may be any bytes.
+    return json.dump(indent, ' ', false, ordered_json::error_handler_t::replace);
 }
 
 }  // namespace a351::sim

@@ -17,8 +17,8 @@ struct ExitReport {
     double speed = 1.0;         ///< Simulated seconds per second.
     double real_seconds = 0.0;  ///< From the first frame handed over to the last.
     std::uint64_t commands = 0;
-    bool was_drained = false;      ///< The host read everything.
-    std::size_t bytes_unread = 0;  ///< When the port was pulled out.
+    bool was_drained = false;      ///< At the end the host had read everything.
+    std::size_t bytes_unread = 0;  ///< When the port was pulled out, and at the end.
     LineReport line;
     FaultReport faults;
     std::optional<OvenReport> oven;  ///< If it was served.

@@ -12,7 +12,7 @@ CLI::App* add_survey(CLI::App& app, SurveyCommand& command) {
     CLI::App* survey = app.add_subcommand("survey", "Write a day straight to a data root");
     add_day(*survey, command.day);
     add_profile(*survey, command.profile);
-    survey->add_option("--out", command.out, "Data root without a journal")->required();
+    survey->add_option("--out", command.out, "Directory for the data root: new, or without a record")->required();
     return survey;
 }
 

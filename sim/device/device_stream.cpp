@@ -21,13 +21,17 @@ int DeviceStream::stride() const {
     return std::max(1, source_.rate_hz() / machine_.output_rate_hz());
 }
 
+bool DeviceStream::is_holding() const {
+    return held_ && held_rate_hz_ == machine_.output_rate_hz();
+}
+
 UtcTime DeviceStream::instant() const {
-    return (held_ ? held_->instant : *source_.next_instant()) +
-           from_seconds(static_cast<double>(repeat_) / machine_.output_rate_hz());
+    if (!is_holding()) return *source_.next_instant();
+    return held_->instant + from_seconds(static_cast<double>(repeat_) / held_rate_hz_);
 }
 
 std::optional<UtcTime> DeviceStream::next_due() const {
-    if (!held_ && !source_.next_instant()) return std::nullopt;
+    if (!is_holding() && !source_.next_instant()) return std::nullopt;
     return machine_.is_sampling() ? instant() + machine_.frame_delay() : instant();
 }
 
@@ -42,17 +46,16 @@ void DeviceStream::advance_to(const Instant& now, LineSink& line) {
     for (int taken = 0; taken < kMostAtOnce && !line.is_full(); ++taken) {
         const std::optional<UtcTime> due = next_due();
         if (!due || *due > now.simulated) return;
-        if (!held_) take_sample();
+        if (!is_holding()) take_sample();
         if (held_->index % stride() == 0) send_sample(*due, line);
-        if (++repeat_ >= repeats()) {
-            held_.reset();
-            repeat_ = 0;
-        }
+        if (++repeat_ >= repeats()) held_.reset();
     }
 }
 
 void DeviceStream::take_sample() {
     held_ = source_.next();
+    held_rate_hz_ = machine_.output_rate_hz();
+    repeat_ = 0;
     for (; next_index_ < held_->index; ++next_index_) {
         if (next_index_ % stride() != 0) continue;
         for (int i = 0; i < repeats(); ++i) machine_.skip_sample();

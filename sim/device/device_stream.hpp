@@ -20,7 +20,8 @@ namespace a351::sim {
 /// the samples that are missing.
 ///
 /// Output rates above the source's hold each sample; below it, those samples are taken whose index
-/// is a multiple of the ratio.  The greater rate is expected to be a multiple of the other.
+/// is a multiple of the ratio.  The greater rate is expected to be a multiple of the other.  A new
+/// output rate starts with the source's next sample.
 class DeviceStream final : public LineDevice {
 public:
     /// Both must outlive this.
@@ -34,13 +35,15 @@ public:
 private:
     [[nodiscard]] int repeats() const;
     [[nodiscard]] int stride() const;
+    [[nodiscard]] bool is_holding() const;
     [[nodiscard]] UtcTime instant() const;
     void take_sample();
     void send_sample(UtcTime due, LineSink& line);
 
     SampleSource& source_;
     RegisterMachine& machine_;
-    std::optional<TimedSample> held_;  ///< Sample whose repeats are not all sent.
+    std::optional<TimedSample> held_;  ///< Sample whose repeats are not all sent ...
+    int held_rate_hz_ = 0;             ///< ... at this output rate; void at any other.
     int repeat_ = 0;                   ///< Next repeat of it.
     std::int64_t next_index_ = 0;      ///< Expected of the source.
     std::vector<std::byte> bytes_;     ///< Kept to keep its memory.

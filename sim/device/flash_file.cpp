@@ -72,6 +72,7 @@ FlashMemory read_flash_file(const std::filesystem::path& file, const wire::Devic
     static_cast<void>(document.integer_or("format", 0, kFormat, kFormat));
     if (!document.has("format")) document.refuse("format", "missing", std::to_string(kFormat));
     text::TomlTable registers = document.table("registers");
+    RegisterFile held;
     std::size_t i = 0;
     for (const wire::Register& reg : wire::kRegisters) {
         if (!reg.is_saved_in_flash) continue;
@@ -81,7 +82,10 @@ FlashMemory read_flash_file(const std::filesystem::path& file, const wire::Devic
         if ((value & ~reg.defined_bits) != 0 || !may_hold(profile, reg, value)) {
             registers.refuse(reg.name, "reserved", "a value that the device takes");
         }
-        memory.settings[i++] = value;
+        memory.settings[i++] = held.at(reg) = value;
+    }
+    if (!has_rate_for_long_filter(profile, held)) {
+        registers.refuse(kLongFilter.name, "SMPL_CTRL is too fast for it", "up to 500 samples/s");
     }
     registers.require_all_read();
     text::TomlTable user_filter = document.table("user_filter");

@@ -19,6 +19,7 @@ struct FlashMemory {
 
     /// In the order of wire::kRegisters.
     using Settings = std::array<std::uint16_t, kSavedCount>;
+    using Coefficients = std::array<std::uint8_t, kCoefficientBytes>;
 
     [[nodiscard]] static constexpr Settings factory_settings() noexcept {
         Settings settings{};
@@ -29,14 +30,14 @@ struct FlashMemory {
         return settings;
     }
 
-    [[nodiscard]] static constexpr std::array<std::uint8_t, kCoefficientBytes> erased() noexcept {
-        std::array<std::uint8_t, kCoefficientBytes> bytes{};
+    [[nodiscard]] static constexpr Coefficients erased() noexcept {
+        Coefficients bytes{};
         bytes.fill(kErased);
         return bytes;
     }
 
     Settings settings = factory_settings();
-    std::array<std::uint8_t, kCoefficientBytes> coefficients = erased();
+    Coefficients coefficients = erased();
 
     bool operator==(const FlashMemory&) const = default;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/device/long_term_filter.hpp"
+
 namespace a351::sim {
 namespace {
 
@@ -65,6 +67,12 @@ void RegisterFile::put_text(const wire::Register& first, std::string_view text) 
         banks_[bank_of(first)][word_of(first) + i / 2] =
             static_cast<std::uint16_t>((high << 8) | low);
     }
+}
+
+bool has_rate_for_long_filter(const wire::DeviceProfile& profile, const RegisterFile& registers) {
+    if ((registers.at(kLongFilter) & kLongFilterOn) == 0) return true;
+    return *decoded(profile.output_rates_hz, registers.at(wire::kSmplCtrl) >> 8U) <=
+           LongTermFilter::kHighestRateHz;
 }
 
 }  // namespace a351::sim

@@ -62,4 +62,8 @@ private:
     std::array<Bank, 2> banks_{};
 };
 
+/// The long-term filter is off, or SMPL_CTRL is at a rate that it works at (5.17.4).
+[[nodiscard]] bool has_rate_for_long_filter(const wire::DeviceProfile& profile,
+                                            const RegisterFile& registers);
+
 }  // namespace a351::sim

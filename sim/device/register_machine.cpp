@@ -55,8 +55,8 @@ void RegisterMachine::reset(Nanoseconds ready_at) {
     user_filter_.reset();
     flash_job_.reset();
     new_data_ = alarms_ = 0;
-    frozen_left_ = 0;
-    select_filter(registers_.at(wire::kFilterCtrl));
+    coefficients_ = flash_.coefficients;
+    put_gain_in_force();
     filter_ready_at_ = now_;
     check_aliasing();
 }
@@ -88,9 +88,7 @@ void RegisterMachine::receive(std::span<const std::byte> bytes, Nanoseconds now,
 void RegisterMachine::pass_time(Nanoseconds now) {
     now_ = now;
     if (is_starting_ && now_ >= ready_at_) end_start_up();
-    if (user_filter_.end_due(now_, flash_.coefficients, (failing_ & wire::kDiagFlashError) == 0)) {
-        has_new_coefficients_ = true;
-    }
+    user_filter_.end_due(now_, coefficients_, (failing_ & wire::kDiagFlashError) == 0);
     if (flash_job_ && now_ >= flash_job_->ends_at) end_flash_job();
     raise_diagnostics(tests_.end_due(now_, failing_, latest_, profile_));
 }
@@ -192,14 +190,14 @@ void RegisterMachine::write_command(std::uint8_t value) {
 void RegisterMachine::end_flash_job() {
     const FlashMemory::Settings settings = flash_job_->settings;
     flash_job_.reset();
-    if ((failing_ & kDiagFlashBackup) != 0) return raise_diagnostics(kDiagFlashBackup);
-    flash_.settings = settings;
-    store_flash();
+    write_flash({settings, flash_.coefficients});
 }
 
-void RegisterMachine::store_flash() {
-    has_new_coefficients_ = false;
-    if (flash_store_ && !flash_store_(flash_)) raise_diagnostics(kDiagFlashBackup);
+void RegisterMachine::write_flash(const FlashMemory& content) {
+    const bool is_kept =
+        (failing_ & kDiagFlashBackup) == 0 && (!flash_store_ || flash_store_(content));
+    if (!is_kept) return raise_diagnostics(kDiagFlashBackup);
+    flash_ = content;
 }
 
 /// A value that the data sheet reserves is not taken.
@@ -220,7 +218,8 @@ void RegisterMachine::write_register(const Register& reg, bool is_high_byte, std
 void RegisterMachine::put_register(const Register& reg, std::uint16_t value) {
     if (&reg == &kFirAddress) return user_filter_.set_address(value);
     const std::uint16_t before = std::exchange(registers_.at(reg), value);
-    if (has(kLongFilter, kLongFilterOn) && output_rate_hz() > LongTermFilter::kHighestRateHz) {
+    const bool is_of_pair = &reg == &wire::kSmplCtrl || &reg == &kLongFilter;
+    if (is_of_pair && !has_rate_for_long_filter(profile_, registers_)) {
         registers_.at(reg) = before;
         return;
     }
@@ -231,8 +230,15 @@ void RegisterMachine::put_register(const Register& reg, std::uint16_t value) {
 void RegisterMachine::select_filter(std::uint16_t code) {
     const bool is_user = code >= kFirstUserFilter;
     filter_ready_at_ = now_ + (is_user ? kUserFilterTime : kFilterTime);
-    user_gain_ = is_user ? constant_gain(flash_.coefficients, filter().taps) : 1.0;
-    if (is_user && has_new_coefficients_) store_flash();
+    put_gain_in_force();
+    if (is_user && coefficients_ != flash_.coefficients) {
+        write_flash({flash_.settings, coefficients_});
+    }
+}
+
+void RegisterMachine::put_gain_in_force() {
+    const bool is_user = registers_.at(wire::kFilterCtrl) >= kFirstUserFilter;
+    user_gain_ = is_user ? constant_gain(coefficients_, filter().taps) : 1.0;
 }
 
 /// Whatever the filter, the external trigger may be used with it (note at table 5.4).
@@ -276,6 +282,19 @@ void RegisterMachine::fall_back_to_configuration() {
 
 void RegisterMachine::raise_diagnostics(std::uint16_t diag_stat_bits) {
     registers_.at(wire::kDiagStat) |= diag_stat_bits;
+}
+
+void RegisterMachine::clear_diagnostics() { registers_.at(wire::kDiagStat) = 0; }
+
+void RegisterMachine::apply_settings(std::span<const RegisterChange> changes, Nanoseconds now) {
+    pass_time(now);
+    if (now_ < ready_at_ || is_asleep_) return;
+    fall_back_to_configuration();
+    for (const RegisterChange& change : changes) {
+        const unsigned kept = registers_.at(change.reg) & ~unsigned{change.mask};
+        put_register(change.reg, static_cast<std::uint16_t>(kept | (change.value & change.mask)));
+    }
+    start_sampling();
 }
 
 void RegisterMachine::rename(MachineIdentity identity) {

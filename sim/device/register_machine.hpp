@@ -7,6 +7,11 @@
 /// What it leaves open is decided where it is done: damaged commands (command_parser.hpp), frames
 /// faster than the line (transmit_buffer.hpp), and here:
 /// - A frame that carries FLAG counts as a read of FLAG: alarm bits show in one frame per excess.
+///   Without FLAG in the frames they stand until FLAG is read.
+/// - ACCL registers hold the acceleration whatever OUTPUT_SEL says; the tilt is in TILT (5.13).
+///   Either is read with the same ND bit.
+/// - Coefficients of the user's filter enter the flash when a user filter is selected; until then
+///   power or a reset loses them.
 /// - A backup or reset of the flash that power or a reset interrupts leaves it as it was.
 /// - Rate 1000/s and the long-term filter together are not taken, whichever is written second.
 /// - Sleep is entered from configuration mode only; start of sampling does not wait for anything.
@@ -45,6 +50,13 @@ struct MachineIdentity {
 
 /// What the emulated device of a profile calls itself unless told otherwise.
 [[nodiscard]] std::string product_id_of(const wire::DeviceProfile& profile);
+
+/// Other content of a register that holds settings.
+struct RegisterChange {
+    const wire::Register& reg;
+    std::uint16_t value = 0;
+    std::uint16_t mask = wire::kBothBytes;  ///< Bits that change.
+};
 
 class RegisterMachine {
 public:
@@ -99,8 +111,11 @@ public:
     void external_edge(Nanoseconds now);      ///< At pin EXT, of the polarity of EXT_POL; wakes.
     void fall_back_to_configuration();        ///< Stops sampling unasked.
     void raise_diagnostics(std::uint16_t diag_stat_bits);
+    void clear_diagnostics();
     void jump_counter(std::uint16_t ticks);
-    void freeze_counter(int samples);  ///< COUNT stands for so many, then goes on from there.
+
+    /// Goes to sampling with these settings changed; not while it starts up or sleeps.
+    void apply_settings(std::span<const RegisterChange> changes, Nanoseconds now);
 
     /// From now on these bits of DIAG_STAT are what their test finds: self tests, FLASH_BU_ERR of
     /// flash commands, HARD_ERR and FLASH_ERR of every start-up; 0 heals.
@@ -126,7 +141,7 @@ public:
         return registers_.at(reg);
     }
 
-    /// Whole commands understood since power-on.
+    /// Whole commands of the host, understood since the machine was made.
     [[nodiscard]] std::uint64_t command_count() const noexcept { return command_count_; }
 
 private:
@@ -148,8 +163,9 @@ private:
     void write_register(const wire::Register& reg, bool is_high_byte, std::uint8_t value);
     void put_register(const wire::Register& reg, std::uint16_t value);
     void end_flash_job();
-    void store_flash();
+    void write_flash(const FlashMemory& content);
     void select_filter(std::uint16_t code);
+    void put_gain_in_force();
     void check_aliasing();
     void put_identity();
     [[nodiscard]] std::uint16_t command_state() const;
@@ -189,7 +205,7 @@ private:
     bool is_reduced_noise_ = false;
     SelfTest tests_;
     UserFilter user_filter_;
-    bool has_new_coefficients_ = false;
+    FlashMemory::Coefficients coefficients_{};  ///< As written; in flash once selected.
     std::optional<FlashJob> flash_job_;
 
     bool is_sampling_ = false;
@@ -198,7 +214,6 @@ private:
     std::uint16_t new_data_ = 0;  ///< ND bits of FLAG.
     std::uint16_t alarms_ = 0;    ///< ALARM bits of FLAG.
     int transient_left_ = 0;      ///< Samples still to suppress.
-    int frozen_left_ = 0;         ///< Samples that COUNT still stands.
     int sampling_run_ = 0;
     double user_gain_ = 1.0;
     LongTermFilter long_filter_;

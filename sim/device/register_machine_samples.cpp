@@ -84,8 +84,6 @@ void RegisterMachine::advance_counter(unsigned ticks) {
 
 void RegisterMachine::jump_counter(std::uint16_t ticks) { advance_counter(ticks); }
 
-void RegisterMachine::freeze_counter(int samples) { frozen_left_ = std::max(0, samples); }
-
 /// One period of the output rate; false while nothing comes of it.
 bool RegisterMachine::begin_sample() {
     if (!is_sampling_) return false;
@@ -94,11 +92,7 @@ bool RegisterMachine::begin_sample() {
         --transient_left_;
         return false;
     }
-    if (frozen_left_ > 0) {
-        --frozen_left_;
-    } else {
-        advance_counter(profile_.count_step(output_rate_hz()));
-    }
+    advance_counter(profile_.count_step(output_rate_hz()));
     return true;
 }
 
@@ -167,7 +161,7 @@ std::uint16_t RegisterMachine::flag() const {
 /// The frame of the sample in the registers; sending a field is reading it.
 wire::BurstValues RegisterMachine::take_values(const wire::BurstLayout& layout) {
     wire::BurstValues values;
-    values.flag = flag();
+    if (layout.has_flag()) values.flag = flag();
     values.temperature = registers_.get32(kTemperature);
     values.count = registers_.at(kCount);
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
@@ -183,14 +177,15 @@ wire::BurstValues RegisterMachine::take_values(const wire::BurstLayout& layout) 
 
 /// Table 7.1 and 7.3, 7.4: what reading a register of window 0 clears.
 void RegisterMachine::clear_after_read(std::uint8_t address) {
-    if (address == wire::kDiagStat.address) registers_.at(wire::kDiagStat) = 0;
+    if (address == wire::kDiagStat.address) clear_diagnostics();
     if (address == wire::kFlag.address) alarms_ = 0;
     constexpr unsigned kBytesPerValue = 4;
     if (address - unsigned{kTemperature.address} < kBytesPerValue) {
         new_data_ = without(new_data_, kNewTemperature);
     }
-    const unsigned axis = (address - unsigned{kAcceleration.address}) / kBytesPerValue;
-    if (axis < kAxes) new_data_ = without(new_data_, kNewX >> axis);
+    // Three axes of acceleration, then three of tilt.
+    const unsigned value = (address - unsigned{kAcceleration.address}) / kBytesPerValue;
+    if (value < 2 * kAxes) new_data_ = without(new_data_, kNewX >> value % kAxes);
 }
 
 }  // namespace a351::sim

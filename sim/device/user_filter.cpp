@@ -29,18 +29,16 @@ void UserFilter::set_address(std::uint16_t address) {
     if (command_ == 0) address_ = address;
 }
 
-bool UserFilter::end_due(Nanoseconds now, std::span<std::uint8_t> coefficients, bool is_readable) {
-    if (command_ == 0 || now < ends_at_) return false;
+void UserFilter::end_due(Nanoseconds now, std::span<std::uint8_t> coefficients, bool is_readable) {
+    if (command_ == 0 || now < ends_at_) return;
     std::uint8_t& byte = coefficients[static_cast<std::size_t>(address_ - kFirstAddress)];
-    const bool is_write = command_ == kWriteCommand;
-    if (is_write) {
+    if (command_ == kWriteCommand) {
         byte = static_cast<std::uint8_t>(data_ & 0xFFU);
     } else {
         data_ = is_readable ? byte : kDataError;
     }
     address_ = address_ == kLastAddress ? kFirstAddress : static_cast<std::uint16_t>(address_ + 1);
     command_ = 0;
-    return is_write;
 }
 
 double constant_gain(std::span<const std::uint8_t> coefficients, int taps) {

@@ -29,8 +29,7 @@ public:
     /// Ends the command whose time is over.
     /// @param coefficients  The memory from kFirstAddress to kLastAddress.
     /// @param is_readable   False: a byte cannot be read, which DATA_ERR says.
-    /// @return              A coefficient was written.
-    bool end_due(Nanoseconds now, std::span<std::uint8_t> coefficients, bool is_readable);
+    void end_due(Nanoseconds now, std::span<std::uint8_t> coefficients, bool is_readable);
 
     void reset() { *this = UserFilter(); }
 

@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "protocol/core/input_error.hpp"
+#include "sim/line/place.hpp"
 
 namespace a351::sim {
 namespace {
@@ -47,40 +48,41 @@ bool is_listened_to(const sockaddr_un& address) {
     return !refused;
 }
 
-/// Makes room for the socket, or says why not.
-void require_place(const fs::path& path, const sockaddr_un& address) {
-    const fs::path directory = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    if (!fs::is_directory(directory)) {
-        throw InputError(path.string() + ": " + directory.string() +
-                         " is no directory; allowed: a socket in a directory that exists");
-    }
-    const fs::file_status status = fs::symlink_status(path);
-    if (!fs::exists(status)) return;
+/// One that may be replaced.
+/// @throws InputError  as ControlSocket::require_place.
+bool has_stale_socket(const fs::path& path) {
+    const fs::file_status status = require_directory(path, "a socket");
+    const sockaddr_un address = address_of(path);
+    if (!fs::exists(status)) return false;
     if (!fs::is_socket(status)) {
         throw InputError(path.string() + ": exists and is no socket; allowed: a new path");
     }
     if (is_listened_to(address)) {
         throw InputError(path.string() + ": somebody listens there; allowed: a new path");
     }
-    fs::remove(path);
+    return true;
 }
 
 }  // namespace
 
+void ControlSocket::require_place(const fs::path& path) {
+    static_cast<void>(has_stale_socket(path));
+}
+
 ControlSocket::ControlSocket(fs::path path, Handler handler)
     : path_(std::move(path)), handler_(std::move(handler)) {
+    if (has_stale_socket(path_)) fs::remove(path_);
     const sockaddr_un address = address_of(path_);
-    require_place(path_, address);
     listener_ = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     if (listener_ < 0) fail(path_);
     struct stat file {};
     if (::bind(listener_, plain(address), sizeof address) != 0 ||
         ::listen(listener_, static_cast<int>(kMostClients)) != 0 ||
         ::lstat(path_.c_str(), &file) != 0) {
-        const int error = errno;
+        const std::error_code error(errno, std::generic_category());
         ::close(listener_);
-        errno = error;
-        fail(path_);
+        throw InputError(path_.string() + ": " + error.message() +
+                         "; allowed: a path where a socket can be made");
     }
     device_ = file.st_dev;
     inode_ = file.st_ino;
@@ -149,7 +151,7 @@ std::string ControlSocket::answer(const std::string& line) const {
     try {
         const std::string result = handler_(line);
         return result.empty() ? "ok" : "ok " + result;
-    } catch (const InputError& error) {
+    } catch (const std::exception& error) {
         return "error " + std::string(error.what());
     }
 }

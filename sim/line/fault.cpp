@@ -91,6 +91,13 @@ bool is_plain(std::string_view word) {
 
 }  // namespace
 
+UtcTime later_by(double seconds, UtcTime then) {
+    constexpr double kFar_s = 3e9;  // 95 years
+    if (!(seconds < kFar_s)) return UtcTime::max();
+    const Nanoseconds wait = from_seconds(seconds);
+    return then < UtcTime::max() - wait ? then + wait : UtcTime::max();
+}
+
 std::span<const std::string_view> fault_kinds() noexcept { return kNames; }
 
 Fault read_fault(text::TomlTable& table, const std::string& kind, const FaultRules& rules) {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "protocol/core/utc_time.hpp"
 #include "protocol/text/strict_toml.hpp"
 #include "protocol/wire/device_profile.hpp"
 
@@ -46,6 +47,9 @@ enum class FaultKind {
     // Of the oven, which has kinds of its own.
     oven,
 };
+
+/// A number for each kind.
+using FaultCounts = std::array<std::int64_t, static_cast<std::size_t>(FaultKind::oven) + 1>;
 
 /// Which of the members mean something is the kind's business; the others keep their defaults.
 struct Fault {
@@ -84,6 +88,9 @@ struct FaultRules {
 /// The same from one line of words: `flip_bit count=3`.
 /// @throws InputError  as read_fault; a word that is no key=value; an unknown key.
 [[nodiscard]] Fault parse_fault(std::string_view words, const FaultRules& rules);
+
+/// `seconds` from then, >= 0; UtcTime::max() when that is later than any run of the emulator.
+[[nodiscard]] UtcTime later_by(double seconds, UtcTime then);
 
 /// All but the oven's.
 [[nodiscard]] std::span<const std::string_view> fault_kinds() noexcept;

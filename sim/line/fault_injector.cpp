@@ -1,5 +1,6 @@
 #include "sim/line/fault_injector.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -13,7 +14,6 @@ using namespace std::chrono_literals;
 
 /// Without a frame for so long, none is on its way to take a fault.
 constexpr Nanoseconds kNoFrames = 1s;
-constexpr unsigned kHalfRange = 0x8000;
 
 }  // namespace
 
@@ -30,10 +30,12 @@ FaultInjector::FaultInjector(const FaultScript& script, UtcTime start, Line& lin
       places_(script.seed, "fault places"),
       last_frame_(start),
       muted_until_(start),
-      overrun_until_(start) {}
+      overrun_until_(start),
+      run_faults_(machine, profile, report_.by_kind) {}
 
-std::uint16_t FaultInjector::count_step() const {
-    return profile_.count_step(machine_.output_rate_hz());
+/// By itself, that is.
+bool FaultInjector::sends_frames() const {
+    return machine_.is_sampling() && (machine_.value_of(wire::kUartCtrl) & wire::kUartAuto) != 0;
 }
 
 void FaultInjector::send(std::span<const std::byte> bytes, UtcTime leaves,
@@ -41,23 +43,28 @@ void FaultInjector::send(std::span<const std::byte> bytes, UtcTime leaves,
     if (frame == nullptr) return send_answer(bytes, leaves);
     last_frame_ = leaves;
     TruthRecord truth = *frame;
-    follow_counter(truth);
-    if (flagged_left_ > 0 && (truth.values.flag & wire::kFlagError) != 0) {
-        count(FaultKind::error_flags);
-        if (--flagged_left_ == 0) clear_diagnostics(machine_, steady_);
-    }
-    while (const auto due = schedule_.take_due(truth.utc, frames_made_)) apply(*due, leaves);
+    run_faults_.follow(truth);
+    apply_due(truth.utc, leaves);
+    run_faults_.begin_with(truth);
     ++frames_made_;
     send_frame(bytes, leaves, truth);
 }
 
 void FaultInjector::send_answer(std::span<const std::byte> bytes, UtcTime leaves) {
     if (leaves < muted_until_) return;
-    if (answers_cut_frames_ && machine_.is_sampling()) {
+    if (answers_cut_frames_ && sends_frames()) {
         held_answer_.insert(held_answer_.end(), bytes.begin(), bytes.end());
     } else {
+        release_answer(leaves);
         line_.send(bytes, leaves, nullptr);
     }
+}
+
+/// No frame comes that the answers could cut.
+void FaultInjector::release_answer(UtcTime leaves) {
+    if (held_answer_.empty()) return;
+    if (leaves >= muted_until_) line_.send(held_answer_, leaves, nullptr);
+    held_answer_.clear();
 }
 
 void FaultInjector::send_frame(std::span<const std::byte> bytes, UtcTime leaves,
@@ -117,7 +124,7 @@ void FaultInjector::spoil(const Fault& fault, std::span<const std::byte> bytes, 
             return line_.send({}, leaves, &truth);
         case FaultKind::garbage:
             report_.bytes_garbage += fault.bytes;
-            line_.send_garbage(garbage(fault.bytes, places_), leaves);
+            line_.send_garbage(garbage_before(bytes, fault.bytes, places_), leaves);
             return line_.send(bytes, leaves, &truth);
         case FaultKind::duplicate_frame:
             line_.send(bytes, leaves, &truth);
@@ -138,31 +145,6 @@ void FaultInjector::release_held(UtcTime leaves) {
     held_frame_.reset();
 }
 
-/// Says what the counter of this frame is worth and moves it on for the next one.
-void FaultInjector::follow_counter(TruthRecord& truth) {
-    if (is_next_misplaced_) truth.fate = Fate::misplaced;
-    is_next_misplaced_ = false;
-    if (stuck_left_ == 0) return;
-    truth.fate = Fate::repeated;
-    count(FaultKind::counter_stuck);
-    const int steps = --stuck_left_ == 0 ? stuck_frames_ : -1;
-    machine_.jump_counter(static_cast<std::uint16_t>(steps * count_step()));
-}
-
-/// The next frames show the COUNT of this one; then it is what it would have been.
-void FaultInjector::stop_counter(int frames) {
-    if (stuck_left_ > 0) return;
-    stuck_frames_ = stuck_left_ = frames;
-    machine_.jump_counter(static_cast<std::uint16_t>(-count_step()));
-}
-
-void FaultInjector::jump(const Fault& fault) {
-    const unsigned ticks = fault.ticks > 0 ? static_cast<unsigned>(fault.ticks)
-                                           : static_cast<unsigned>(fault.count) * count_step();
-    is_next_misplaced_ = ticks % count_step() != 0 || (ticks & 0xFFFFU) >= kHalfRange;
-    machine_.jump_counter(static_cast<std::uint16_t>(ticks & 0xFFFFU));
-}
-
 void FaultInjector::put_other_unit() {
     machine_.rename(identity_);
     machine_.power_cycle(steady_);
@@ -174,7 +156,7 @@ void FaultInjector::apply(const Fault& fault, UtcTime simulated) {
         throw InputError(fault.name + ": no oven takes it; allowed: with --oven-link");
     }
     report_.applied.push_back({fault.name, simulated, frames_made_});
-    const UtcTime end = simulated + from_seconds(fault.seconds);
+    const UtcTime end = later_by(fault.seconds, simulated);
     switch (fault.kind) {
         case FaultKind::flip_bit:
         case FaultKind::bad_checksum:
@@ -187,21 +169,14 @@ void FaultInjector::apply(const Fault& fault, UtcTime simulated) {
         case FaultKind::lose_frames:
             waiting_.push_back({fault, fault.count});
             return;
-        case FaultKind::counter_stuck:
-            return stop_counter(fault.count);
-        case FaultKind::error_flags:
-            flagged_left_ = fault.count;
-            return machine_.raise_diagnostics(static_cast<std::uint16_t>(fault.diag_stat));
-        case FaultKind::silence:
-            muted_until_ = end;
-            return;
         case FaultKind::counter_jump:
-            jump(fault);
-            break;
+        case FaultKind::counter_stuck:
         case FaultKind::counter_reset:
-            is_next_misplaced_ = true;
-            machine_.jump_counter(static_cast<std::uint16_t>(-machine_.value_of(kCount)));
-            break;
+        case FaultKind::error_flags:
+            return run_faults_.add(fault);
+        case FaultKind::silence:
+            muted_until_ = std::max(muted_until_, end);
+            return;
         case FaultKind::reset:
             machine_.spontaneous_reset(steady_);
             break;
@@ -227,12 +202,10 @@ void FaultInjector::apply(const Fault& fault, UtcTime simulated) {
             line_.hold_until(end);
             break;
         case FaultKind::hang_up:
-            hang_up_ = HangUp{end, fault.loses_power};
-            if (fault.loses_power) machine_.power_cycle(steady_);
-            line_.unplug(simulated);
+            pull_out({end, fault.loses_power}, simulated);
             break;
         case FaultKind::overrun:
-            overrun_until_ = fault.seconds > 0.0 ? end : UtcTime::max();
+            overrun_until_ = fault.seconds > 0.0 ? std::max(overrun_until_, end) : UtcTime::max();
             break;
         case FaultKind::oven:
             break;
@@ -240,17 +213,33 @@ void FaultInjector::apply(const Fault& fault, UtcTime simulated) {
     count(fault.kind);
 }
 
+void FaultInjector::apply_due(UtcTime now, UtcTime leaves) {
+    while (const auto due = schedule_.take_due(now, frames_made_)) {
+        try {
+            apply(*due, leaves);
+        } catch (const std::exception& error) {
+            report_.refused.push_back({due->name, leaves, error.what()});
+        }
+    }
+}
+
+void FaultInjector::pull_out(const HangUp& asked, UtcTime simulated) {
+    const HangUp before = hang_up_.value_or(asked);
+    hang_up_ = HangUp{std::max(before.until, asked.until), before.loses_power || asked.loses_power};
+    if (asked.loses_power) machine_.power_cycle(steady_);
+    line_.unplug(simulated);
+}
+
 void FaultInjector::catch_up(const Instant& now) {
     const bool comes_nothing =
-        !machine_.is_sampling() || (now.simulated - last_frame_ > kNoFrames && !line_.is_full());
+        !sends_frames() || (now.simulated - last_frame_ > kNoFrames && !line_.is_full());
     if (!comes_nothing) return;
+    release_answer(now.simulated);
     if (held_frame_) {
         line_.send(held_frame_->bytes, now.simulated, &held_frame_->truth);
         held_frame_.reset();
     }
-    while (const auto due = schedule_.take_due(now.simulated, frames_made_)) {
-        apply(*due, now.simulated);
-    }
+    apply_due(now.simulated, now.simulated);
 }
 
 std::optional<FaultInjector::HangUp> FaultInjector::take_hang_up() {

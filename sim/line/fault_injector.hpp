@@ -3,7 +3,6 @@
 /// Between device and line: does to frames, device and line what a script or somebody asks for,
 /// and keeps count of it.  No I/O and no clock.
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "sim/line/fault_schedule.hpp"
 #include "sim/line/frame_damage.hpp"
 #include "sim/line/line.hpp"
+#include "sim/line/run_faults.hpp"
 
 namespace a351::sim {
 
@@ -24,14 +24,22 @@ struct AppliedFault {
     std::int64_t frames_made = 0;  ///< By the device until then.
 };
 
+/// A fault of the script that could not be had.
+struct RefusedFault {
+    std::string name;
+    UtcTime at;  ///< Simulated.
+    std::string reason;
+};
+
 struct FaultReport {
     /// Frames that each kind touched, by FaultKind; of kinds that touch none, how often it happened.
-    std::array<std::int64_t, static_cast<std::size_t>(FaultKind::oven) + 1> by_kind{};
+    FaultCounts by_kind{};
     std::int64_t bytes_dropped = 0;
     std::int64_t bytes_inserted = 0;
     std::int64_t bytes_garbage = 0;
     std::int64_t frames_cut = 0;  ///< By answers.
     std::vector<AppliedFault> applied;
+    std::vector<RefusedFault> refused;
 };
 
 /// A frame suffers one fault at most: those that wait take the next frames in turn.  What happens
@@ -50,6 +58,8 @@ public:
     /// `line`, `machine` and `profile` must outlive this.  @param start  of the simulation.
     FaultInjector(const FaultScript& script, UtcTime start, Line& line, RegisterMachine& machine,
                   const wire::DeviceProfile& profile, MachineIdentity identity, OvenHandler oven);
+    FaultInjector(const FaultInjector&) = delete;
+    FaultInjector& operator=(const FaultInjector&) = delete;
 
     void send(std::span<const std::byte> bytes, UtcTime leaves, const TruthRecord* frame) override;
     [[nodiscard]] bool is_full() const override { return line_.is_full(); }
@@ -61,7 +71,8 @@ public:
     void catch_up(const Instant& now);
 
     /// One more fault, now.
-    /// @throws InputError  the oven knows no such fault.
+    /// @throws InputError         the oven knows no such fault, or its link is taken.
+    /// @throws std::system_error  the oven's terminal.
     void apply(const Fault& fault, UtcTime simulated);
 
     /// What the port has to do, once.
@@ -88,13 +99,13 @@ private:
     void spoil(const Fault& fault, std::span<const std::byte> bytes, UtcTime leaves,
                TruthRecord truth);
     void send_answer(std::span<const std::byte> bytes, UtcTime leaves);
+    void release_answer(UtcTime leaves);
     void release_held(UtcTime leaves);
-    void follow_counter(TruthRecord& truth);
-    void stop_counter(int frames);
-    void jump(const Fault& fault);
+    void apply_due(UtcTime now, UtcTime leaves);
+    void pull_out(const HangUp& asked, UtcTime simulated);
     void put_other_unit();
     void count(FaultKind kind) { ++report_.by_kind[static_cast<std::size_t>(kind)]; }
-    [[nodiscard]] std::uint16_t count_step() const;
+    [[nodiscard]] bool sends_frames() const;
 
     FaultSchedule schedule_;
     bool answers_cut_frames_;
@@ -111,13 +122,11 @@ private:
     std::vector<Waiting> waiting_;
     std::optional<HeldFrame> held_frame_;  ///< To be sent behind its successor.
     Bytes held_answer_;                    ///< To be sent within the next frame.
-    int stuck_frames_ = 0, stuck_left_ = 0;
-    bool is_next_misplaced_ = false;
-    int flagged_left_ = 0;
     UtcTime muted_until_, overrun_until_;
     std::optional<HangUp> hang_up_;
     bool is_unit_waiting_ = false;
     FaultReport report_;
+    RunFaults run_faults_;
 };
 
 }  // namespace a351::sim

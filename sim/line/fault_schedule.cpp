@@ -16,7 +16,7 @@ FaultSchedule::FaultSchedule(const FaultScript& script, UtcTime start) : planned
 
 void FaultSchedule::draw_next(RandomKind& kind) {
     constexpr double kSecondsPerHour = 3600.0;
-    kind.next += from_seconds(kind.waits.exponential() * kSecondsPerHour / kind.per_h);
+    kind.next = later_by(kind.waits.exponential() * kSecondsPerHour / kind.per_h, kind.next);
 }
 
 void FaultSchedule::find_next() {

@@ -26,7 +26,7 @@ PlannedFault read_planned(text::TomlTable& table, UtcTime start, const FaultRule
                      "one of at_s, at_utc, at_frame");
     }
     if (const auto seconds = table.number("at_s", 0.0, kLongest_s)) {
-        planned.at = start + from_seconds(*seconds);
+        planned.at = later_by(*seconds, start);
     }
     if (const std::string text = table.string_or("at_utc", ""); table.has("at_utc")) {
         planned.at = parse_rfc3339(text);

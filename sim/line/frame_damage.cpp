@@ -31,6 +31,16 @@ bool holds_frame(std::span<const std::byte> bytes, std::size_t size, bool has_ch
     return false;
 }
 
+Bytes drawn(int count, bool has_markers, RandomStream& random) {
+    Bytes bytes(static_cast<std::size_t>(count));
+    for (std::byte& byte : bytes) {
+        do {
+            byte = static_cast<std::byte>(random.bits() >> 56U);
+        } while (!has_markers && (byte == wire::kStartByte || byte == wire::kEndByte));
+    }
+    return bytes;
+}
+
 Bytes joined(std::span<const std::byte> frame, std::size_t at, std::span<const std::byte> more) {
     Bytes bytes(frame.begin(), frame.end());
     bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(at), more.begin(), more.end());
@@ -83,11 +93,15 @@ Bytes without_bytes(std::span<const std::byte> frame, int count, RandomStream& r
 
 Bytes with_more_bytes(std::span<const std::byte> frame, int count, RandomStream& random) {
     const bool has_checksum = has_right_checksum(frame);
-    for (;;) {
-        const std::size_t at = 1 + draw(frame.size() - 1, random);
-        Bytes bytes = joined(frame, at, garbage(count, random));
-        if (!holds_frame(bytes, frame.size(), has_checksum)) return bytes;
+    const std::size_t places = frame.size() - 1;
+    const std::size_t first = draw(places, random);
+    Bytes bytes;
+    for (std::size_t i = 0; i < places; ++i) {
+        const std::size_t at = 1 + (first + i) % places;
+        bytes = joined(frame, at, drawn(count, has_checksum, random));
+        if (!holds_frame(bytes, frame.size(), has_checksum)) break;
     }
+    return bytes;
 }
 
 Bytes cut_short(std::span<const std::byte> frame, RandomStream& random) {
@@ -95,10 +109,8 @@ Bytes cut_short(std::span<const std::byte> frame, RandomStream& random) {
     return {frame.begin(), frame.begin() + static_cast<std::ptrdiff_t>(kept)};
 }
 
-Bytes garbage(int count, RandomStream& random) {
-    Bytes bytes(static_cast<std::size_t>(count));
-    for (std::byte& byte : bytes) byte = static_cast<std::byte>(random.bits() >> 56U);
-    return bytes;
+Bytes garbage_before(std::span<const std::byte> frame, int count, RandomStream& random) {
+    return drawn(count, has_right_checksum(frame), random);
 }
 
 Bytes cut_by_answer(std::span<const std::byte> frame, std::span<const std::byte> answer,

@@ -27,15 +27,18 @@ using Bytes = std::vector<std::byte>;
 [[nodiscard]] Bytes without_bytes(std::span<const std::byte> frame, int count,
                                   RandomStream& random);
 
-/// With `count` bytes more, somewhere behind the first.
+/// With `count` bytes more, somewhere behind the first.  A frame without checksum gets none that are
+/// markers; where its own bytes are, so that a frame is left wherever they come, nobody can tell.
 [[nodiscard]] Bytes with_more_bytes(std::span<const std::byte> frame, int count,
                                     RandomStream& random);
 
 /// Its front, one byte at least and the end marker never.
 [[nodiscard]] Bytes cut_short(std::span<const std::byte> frame, RandomStream& random);
 
-/// Drawn bytes, any value.
-[[nodiscard]] Bytes garbage(int count, RandomStream& random);
+/// Drawn bytes to come before `frame`: any value, but no markers if it has no checksum, since
+/// markers alone would then make frames.
+[[nodiscard]] Bytes garbage_before(std::span<const std::byte> frame, int count,
+                                   RandomStream& random);
 
 /// `answer` sent while `frame` was under way.
 [[nodiscard]] Bytes cut_by_answer(std::span<const std::byte> frame,

@@ -76,7 +76,7 @@ void Line::put(std::span<const std::byte> bytes, UtcTime leaves, Mark mark) {
     carry(static_cast<std::size_t>(mark.end - mark.begin), leaves);
     if (!is_plugged_in_) return unplug(leaves);
     // What has no bytes is settled with what was sent before it.
-    if (is_empty()) remove(0, false, leaves);
+    if (is_empty()) remove(0, Way::handed_over, leaves);
 }
 
 void Line::carry(std::size_t byte_count, UtcTime leaves) {
@@ -95,35 +95,31 @@ std::span<const std::byte> Line::shown(UtcTime now) const {
 
 void Line::handed_over(std::size_t byte_count, UtcTime simulated) {
     report_.bytes_handed_over += static_cast<std::int64_t>(byte_count);
-    remove(byte_count, false, simulated);
+    remove(byte_count, Way::handed_over, simulated);
 }
 
 void Line::overrun(std::size_t byte_count, UtcTime simulated) {
-    const std::int64_t lost_before = report_.frames_lost;
-    remove(byte_count, true, simulated);
-    report_.lost_by_overrun += report_.frames_lost - lost_before;
+    remove(byte_count, Way::overrun, simulated);
 }
 
 void Line::unplug(UtcTime simulated) {
     is_plugged_in_ = false;
-    const std::int64_t lost_before = report_.frames_lost;
-    remove(pending_size(), true, simulated);
-    report_.lost_unplugged += report_.frames_lost - lost_before;
+    remove(pending_size(), Way::unplugged, simulated);
 }
 
-void Line::remove(std::size_t byte_count, bool is_lost, UtcTime simulated) {
+void Line::remove(std::size_t byte_count, Way way, UtcTime simulated) {
     const std::uint64_t end = gone_ + byte_count;
     for (std::size_t i = marks_start_; i < marks_.size() && marks_[i].begin <= end; ++i) {
         Mark& mark = marks_[i];
-        if (is_lost) {
+        if (way != Way::handed_over) {
             mark.bytes_lost += std::min(mark.end, end) - std::max(mark.begin, gone_);
         }
         if (mark.end > end) break;
         const UtcTime shown = mark.end > gone_
                                   ? transport_.shown_at(static_cast<std::size_t>(mark.end - gone_))
                                   : simulated;
-        settle(mark, simulated, shown);
         ++marks_start_;
+        settle(mark, way, simulated, shown);
     }
     transport_.take(byte_count);
     queue_start_ += byte_count;
@@ -132,21 +128,33 @@ void Line::remove(std::size_t byte_count, bool is_lost, UtcTime simulated) {
     compact(marks_, marks_start_);
 }
 
-void Line::settle(Mark& mark, UtcTime simulated, UtcTime shown) {
+void Line::settle(Mark& mark, Way way, UtcTime simulated, UtcTime shown) {
     const auto arrived = static_cast<std::int64_t>(mark.end - mark.begin - mark.bytes_lost);
     if (mark.content == Content::answer) report_.bytes_of_answers += arrived;
     if (mark.content != Content::frame) return;
     Fate& fate = mark.truth.fate;
-    if (mark.bytes_lost > 0) fate = arrived == 0 ? Fate::lost : Fate::damaged;
-    if (fate == Fate::lost) {
+    if (fate == Fate::lost) {  // On purpose, before it came here.
         ++report_.frames_lost;
-    } else if (fate == Fate::damaged) {
+    } else if (mark.bytes_lost > 0 && arrived == 0) {
+        fate = Fate::lost;
+        count_lost(way);
+    } else if (mark.bytes_lost > 0 || fate == Fate::damaged) {
+        fate = Fate::damaged;
         ++report_.frames_damaged;
     } else {
         report_.bytes_of_frames += arrived;
         count_sent(mark.truth, simulated - shown);
     }
     on_settled_(mark.truth);
+}
+
+void Line::count_lost(Way way) {
+    if (way == Way::abandoned) {
+        ++report_.frames_pending;
+        return;
+    }
+    ++report_.frames_lost;
+    ++(way == Way::overrun ? report_.lost_by_overrun : report_.lost_unplugged);
 }
 
 void Line::count_sent(const TruthRecord& truth, Nanoseconds lateness) {

@@ -26,6 +26,7 @@ struct LineReport {
     std::int64_t frames_lost = 0;       ///< Nothing of them arrived, for whatever reason ...
     std::int64_t lost_by_overrun = 0;   ///< ... the terminal was full,
     std::int64_t lost_unplugged = 0;    ///< ... nothing was plugged in.
+    std::int64_t frames_pending = 0;    ///< Nothing of them had arrived at the end.
     std::int64_t frames_repeated = 0;   ///< Of those sent.
     std::int64_t frames_misplaced = 0;  ///< Of those sent.
     std::int64_t frames_flagged = 0;    ///< Of those sent: EA, ALIASI_ERR or an alarm in FLAG.
@@ -81,12 +82,18 @@ public:
 
     /// What is under way and all that is sent until plug_in() is lost.
     void unplug(UtcTime simulated);
+
+    /// The end: what is still under way will never arrive.
+    void abandon(UtcTime simulated) { remove(pending_size(), Way::abandoned, simulated); }
     void plug_in() noexcept { is_plugged_in_ = true; }
 
     [[nodiscard]] const LineReport& report() const noexcept { return report_; }
 
 private:
     enum class Content { answer, frame, garbage };
+
+    /// In which bytes leave the line.
+    enum class Way { handed_over, overrun, unplugged, abandoned };
 
     /// Bytes that were sent together, by their place in the whole stream.
     struct Mark {
@@ -98,8 +105,9 @@ private:
     [[nodiscard]] std::size_t pending_size() const noexcept { return queue_.size() - queue_start_; }
     void put(std::span<const std::byte> bytes, UtcTime leaves, Mark mark);
     void carry(std::size_t byte_count, UtcTime leaves);
-    void remove(std::size_t byte_count, bool is_lost, UtcTime simulated);
-    void settle(Mark& mark, UtcTime simulated, UtcTime shown);
+    void remove(std::size_t byte_count, Way way, UtcTime simulated);
+    void settle(Mark& mark, Way way, UtcTime simulated, UtcTime shown);
+    void count_lost(Way way);
     void count_sent(const TruthRecord& truth, Nanoseconds lateness);
 
     LineParameters parameters_;

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "protocol/core/input_error.hpp"
+#include "sim/line/place.hpp"
 
 namespace a351::sim {
 namespace {
@@ -23,6 +24,8 @@ namespace fs = std::filesystem;
 [[noreturn]] void fail(const std::string& operation) {
     throw std::system_error(errno, std::generic_category(), operation);
 }
+
+constexpr int kRefill_ms = 20;
 
 struct Speed {
     int baud;
@@ -42,25 +45,22 @@ speed_t speed_code(int baud) {
     return found->code;
 }
 
-/// Makes room for the link, or says why not.
-void require_place(const fs::path& link) {
-    const fs::path directory = link.has_parent_path() ? link.parent_path() : fs::path(".");
-    if (!fs::is_directory(directory)) {
-        throw InputError(link.string() + ": " + directory.string() +
-                         " is no directory; allowed: a link in a directory that exists");
-    }
-    const fs::file_status status = fs::symlink_status(link);
-    if (!fs::exists(status)) return;
+/// One that may be replaced.
+/// @throws InputError  as Pty::require_place.
+bool has_stale_link(const fs::path& link) {
+    const fs::file_status status = require_directory(link, "a link");
+    if (!fs::exists(status)) return false;
     if (!fs::is_symlink(status)) {
         throw InputError(link.string() +
                          ": exists and is no link; allowed: a new path, or a link left behind");
     }
-    const fs::path target = fs::read_symlink(link);
-    if (target.parent_path() != "/dev/pts" || fs::exists(target)) {
+    std::error_code error;
+    const fs::path target = fs::read_symlink(link, error);
+    if (target.parent_path() != "/dev/pts" || fs::exists(target, error)) {
         throw InputError(link.string() + ": leads to " + target.string() +
                          "; allowed: a new path, or a link to a terminal that is gone");
     }
-    fs::remove(link);
+    return true;
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ void Pty::Terminal::open_slave(int baud) {
         fail("unlock the pseudo-terminal");
     }
     path = name.data();
-    slave = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+    slave = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
     termios settings{};
     if (slave < 0 || ::tcgetattr(slave, &settings) != 0) fail("open " + path);
     ::cfmakeraw(&settings);
@@ -102,8 +102,9 @@ void Pty::Terminal::swap(Terminal& other) noexcept {
     std::swap(path, other.path);
 }
 
-Pty::Pty(fs::path link, int baud)
-    : link_((require_place(link), std::move(link))), baud_(baud), terminal_(baud) {
+void Pty::require_place(const fs::path& link) { static_cast<void>(has_stale_link(link)); }
+
+Pty::Pty(fs::path link, int baud) : link_(std::move(link)), baud_(baud), terminal_(baud) {
     make_link();
 }
 
@@ -111,11 +112,12 @@ Pty::~Pty() { remove_link(); }
 
 void Pty::make_link() {
     std::error_code error;
+    if (has_stale_link(link_)) fs::remove(link_, error);
     fs::create_symlink(terminal_.path, link_, error);
-    if (error == std::errc::file_exists) {
-        throw InputError(link_.string() + ": somebody else has just made it; allowed: a new path");
+    if (error) {
+        throw InputError(link_.string() + ": " + error.message() +
+                         "; allowed: a path where a link can be made");
     }
-    if (error) throw std::system_error(error, "make the link " + link_.string());
 }
 
 void Pty::remove_link() noexcept {
@@ -129,9 +131,18 @@ void Pty::hang_up() {
     terminal_.swap(next);
 }
 
-void Pty::come_back() {
-    require_place(link_);
-    make_link();
+void Pty::come_back() { make_link(); }
+
+std::size_t Pty::take_back() {
+    std::array<std::byte, 4096> buffer;
+    std::size_t count = 0;
+    // The kernel refills the terminal from its own buffer behind our back.
+    for (pollfd more{terminal_.slave, POLLIN, 0}; ::poll(&more, 1, kRefill_ms) > 0;) {
+        const ssize_t got = ::read(terminal_.slave, buffer.data(), buffer.size());
+        if (got <= 0) break;
+        count += static_cast<std::size_t>(got);
+    }
+    return count;
 }
 
 std::vector<std::byte> Pty::read() {

@@ -17,8 +17,12 @@ namespace a351::sim {
 /// it dangles and points into /dev/pts: somebody was killed.  Anything else there stays.
 class Pty {
 public:
+    /// The link can be made, as far as can be told without doing anything.
+    /// @throws InputError  it exists and is not ours; there is no such directory.
+    static void require_place(const std::filesystem::path& link);
+
     /// @param baud  speed until a host sets another.
-    /// @throws InputError         `link` exists and is not ours, or its directory does not.
+    /// @throws InputError         as require_place; the link cannot be made.
     /// @throws std::system_error  naming the operation and the path.
     explicit Pty(std::filesystem::path link, int baud = 460800);
     ~Pty();
@@ -46,6 +50,10 @@ public:
 
     /// The adapter is pulled out: the host sees its terminal hang up, and the link is gone.
     void hang_up();
+
+    /// Bytes written that the host will never read: takes them back, which needs the host to have
+    /// come to its end, or ours.  Waits 20 ms for more.
+    [[nodiscard]] std::size_t take_back();
 
     /// The adapter is back, as a terminal of another name.
     /// @throws InputError  something else has taken the place of the link.

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <thread>
+#include <utility>
 
+#include "protocol/core/input_error.hpp"
 #include "sim/line/baud.hpp"
 
 namespace a351::sim {
@@ -16,6 +19,7 @@ constexpr Nanoseconds kLongestWait = 100ms;
 constexpr Nanoseconds kGrace = 2s;
 /// What was written passes the kernel's flip buffer before it counts as waiting to be read.
 constexpr Nanoseconds kSettle = 200ms;
+constexpr Nanoseconds kQuiet = 10ms;
 /// Before the port is pulled out the host may read what it got: what is known to have been sent
 /// should have arrived.
 constexpr Nanoseconds kShortestLeave = 20ms;
@@ -23,8 +27,13 @@ constexpr Nanoseconds kLongestLeave = 1s;
 
 }  // namespace
 
-SensorPort::SensorPort(Pty& pty, LineDevice& device, Line& line, FaultInjector* faults)
-    : pty_(pty), device_(device), line_(line), faults_(faults) {}
+SensorPort::SensorPort(Pty& pty, LineDevice& device, Line& line, FaultInjector* faults,
+                       TroubleHandler on_trouble)
+    : pty_(pty),
+      device_(device),
+      line_(line),
+      faults_(faults),
+      on_trouble_(std::move(on_trouble)) {}
 
 LineSink& SensorPort::sink() noexcept {
     return faults_ != nullptr ? static_cast<LineSink&>(*faults_) : line_;
@@ -86,23 +95,35 @@ void SensorPort::move_plug(const Instant& now) {
         if (plug_ == Plug::in) {
             plug_ = Plug::leaving;
             leaving_since_ = now.steady;
+            hang_up_ = *asked;
         }
-        hang_up_ = *asked;
+        hang_up_.until = std::max(hang_up_.until, asked->until);
+        hang_up_.loses_power = hang_up_.loses_power || asked->loses_power;
     }
     if (plug_ == Plug::leaving) {
         const Nanoseconds since = now.steady - leaving_since_;
         const std::size_t unread = pty_.unread();
         if ((since > kShortestLeave && unread == 0) || since > kLongestLeave) {
-            bytes_unread_ += unread;
+            if (unread > 0) bytes_unread_ += pty_.take_back();
             pty_.hang_up();
             plug_ = Plug::out;
         }
     }
-    if (plug_ == Plug::out && now.simulated >= hang_up_.until) {
+    if (plug_ == Plug::out && now.simulated >= hang_up_.until) plug_in(now);
+}
+
+/// Where something has taken the link's place, it stays out and is asked again.
+void SensorPort::plug_in(const Instant& now) {
+    try {
         pty_.come_back();
-        faults_->came_back(hang_up_, now);
-        plug_ = Plug::in;
+    } catch (const InputError& error) {
+        if (trouble_ != error.what() && on_trouble_) on_trouble_(error.what());
+        trouble_ = error.what();
+        return;
     }
+    trouble_.clear();
+    faults_->came_back(hang_up_, now);
+    plug_ = Plug::in;
 }
 
 void SensorPort::watch_for_the_end(const Instant& now) {
@@ -112,8 +133,20 @@ void SensorPort::watch_for_the_end(const Instant& now) {
     }
     if (!ended_at_) ended_at_ = now.steady;
     const Nanoseconds since = now.steady - *ended_at_;
-    was_drained_ = since > kSettle && pty_.unread() == 0;
-    is_finished_ = was_drained_ || since > kGrace;
+    is_finished_ = (since > kSettle && pty_.unread() == 0) || since > kGrace;
+}
+
+void SensorPort::finish(UtcTime simulated) {
+    was_drained_ = line_.is_empty();
+    line_.abandon(simulated);
+    Nanoseconds quiet{0};
+    for (Nanoseconds waited{0}; waited < kSettle && quiet < kQuiet; waited += kBatch) {
+        std::this_thread::sleep_for(kBatch);
+        quiet = pty_.unread() == 0 ? quiet + kBatch : Nanoseconds(0);
+    }
+    const std::size_t unread = pty_.take_back();
+    was_drained_ = was_drained_ && unread == 0;
+    bytes_unread_ += unread;
 }
 
 void SensorPort::watch(std::vector<pollfd>& descriptors) const {

@@ -121,7 +121,7 @@ std::optional<UtcTime> Transport::next_shown() const {
 }
 
 void Transport::hold_until(UtcTime end) {
-    hold_until_ = end;
+    hold_until_ = std::max(hold_until_, end);
     for (std::size_t i = front_; i < packets_.size(); ++i) {
         packets_[i].shown = std::max(packets_[i].shown, end);
     }

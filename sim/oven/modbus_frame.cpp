@@ -27,6 +27,11 @@ bool is_sealed(std::span<const std::byte> frame) noexcept {
     return frame.size() >= 4 && modbus_crc(frame) == 0;
 }
 
+bool is_known_function(std::byte function) noexcept {
+    return function == kReadRegisters || function == kWriteRegister || function == kEcho ||
+           function == kWriteRegisters;
+}
+
 std::optional<std::size_t> request_length(std::span<const std::byte> begin) noexcept {
     if (begin.size() < 2) return std::nullopt;
     const std::byte function = begin[1];

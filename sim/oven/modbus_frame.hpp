@@ -25,6 +25,9 @@ inline constexpr std::byte kWriteRegisters{0x10};
 /// The last two bytes are the CRC of all before them.
 [[nodiscard]] bool is_sealed(std::span<const std::byte> frame) noexcept;
 
+/// One of the four above.
+[[nodiscard]] bool is_known_function(std::byte function) noexcept;
+
 /// How long the request that begins like this will be.
 /// @return  std::nullopt: not known yet, or a function of which only silence shows the end.
 [[nodiscard]] std::optional<std::size_t> request_length(std::span<const std::byte> begin) noexcept;

@@ -53,10 +53,23 @@ void ModbusServer::fail_next(OvenFault kind, int count) { remaining_[index_of(ki
 
 void ModbusServer::restart(Nanoseconds now) {
     controller_.restart();
-    answer_.reset();
-    received_.clear();
+    forget_answer();
+    if (!received_.empty()) ignore_run(report_.unheard);
     is_restarting_ = true;
     restarted_at_ = now;
+}
+
+void ModbusServer::forget_answer() {
+    if (answer_) ++report_.answers_lost;
+    answer_.reset();
+}
+
+/// What has been received since the last silence is not understood, nor is what comes before the
+/// next; it counts once.
+void ModbusServer::ignore_run(std::int64_t& counter) {
+    ++counter;
+    received_.clear();
+    is_ignoring_ = true;
 }
 
 void ModbusServer::receive(std::span<const std::byte> bytes, Nanoseconds now) {
@@ -64,11 +77,10 @@ void ModbusServer::receive(std::span<const std::byte> bytes, Nanoseconds now) {
     end_by_silence(now);
     last_byte_ = now;
     if (is_restarting_ && now - restarted_at_ >= options_.restart_time) is_restarting_ = false;
+    if (is_ignoring_) return;
     if (answer_ || is_restarting_ || !controller_.speaks_modbus()) {
-        ++report_.unheard;
-        return;
+        return ignore_run(report_.unheard);
     }
-    if (is_lost_) return;
     received_.insert(received_.end(), bytes.begin(), bytes.end());
     take_requests(now);
 }
@@ -76,17 +88,16 @@ void ModbusServer::receive(std::span<const std::byte> bytes, Nanoseconds now) {
 void ModbusServer::receive_noise(Nanoseconds now) {
     end_by_silence(now);
     last_byte_ = now;
-    if (!is_lost_) ++report_.unreadable;
-    is_lost_ = true;
-    received_.clear();
+    if (!is_ignoring_) ignore_run(report_.unreadable);
 }
 
 void ModbusServer::end_by_silence(Nanoseconds now) {
     if (now - last_byte_ <= silence_) return;
-    is_lost_ = false;
+    is_ignoring_ = false;
     if (received_.empty()) return;
     const std::vector<std::byte> frame = std::exchange(received_, {});
-    if (!request_length(frame) && is_sealed(frame)) {
+    // What is left of a known function is too short for it.
+    if (is_sealed(frame) && !is_known_function(frame[1])) {
         handle(frame, now);
     } else {
         ++report_.unreadable;
@@ -98,16 +109,13 @@ void ModbusServer::take_requests(Nanoseconds now) {
         const std::optional<std::size_t> length = request_length(received_);
         if (received_.size() < length.value_or(kLongestRequest)) return;
         if (!length || !is_sealed(std::span(received_).first(*length))) {
-            ++report_.unreadable;
-            is_lost_ = true;
-            received_.clear();
-            return;
+            return ignore_run(report_.unreadable);
         }
         const auto end = received_.begin() + static_cast<std::ptrdiff_t>(*length);
         const std::vector<std::byte> request(received_.begin(), end);
         received_.erase(received_.begin(), end);
         handle(request, now);
-        if ((answer_ || is_restarting_) && !std::exchange(received_, {}).empty()) ++report_.unheard;
+        if ((answer_ || is_restarting_) && !received_.empty()) ignore_run(report_.unheard);
     }
 }
 
@@ -121,31 +129,36 @@ void ModbusServer::handle(std::span<const std::byte> request, Nanoseconds now) {
         ++report_.for_other_units;
         return;
     }
-    const std::optional<OvenFault> fault = take_fault();
-    if (fault) ++report_.faults[index_of(*fault)];
-    if (fault == OvenFault::silence) return;
-    if (fault == OvenFault::exception) {
-        reply(sealed(refused(request, Refusal::operation)), request.size(), fault, now);
-    } else if (fault == OvenFault::babble) {
-        reply(nonsense(modbus_crc(request.first(request.size() - 2))), request.size(), fault, now);
-    } else {
-        std::vector<std::byte> answer = answer_to(request, now);
-        if (answer.empty()) return;
-        if (!fault) {
-            ++report_.answers;
-            if ((answer[1] & std::byte{0x80}) != std::byte{0}) ++report_.exceptions;
-        }
-        if (fault == OvenFault::wrong_unit) answer[0] = static_cast<std::byte>(options_.unit + 1);
-        reply(sealed(std::move(answer)), request.size(), fault, now);
+    const std::optional<OvenFault> fault = next_fault();
+    if (fault == OvenFault::silence) {
+        spend(*fault);
+        ++report_.faults[index_of(*fault)];
+        return;
     }
+    Answer answer{{}, {}, fault, false};
+    if (fault == OvenFault::babble) {
+        answer.bytes = nonsense(modbus_crc(request.first(request.size() - 2)));
+    } else {
+        std::vector<std::byte> frame = fault == OvenFault::exception
+                                           ? refused(request, Refusal::operation)
+                                           : answer_to(request, now);
+        if (frame.empty()) {
+            ++report_.resets;
+            return;
+        }
+        answer.is_exception = (frame[1] & std::byte{0x80}) != std::byte{0};
+        if (fault == OvenFault::wrong_unit) frame[0] = static_cast<std::byte>(options_.unit + 1);
+        answer.bytes = sealed(std::move(frame));
+    }
+    if (fault) spend(*fault);
+    reply(std::move(answer), request.size(), now);
 }
 
+/// @return  empty after a software reset.
 std::vector<std::byte> ModbusServer::answer_to(std::span<const std::byte> request,
                                                Nanoseconds now) {
     const std::byte function = request[1];
-    const bool is_known = function == kReadRegisters || function == kWriteRegister ||
-                          function == kEcho || function == kWriteRegisters;
-    if (!is_known) return refused(request, Refusal::function);
+    if (!is_known_function(function)) return refused(request, Refusal::function);
     const std::uint16_t address = word_at(request, 2), second = word_at(request, 4);
     std::optional<Refusal> refusal;
     if (function == kReadRegisters) {
@@ -182,29 +195,42 @@ std::vector<std::byte> ModbusServer::answer_to(std::span<const std::byte> reques
     return refusal ? refused(request, *refusal) : confirmed(request);
 }
 
-std::optional<OvenFault> ModbusServer::take_fault() {
+std::optional<OvenFault> ModbusServer::next_fault() const {
     for (std::size_t i = 0; i < kOvenFaultCount; ++i) {
-        if (remaining_[i] == 0) continue;
-        if (remaining_[i] > 0) --remaining_[i];
-        return static_cast<OvenFault>(i);
+        if (remaining_[i] != 0) return static_cast<OvenFault>(i);
     }
     return std::nullopt;
 }
 
-void ModbusServer::reply(std::vector<std::byte> frame, std::size_t request_size,
-                         std::optional<OvenFault> fault, Nanoseconds now) {
-    if (fault == OvenFault::crc_error) frame.back() ^= std::byte{1};
-    if (fault == OvenFault::truncated) frame.resize(frame.size() / 2);
-    const double on_the_line = static_cast<double>(request_size + frame.size());
-    Nanoseconds due = now + characters(on_the_line) + options_.answer_wait;
-    if (fault == OvenFault::delay) due += options_.fault_delay;
-    answer_ = Answer{due, std::move(frame)};
+void ModbusServer::spend(OvenFault fault) {
+    int& remaining = remaining_[index_of(fault)];
+    if (remaining > 0) --remaining;
 }
 
-std::vector<std::byte> ModbusServer::advance_to(Nanoseconds now) {
+void ModbusServer::reply(Answer answer, std::size_t request_size, Nanoseconds now) {
+    if (answer.fault == OvenFault::crc_error) answer.bytes.back() ^= std::byte{1};
+    if (answer.fault == OvenFault::truncated) answer.bytes.resize(answer.bytes.size() / 2);
+    const double on_the_line = static_cast<double>(request_size + answer.bytes.size());
+    answer.due = now + characters(on_the_line) + options_.answer_wait;
+    if (answer.fault == OvenFault::delay) answer.due += options_.fault_delay;
+    answer_ = std::move(answer);
+}
+
+std::vector<std::byte> ModbusServer::advance_to(Nanoseconds now, bool is_heard) {
     end_by_silence(now);
     if (!answer_ || now < answer_->due) return {};
-    return std::exchange(answer_, std::nullopt)->bytes;
+    if (!is_heard) {
+        forget_answer();
+        return {};
+    }
+    const Answer answer = *std::exchange(answer_, std::nullopt);
+    if (answer.fault) {
+        ++report_.faults[index_of(*answer.fault)];
+    } else {
+        ++report_.answers;
+        if (answer.is_exception) ++report_.exceptions;
+    }
+    return answer.bytes;
 }
 
 std::optional<Nanoseconds> ModbusServer::next_due() const {

@@ -34,14 +34,17 @@ struct ServerOptions {
     Nanoseconds fault_delay = std::chrono::seconds(1);
 };
 
-/// What became of what was received; every request and every stray run of bytes is in one of these.
+/// What became of what was received.  Every request and every stray run of bytes, which silence
+/// ends, is in just one of these once it is over; an answer is when it leaves.
 struct OvenReport {
     std::int64_t answers = 0;          ///< As they should be, exceptions included.
     std::int64_t exceptions = 0;       ///< Of the answers: refused by the controller.
-    std::int64_t broadcasts = 0;       ///< Executed, never answered.
+    std::int64_t answers_lost = 0;     ///< Nobody at the other end, or switched off meanwhile.
+    std::int64_t resets = 0;           ///< Software resets, which are never answered.
+    std::int64_t broadcasts = 0;       ///< Executed if possible, never answered.
     std::int64_t for_other_units = 0;  ///< Valid, not for this unit.
     std::int64_t unreadable = 0;       ///< Noise, bad CRC, or 3.5 characters of silence within.
-    std::int64_t unheard = 0;          ///< Came while an answer was due, or during a restart.
+    std::int64_t unheard = 0;          ///< While an answer was due, in a restart, or not on Modbus.
     std::array<std::int64_t, kOvenFaultCount> faults{};  ///< Answers spoilt, by kind.
 };
 
@@ -49,7 +52,8 @@ struct OvenReport {
 /// time; characters take 11 bits (8 data bits with parity, or two stop bits).
 ///
 /// A request ends where its own length says; one of an unknown function, with 3.5 characters of
-/// silence.  After bytes that make no sense everything is ignored until there is such a silence.
+/// silence.  After bytes that make no sense, or come when nothing is heard, everything is ignored
+/// until there is such a silence.
 /// The answer is given whole when its last character would have arrived: request and answer take
 /// their time on the line, and between them lies the wait.  Half duplex: until then what arrives is
 /// not heard.
@@ -62,13 +66,14 @@ public:
     /// Characters that cannot be made out, as from a master at another speed.
     void receive_noise(Nanoseconds now);
 
-    /// What the master has received by now.
-    [[nodiscard]] std::vector<std::byte> advance_to(Nanoseconds now);
+    /// What leaves for the master by now.
+    /// @param is_heard  false: there is no master at the other end, and an answer is lost.
+    [[nodiscard]] std::vector<std::byte> advance_to(Nanoseconds now, bool is_heard = true);
 
     /// When advance_to() has something to do again, if nothing is received before.
     [[nodiscard]] std::optional<Nanoseconds> next_due() const;
 
-    /// Spoils the next `count` answers, or all until further notice if negative; 0 ends it.  Of
+    /// Spoils the next `count` answers, or all until further notice if -1; 0 ends it.  Of
     /// several kinds at a time the first in the order of OvenFault takes its turn.
     void fail_next(OvenFault kind, int count);
 
@@ -81,24 +86,28 @@ private:
     struct Answer {
         Nanoseconds due{0};
         std::vector<std::byte> bytes;
+        std::optional<OvenFault> fault;
+        bool is_exception = false;
     };
 
     [[nodiscard]] Nanoseconds characters(double count) const;
     void end_by_silence(Nanoseconds now);
+    void ignore_run(std::int64_t& counter);
+    void forget_answer();
     void take_requests(Nanoseconds now);
     void handle(std::span<const std::byte> request, Nanoseconds now);
     [[nodiscard]] std::vector<std::byte> answer_to(std::span<const std::byte> request,
                                                    Nanoseconds now);
-    [[nodiscard]] std::optional<OvenFault> take_fault();
-    void reply(std::vector<std::byte> frame, std::size_t request_size,
-               std::optional<OvenFault> fault, Nanoseconds now);
+    [[nodiscard]] std::optional<OvenFault> next_fault() const;
+    void spend(OvenFault fault);
+    void reply(Answer answer, std::size_t request_size, Nanoseconds now);
 
     OvenController& controller_;
     ServerOptions options_;
     Nanoseconds silence_;  ///< What ends a frame.
     std::vector<std::byte> received_;
     Nanoseconds last_byte_{0};
-    bool is_lost_ = false;  ///< Waiting for a silence.
+    bool is_ignoring_ = false;  ///< The rest of a run that is counted.
     std::optional<Answer> answer_;
     Nanoseconds restarted_at_{0};
     bool is_restarting_ = false;

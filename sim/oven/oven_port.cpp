@@ -28,7 +28,7 @@ OvenPort::OvenPort(std::filesystem::path link, OvenPlant& plant, const OvenOptio
 void OvenPort::serve(const Instant& now) {
     if (std::exchange(wants_power_cycle_, false)) server_.restart(now.steady);
     if (is_unplugged_) {
-        static_cast<void>(server_.advance_to(now.steady));
+        static_cast<void>(server_.advance_to(now.steady, false));
         return;
     }
     const std::vector<std::byte> bytes = pty_.read();
@@ -38,8 +38,7 @@ void OvenPort::serve(const Instant& now) {
     } else if (!bytes.empty()) {
         server_.receive_noise(now.steady);
     }
-    const std::vector<std::byte> answer = server_.advance_to(now.steady);
-    if (is_understood) send(answer);
+    send(server_.advance_to(now.steady, is_understood));
 }
 
 void OvenPort::send(const std::vector<std::byte>& answer) {

@@ -29,7 +29,7 @@ public:
 
     /// Applies a fault by name.  `oven_silence`, `oven_babble`, `oven_exception`, `oven_crc_error`,
     /// `oven_wrong_unit`, `oven_truncated`, `oven_delay`: of the next `count` answers, of all until
-    /// further notice if negative, no longer if 0.  `oven_sensor_break`: from now on, or mended if
+    /// further notice if -1, no longer if 0.  `oven_sensor_break`: from now on, or mended if
     /// `count` is 0.  `oven_unplug`: the terminal hangs up and its link is gone, or comes back under
     /// another name if `count` is 0.  `oven_power_cycle`: now, whatever the count.
     /// @return false: there is no such fault.

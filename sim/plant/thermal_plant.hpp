@@ -25,6 +25,7 @@ struct OvenParameters {
     double resolution_degc = 0.0;
     double proportional_per_degc = 0.0;
     double integral_per_degc_s = 0.0;
+    double run_in_h = 0.0;  ///< It has been running for so long when a record starts.
     ControllerKind controller = ControllerKind::pi;
 };
 

@@ -59,16 +59,23 @@ void require_known_settings(const std::filesystem::path& file, const JournalHead
     }
 }
 
+/// Raw time begins anew with each boot, and within one it only rises.
+bool is_same_boot(const JournalHeader& before, const JournalHeader& after) {
+    return before.boot_id == after.boot_id && before.clock.raw <= after.clock.raw;
+}
+
 }  // namespace
 
-JournalRecording::JournalRecording(std::vector<std::filesystem::path> segments) {
+JournalRecording::JournalRecording(std::vector<std::filesystem::path> segments,
+                                   std::vector<RecordingDamage> damage)
+    : damage_(std::move(damage)) {
     for (auto& file : segments) {
         Segment segment{std::move(file), {}, {}};
         segment.header = read_header(segment.file);
         require_known_settings(segment.file, segment.header);
         const timing::ClockReading& clock = segment.header.clock;
         segment.utc_minus_raw = clock.realtime.time_since_epoch() - clock.raw.time_since_epoch();
-        if (!segments_.empty() && segments_.back().header.boot_id == segment.header.boot_id) {
+        if (!segments_.empty() && is_same_boot(segments_.back().header, segment.header)) {
             segment.utc_minus_raw = segments_.back().utc_minus_raw;
         }
         segments_.push_back(std::move(segment));
@@ -105,9 +112,9 @@ bool JournalRecording::load_chunk() {
         if (const auto& damage = reader_->damage()) {
             damage_.push_back({damage->file, damage->offset, damage->byte_count, damage->reason});
         }
-        const bool is_last =
-            at_ + 1 == segments_.size() || segments_[at_ + 1].header.session != header().session;
-        if (is_last) return false;
+        if (at_ + 1 == segments_.size()) return false;
+        const JournalHeader& next = segments_[at_ + 1].header;
+        if (next.session != header().session || !is_same_boot(header(), next)) return false;
         open(at_ + 1);
     }
 }

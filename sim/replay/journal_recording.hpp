@@ -17,14 +17,17 @@ namespace a351::sim {
 /// A piece is what one read() gave.  Pieces fall due at the host's raw time of their reads, laid on
 /// UTC by the first clock reading of each boot of the recording host: steps of its clock in between
 /// are not replayed.  Answers of the recorded handshake are no part of a journal.  Segments of one
-/// session follow each other without a break; sessions without a byte are passed over.  A damaged
+/// session follow each other without a break; where the boot is another, or raw time runs back, it
+/// is another session even under the same identifier.  Sessions without a byte are passed over.  A damaged
 /// tail is left out and told of by damage().
 class JournalRecording final : public Recording {
 public:
     /// @param segments  in the order to replay; their headers are read at once, the rest bit by bit.
+    /// @param damage    met before: what was passed over.
     /// @throws InputError  a file is no journal segment, its header names an unknown profile or
     ///         settings that the profile lacks, or no byte was received in all of them.
-    explicit JournalRecording(std::vector<std::filesystem::path> segments);
+    explicit JournalRecording(std::vector<std::filesystem::path> segments,
+                              std::vector<RecordingDamage> damage = {});
 
     [[nodiscard]] const RecordedUnit& unit() const override { return unit_; }
     [[nodiscard]] std::optional<UtcTime> next_due(const RegisterMachine& machine) const override;

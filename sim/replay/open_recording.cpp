@@ -27,9 +27,38 @@ bool is_day_file(const fs::path& file) {
                       });
 }
 
-std::vector<fs::path> files_in(const fs::path& directory) {
-    std::vector<fs::path> found = record::journal_segments(directory);
-    if (!found.empty()) return found;
+struct Expanded {
+    std::vector<fs::path> files;
+    std::vector<RecordingDamage> damage;  ///< Segments passed over.
+};
+
+/// Why nothing in the segment can be read; std::nullopt where its header is good.
+std::optional<record::JournalDamage> headless(const fs::path& segment) {
+    record::JournalReader reader(segment);
+    return reader.next() ? std::nullopt : reader.damage();
+}
+
+/// A writer that died while it began a segment leaves one without a header; the daemon puts such a
+/// one aside when it starts again, and so is it here.
+void add_segments(const fs::path& directory, const std::vector<fs::path>& segments,
+                  Expanded& expanded) {
+    const std::size_t before = expanded.files.size();
+    for (const fs::path& segment : segments) {
+        if (const auto damage = headless(segment)) {
+            expanded.damage.push_back(
+                {damage->file, damage->offset, damage->byte_count, damage->reason});
+        } else {
+            expanded.files.push_back(segment);
+        }
+    }
+    if (expanded.files.size() == before) {
+        throw InputError(directory.string() + ": no journal segment in it has a whole header" +
+                         kAllowed);
+    }
+}
+
+void add_day_files(const fs::path& directory, Expanded& expanded) {
+    std::vector<fs::path> found;
     for (const auto& entry : fs::recursive_directory_iterator(directory)) {
         if (entry.is_regular_file() && is_day_file(entry.path())) found.push_back(entry.path());
     }
@@ -38,21 +67,22 @@ std::vector<fs::path> files_in(const fs::path& directory) {
         throw InputError(directory.string() + ": neither journal segments nor day files in it" +
                          kAllowed);
     }
-    return found;
+    expanded.files.insert(expanded.files.end(), found.begin(), found.end());
 }
 
-std::vector<fs::path> expand(const std::vector<fs::path>& given) {
-    std::vector<fs::path> files;
+Expanded expand(const std::vector<fs::path>& given) {
+    Expanded expanded;
     for (const fs::path& path : given) {
         if (!fs::exists(path)) throw InputError(path.string() + ": no such file" + kAllowed);
-        if (fs::is_directory(path)) {
-            const auto inside = files_in(path);
-            files.insert(files.end(), inside.begin(), inside.end());
+        if (!fs::is_directory(path)) {
+            expanded.files.push_back(path);
+        } else if (const auto segments = record::journal_segments(path); !segments.empty()) {
+            add_segments(path, segments, expanded);
         } else {
-            files.push_back(path);
+            add_day_files(path, expanded);
         }
     }
-    return files;
+    return expanded;
 }
 
 bool is_journal(const fs::path& file) {
@@ -80,7 +110,7 @@ void order_segments(std::vector<fs::path>& files) {
 }  // namespace
 
 std::unique_ptr<Recording> open_recording(const RecordingFiles& input) {
-    std::vector<fs::path> files = expand(input.files);
+    auto [files, damage] = expand(input.files);
     const auto first_archive = std::stable_partition(files.begin(), files.end(), is_journal);
     if (first_archive == files.begin()) {
         return std::make_unique<ArchiveRecording>(
@@ -91,7 +121,7 @@ std::unique_ptr<Recording> open_recording(const RecordingFiles& input) {
                          ", not both");
     }
     order_segments(files);
-    return std::make_unique<JournalRecording>(std::move(files));
+    return std::make_unique<JournalRecording>(std::move(files), std::move(damage));
 }
 
 }  // namespace a351::sim

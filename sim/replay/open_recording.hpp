@@ -12,7 +12,8 @@ namespace a351::sim {
 
 struct RecordingFiles {
     /// Journal segments or miniSEED files, told apart by their first bytes; of a directory, the
-    /// segments in it, or else the day files below it.
+    /// segments in it, or else the day files below it.  Of a directory, segments without a whole
+    /// header are passed over and told of by Recording::damage().
     std::vector<std::filesystem::path> files;
     std::array<std::string, 3> axes{"1", "2", "Z"};  ///< For archives: channels of x, y, z.
     RecordedUnit archive_unit = {};                  ///< What an archive does not tell.

@@ -46,6 +46,7 @@ struct ScheduleParameters {
     double length_s = 0.0;
     double jitter_s = 0.0;  ///< Centre and length are uniform within +- this.
     double shortest_s = 0.0;
+    double shortest_drive_s = 0.0;     ///< From the end of one stay to the start of the next.
     int set_ups = 1;                   ///< Parts of equal length; between them the box is lifted.
     double ambient_before_degc = 0.0;  ///< At the start of the record.
     double ambient_after_degc = 0.0;   ///< At its end.
@@ -83,7 +84,7 @@ struct SensorParameters {
     double levelling_sigma_deg = 0.0;       ///< Two angles, drawn anew at each set-up.
     double white_mgal = 0.0;                ///< Rms per axis and sample.
     double temperature_white_degc = 0.0;    ///< Rms per sample.
-    double power_on_before_start_h = 0.0;
+    double power_on_before_start_h = 0.0;   ///< At least OvenParameters::run_in_h.
     double temperature_warm_up_degc = 0.0;  ///< Of the reported temperature, decaying ...
     double temperature_warm_up_tau_h = 0.0;
 };
@@ -110,11 +111,16 @@ struct SlowNoiseParameters {
     double drift_walk_mgal_per_sqrt_h = 0.0;
     double ripple_mgal = 0.0;  ///< Amplitude on the vertical.
     double ripple_period_s = 0.0;
-    double ripple_wander = 0.0;  ///< Rms of the period, relative.
+    double ripple_wander = 0.0;    ///< Rms of the period, relative.
+    double ripple_wander_s = 0.0;  ///< Time over which it wanders.
 };
 
 struct Range {
     double low = 0.0, high = 0.0;
+};
+
+struct TideParameters {
+    double gravimetric_factor = 0.0;  ///< 1: the rigid Earth.
 };
 
 struct VibrationParameters {
@@ -125,7 +131,9 @@ struct VibrationParameters {
     double handling_probability = 0.0;  ///< At each end of a set-up.
     Range handling_s, handling_hz, handling_gal;
     double knock_probability = 0.0;  ///< Per occupation.
-    Range knock_s, knock_gal;        ///< Frequency: as handling.
+    Range knock_s, knock_hz, knock_gal;
+    Range knock_position;            ///< Start, as share of the set-up.
+    Range axis_share;                ///< Of a burst's strength, drawn for each axis.
     double spike_probability = 0.0;  ///< Per sample.
     Range spike_gal;
 };
@@ -156,6 +164,7 @@ struct Scenario {
     double unit_scatter = 0.0;  ///< `error` is drawn for each unit within +- this share.
     SensorParameters sensor;
     ClockParameters clock;
+    TideParameters tide;
     SlowNoiseParameters slow_noise;
     VibrationParameters vibration;
     LineParameters line;

@@ -3,28 +3,34 @@
 #include <algorithm>
 #include <limits>
 
+#include "protocol/text/csv.hpp"
+
 namespace a351::sim {
 namespace {
 
-/// The oven only heats: air warmer than its set point would not be held.
-constexpr double kColdestDegC = -40.0, kWarmestDegC = 42.0;
+constexpr double kColdestDegC = -40.0, kWarmestDegC = 80.0;
 
 /// A set-up is at least as long as the shortest occupation may be.
 constexpr double kShortestSetUpSeconds = 60.0;
 
 text::Site read_site(text::TomlTable& table) {
     text::Site site;
-    site.name = table.string_or("name", "");
-    if (site.name.empty()) table.refuse("name", "missing", "a name");
-    if (site.name.find_first_of(",\r\n") != std::string::npos) {
-        table.refuse("name", "no cell of a table", "a name without commas and line ends");
-    }
+    site.name = required_name(table);
     site.longitude = Degrees(required_number(table, "longitude_deg", -180.0, 360.0));
     site.latitude = Degrees(required_number(table, "latitude_deg", -90.0, 90.0));
     site.altitude = Metres(required_number(table, "altitude_m", -500.0, 9000.0));
     site.gravity = MilliGal(required_number(table, "gravity_mgal", 970000.0, 990000.0));
     table.require_all_read();
     return site;
+}
+
+/// The oven only heats: air as warm as its set point could not be held.
+void require_below_set_point(const text::TomlTable& table, std::string_view key, double degc,
+                             const Scenario& scenario) {
+    if (degc < scenario.oven.set_point_degc) return;
+    std::string allowed = "colder than oven.set_point_degc = ";
+    allowed += text::shortest(scenario.oven.set_point_degc);
+    table.refuse(key, "the oven only heats", allowed);
 }
 
 std::string read_site_name(text::TomlTable& table, const Scenario& scenario) {
@@ -60,6 +66,9 @@ ListedOccupation read_occupation(text::TomlTable& table, const Scenario& scenari
     occupation.centre = required_instant(table, "centre_utc");
     occupation.length_s = table.number("length_s", 60.0, 1e6);
     occupation.ambient_degc = table.number("ambient_degc", kColdestDegC, kWarmestDegC);
+    if (occupation.ambient_degc) {
+        require_below_set_point(table, "ambient_degc", *occupation.ambient_degc, scenario);
+    }
     occupation.is_outlier = table.boolean_or("outlier", false);
     occupation.levelling = read_levelling(table);
     table.require_all_read();
@@ -124,6 +133,7 @@ void read_ambient(text::TomlTable& document, Scenario& scenario) {
         }
         if (!knot.hours) knot.utc = required_instant(table, "at_utc");
         knot.degc = required_number(table, "degc", kColdestDegC, kWarmestDegC);
+        require_below_set_point(table, "degc", knot.degc, scenario);
         table.require_all_read();
         scenario.ambient.push_back(knot);
         const std::vector<AmbientKnot> knots = scenario.ambient_knots();
@@ -162,8 +172,52 @@ void read_open_lids(text::TomlTable& document, Scenario& scenario) {
             if (lid.to <= lid.from) table.refuse("to_utc", "not after from_utc", "a later instant");
         }
         lid.outside_degc = required_number(table, "outside_degc", kColdestDegC, kWarmestDegC);
+        require_below_set_point(table, "outside_degc", lid.outside_degc, scenario);
         table.require_all_read();
         scenario.open_lids.push_back(lid);
+    }
+}
+
+/// What is a base's, or the schedule's.
+void require_warm_oven(text::TomlTable& document, const Scenario& scenario) {
+    double warmest_degc = kColdestDegC;
+    for (const AmbientKnot& knot : scenario.ambient_knots()) {
+        warmest_degc = std::max(warmest_degc, knot.degc);
+    }
+    for (const ListedOpenLid& lid : scenario.open_lids) {
+        warmest_degc = std::max(warmest_degc, lid.outside_degc);
+    }
+    if (warmest_degc < scenario.oven.set_point_degc) return;
+    std::string allowed = "above the warmest air around the oven, ";
+    allowed += text::shortest(warmest_degc) + " degC";
+    document.table("oven").refuse("set_point_degc", "the oven only heats", allowed);
+}
+
+/// The shortest that draw_intervals() can draw.
+double shortest_length_s(const ListedOccupation& one, const ScheduleParameters& p) {
+    const double listed_s = one.length_s.value_or(p.length_s);
+    return std::max(std::min(p.shortest_s, listed_s), listed_s - p.jitter_s);
+}
+
+void require_room_for_set_ups(text::TomlTable& document, const Scenario& scenario) {
+    const ScheduleParameters& p = scenario.schedule;
+    for (std::size_t i = 0; i < scenario.occupations.size(); ++i) {
+        const ListedOccupation& one = scenario.occupations[i];
+        const bool is_listed = !one.levelling.empty();
+        const auto parts = is_listed ? one.levelling.size() : static_cast<std::size_t>(p.set_ups);
+        if (shortest_length_s(one, p) >= kShortestSetUpSeconds * static_cast<double>(parts)) {
+            continue;
+        }
+        std::string trouble = "leaves less than 60 s to a set-up of ";
+        trouble += one.site;
+        trouble += " (" + std::to_string(one.number) + ")";
+        if (is_listed && document.has("occupation")) {
+            document.tables("occupation")[i].refuse("about_y_deg", trouble,
+                                                    "fewer angles, or a longer occupation");
+        }
+        document.table("schedule")
+            .refuse(is_listed ? "jitter_s" : "setups", trouble,
+                    "fewer set-ups, longer occupations, or less jitter");
     }
 }
 
@@ -181,18 +235,24 @@ void require_fit(text::TomlTable& document, const Scenario& scenario) {
     if (60.0 * p.lead_out_min < half_s(scenario.occupations.back())) {
         schedule.refuse("lead_out_min", "shorter than half the last occupation", "a longer one");
     }
-    for (const ListedOccupation& one : scenario.occupations) {
-        const double parts =
-            one.levelling.empty() ? p.set_ups : static_cast<double>(one.levelling.size());
-        if (std::min(p.shortest_s, one.length_s.value_or(p.shortest_s)) / parts <
-            kShortestSetUpSeconds) {
-            schedule.refuse("setups", "leaves less than 60 s to one",
-                            "fewer, or longer occupations");
-        }
-    }
+    require_room_for_set_ups(document, scenario);
 }
 
 }  // namespace
+
+std::string required_name(text::TomlTable& table) {
+    std::string name = table.string_or("name", "");
+    if (name.empty()) table.refuse("name", "missing", "a name");
+    const bool has_forbidden = std::ranges::any_of(name, [](char c) {
+        const auto code = static_cast<unsigned char>(c);
+        return c == '"' || c == ',' || c == '\\' || code < 0x20 || code == 0x7F;
+    });
+    if (has_forbidden) {
+        table.refuse("name", "cannot stand in a table",
+                     "a name without quotes, commas, backslashes and control characters");
+    }
+    return name;
+}
 
 double required_number(text::TomlTable& table, std::string_view key, double low, double high) {
     const std::optional<double> value = table.number(key, low, high);
@@ -211,6 +271,7 @@ void read_places(text::TomlTable& document, Scenario& scenario) {
     read_occupations(document, scenario);
     read_ambient(document, scenario);
     read_open_lids(document, scenario);
+    require_warm_oven(document, scenario);
     require_fit(document, scenario);
 }
 

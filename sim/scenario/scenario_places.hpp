@@ -13,6 +13,10 @@ namespace a351::sim {
 /// @throws InputError  what is missing, unknown, out of order or does not fit into the record.
 void read_places(text::TomlTable& document, Scenario& scenario);
 
+/// `name`, which goes into CSV cells and TOML strings as it is.
+/// @throws InputError  missing, or with a character that would need quoting there.
+[[nodiscard]] std::string required_name(text::TomlTable& table);
+
 /// @throws InputError  missing, or not within [low, high]; not an instant.
 [[nodiscard]] double required_number(text::TomlTable& table, std::string_view key, double low,
                                      double high);

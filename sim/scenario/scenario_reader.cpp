@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/csv.hpp"
 #include "protocol/text/strict_toml.hpp"
 #include "protocol/text/text_file.hpp"
 #include "sim/scenario/embedded_scenarios.hpp"
@@ -44,10 +45,15 @@ public:
         value = table_.boolean_or(key, value);
     }
 
-    /// May be missing even without a base.
-    [[nodiscard]] std::string optional_word(std::string_view key, std::string fallback,
-                                            const std::vector<std::string>& allowed) {
+    [[nodiscard]] std::string word(std::string_view key, std::string fallback,
+                                   const std::vector<std::string>& allowed) {
+        require(key);
         return table_.choice_or(key, std::move(fallback), allowed);
+    }
+
+    [[noreturn]] void refuse(std::string_view key, std::string_view trouble,
+                             std::string_view allowed) const {
+        table_.refuse(key, trouble, allowed);
     }
 
     void done() const { table_.require_all_read(); }
@@ -67,9 +73,10 @@ void read_schedule(Section s, ScheduleParameters& p) {
     s.number("length_s", p.length_s, 60.0, 1e6);
     s.number("jitter_s", p.jitter_s, 0.0, 1e5);
     s.number("shortest_s", p.shortest_s, 60.0, 1e6);
+    s.number("shortest_drive_s", p.shortest_drive_s, 1.0, 1e5);
     s.integer("setups", p.set_ups, 1, 10);
-    s.number("ambient_before_degc", p.ambient_before_degc, -40.0, 42.0);
-    s.number("ambient_after_degc", p.ambient_after_degc, -40.0, 42.0);
+    s.number("ambient_before_degc", p.ambient_before_degc, -40.0, 80.0);
+    s.number("ambient_after_degc", p.ambient_after_degc, -40.0, 80.0);
     s.done();
 }
 
@@ -91,6 +98,15 @@ void read_cool_box(Section s, CoolBoxParameters& p) {
     s.done();
 }
 
+/// In a step of the plant a node may lose no more than what it is warmer than its neighbours.
+void require_stable(const Section& s, std::string_view key, double capacity_j_per_k,
+                    double conductance_w_per_k) {
+    const double least_j_per_k = conductance_w_per_k * ThermalPlant::kStepSeconds;
+    if (capacity_j_per_k >= least_j_per_k) return;
+    s.refuse(key, "too small for its thermal resistances and the plant's step of 1 s",
+             text::shortest(least_j_per_k) + " or more, or larger resistances");
+}
+
 void read_oven(Section s, OvenParameters& p) {
     s.number("heater_capacity_j_per_k", p.heater_capacity_j_per_k, 1.0, 1e6);
     s.number("body_capacity_j_per_k", p.body_capacity_j_per_k, 1.0, 1e6);
@@ -105,9 +121,15 @@ void read_oven(Section s, OvenParameters& p) {
     s.number("resolution_degc", p.resolution_degc, 0.001, 10.0);
     s.number("proportional_per_degc", p.proportional_per_degc, 0.0, 1000.0);
     s.number("integral_per_degc_s", p.integral_per_degc_s, 0.0, 1000.0);
+    s.number("run_in_h", p.run_in_h, 0.0, 100.0);
     const std::string now = p.controller == ControllerKind::on_off ? "onoff" : "pi";
-    const bool is_on_off = s.optional_word("controller", now, {"pi", "onoff"}) == "onoff";
+    const bool is_on_off = s.word("controller", now, {"pi", "onoff"}) == "onoff";
     p.controller = is_on_off ? ControllerKind::on_off : ControllerKind::pi;
+    const double body_w_per_k = 1.0 / p.heater_body_k_per_w;
+    require_stable(s, "heater_capacity_j_per_k", p.heater_capacity_j_per_k,
+                   body_w_per_k + 1.0 / p.heater_ambient_k_per_w);
+    require_stable(s, "body_capacity_j_per_k", p.body_capacity_j_per_k,
+                   body_w_per_k + 1.0 / p.body_ambient_k_per_w);
     s.done();
 }
 
@@ -124,13 +146,18 @@ void read_error(Section s, TemperatureErrorParameters& p, double& unit_scatter) 
     s.done();
 }
 
-void read_sensor(Section s, SensorParameters& p) {
+void read_sensor(Section s, SensorParameters& p, double run_in_h) {
     s.number("bias_mgal", p.bias_mgal, -1e5, 1e5);
     s.number("horizontal_bias_max_mgal", p.horizontal_bias_max_mgal, 0.0, 1e5);
     s.number("levelling_sigma_deg", p.levelling_sigma_deg, 0.0, 10.0);
     s.number("white_mgal", p.white_mgal, 0.0, 1e5);
     s.number("temperature_white_degc", p.temperature_white_degc, 0.0, 10.0);
     s.number("power_on_before_start_h", p.power_on_before_start_h, 0.0, 1e4);
+    if (p.power_on_before_start_h < run_in_h) {
+        s.refuse("power_on_before_start_h",
+                 "shorter than oven.run_in_h: the plant runs in with the sensor's own heating",
+                 text::shortest(run_in_h) + " or more");
+    }
     s.number("temperature_warm_up_degc", p.temperature_warm_up_degc, -10.0, 10.0);
     s.number("temperature_warm_up_tau_h", p.temperature_warm_up_tau_h, 0.01, 1000.0);
     s.done();
@@ -143,10 +170,18 @@ void read_clock(Section s, ClockParameters& p) {
     s.done();
 }
 
+void read_tide(Section s, TideParameters& p) {
+    s.number("gravimetric_factor", p.gravimetric_factor, 0.0, 2.0);
+    s.done();
+}
+
 void read_slow_noise(Section s, SlowNoiseParameters& p) {
     s.number("flicker_mgal", p.flicker_mgal, 0.0, 1000.0);
     s.number("flicker_shortest_s", p.flicker_shortest_s, 10.0, 1e6);
     s.number("flicker_longest_s", p.flicker_longest_s, 10.0, 1e7);
+    if (p.flicker_shortest_s >= p.flicker_longest_s) {
+        s.refuse("flicker_longest_s", "not above flicker_shortest_s", "a longer period");
+    }
     s.number("resonant_mgal", p.resonant_mgal, 0.0, 1000.0);
     s.number("resonant_period_s", p.resonant_period_s, 10.0, 1e5);
     s.number("resonant_quality", p.resonant_quality, 0.5, 1000.0);
@@ -159,6 +194,7 @@ void read_slow_noise(Section s, SlowNoiseParameters& p) {
     s.number("ripple_mgal", p.ripple_mgal, 0.0, 1000.0);
     s.number("ripple_period_s", p.ripple_period_s, 10.0, 1e5);
     s.number("ripple_wander", p.ripple_wander, 0.0, 0.3);
+    s.number("ripple_wander_s", p.ripple_wander_s, 1.0, 1e6);
     s.done();
 }
 
@@ -166,6 +202,9 @@ void read_vibration(Section s, VibrationParameters& p) {
     s.number("ground_mgal", p.ground_mgal, 0.0, 1e5);
     s.number("ground_low_hz", p.ground_low_hz, 0.1, 20.0);
     s.number("ground_high_hz", p.ground_high_hz, 0.1, 20.0);
+    if (p.ground_low_hz >= p.ground_high_hz) {
+        s.refuse("ground_high_hz", "not above ground_low_hz", "a higher frequency");
+    }
     s.number("vehicles_per_h", p.vehicles_per_h, 0.0, 60.0);
     s.range("vehicle_s", p.vehicle_s, 0.1, 60.0);
     s.range("vehicle_hz", p.vehicle_hz, 0.1, 20.0);
@@ -176,7 +215,10 @@ void read_vibration(Section s, VibrationParameters& p) {
     s.range("handling_gal", p.handling_gal, 0.0, 1000.0);
     s.number("knock_probability", p.knock_probability, 0.0, 1.0);
     s.range("knock_s", p.knock_s, 0.1, 60.0);
+    s.range("knock_hz", p.knock_hz, 0.1, 20.0);
     s.range("knock_gal", p.knock_gal, 0.0, 1000.0);
+    s.range("knock_position", p.knock_position, 0.0, 1.0);
+    s.range("axis_share", p.axis_share, 0.0, 1.0);
     s.number("spike_probability", p.spike_probability, 0.0, 1.0);
     s.range("spike_gal", p.spike_gal, 0.0, 1000.0);
     s.done();
@@ -220,8 +262,7 @@ Scenario parse_scenario(std::string toml, const std::filesystem::path& origin) {
         if (found == nullptr) document.refuse("base", "no such scenario", name_list());
         scenario = parse_scenario(std::string(found->toml), base + ".toml");
     }
-    scenario.name = document.string_or("name", "");
-    if (scenario.name.empty()) document.refuse("name", "missing", "a name");
+    scenario.name = required_name(document);
     const auto section = [&](std::string_view name) {
         return Section(document, name, !base.empty());
     };
@@ -238,8 +279,9 @@ Scenario parse_scenario(std::string toml, const std::filesystem::path& origin) {
     read_cool_box(section("cool_box"), scenario.cool_box);
     read_oven(section("oven"), scenario.oven);
     read_error(section("temperature_error"), scenario.error, scenario.unit_scatter);
-    read_sensor(section("sensor"), scenario.sensor);
+    read_sensor(section("sensor"), scenario.sensor, scenario.oven.run_in_h);
     read_clock(Section(document, "clock", true), scenario.clock);
+    read_tide(section("tide"), scenario.tide);
     read_slow_noise(section("slow_noise"), scenario.slow_noise);
     read_vibration(section("vibration"), scenario.vibration);
     read_line(Section(document, "line", true), scenario.line);

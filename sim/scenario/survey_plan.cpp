@@ -15,13 +15,21 @@ namespace {
 
 using text::shortest;
 
-/// The box has to be carried at least this long; only a scenario with very close times needs it.
-constexpr double kShortestDriveSeconds = 60.0;
+/// What a stay may be moved beyond its jitter to make room for the one before and the drive.
+constexpr double kMostMovedSeconds = 60.0;
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 UtcTime whole_milliseconds(UtcTime time) {
     return std::chrono::floor<std::chrono::milliseconds>(time);
+}
+
+[[noreturn]] void refuse(const Scenario& scenario, const ListedOccupation& listed,
+                         const char* trouble) {
+    std::string line = "scenario ";
+    line += scenario.name + ": occupation of " + listed.site;
+    line += " (" + std::to_string(listed.number) + "): ";
+    throw InputError(line + trouble);
 }
 
 struct Interval {
@@ -40,22 +48,28 @@ std::vector<Interval> draw_intervals(const Scenario& scenario, std::uint64_t see
                                          listed_s + stream.uniform(-p.jitter_s, p.jitter_s));
         Interval interval{scenario.start(), {}, {}};
         interval.start = listed.centre + from_seconds(shift_s - 0.5 * length_s);
+        const UtcTime drawn = interval.start;
         if (intervals.empty()) {
             interval.start = std::max(interval.start, scenario.start());
         } else {
             const UtcTime left = intervals.back().end;
-            interval.start = std::max(interval.start, left + from_seconds(kShortestDriveSeconds));
+            interval.start = std::max(interval.start, left + from_seconds(p.shortest_drive_s));
             interval.from = left + (interval.start - left) / 2;
+        }
+        if (seconds_between(drawn, interval.start) > p.jitter_s + kMostMovedSeconds) {
+            refuse(scenario, listed,
+                   "the one before is not over in time; allowed: occupations further apart, or "
+                   "shorter");
         }
         interval.start = whole_milliseconds(interval.start);
         interval.end = std::min(whole_milliseconds(interval.start + from_seconds(length_s)),
                                 whole_milliseconds(scenario.end()));
         if (seconds_between(interval.start, interval.end) <
             0.5 * std::min(p.shortest_s, listed_s)) {
-            throw InputError("scenario " + scenario.name + ": occupation of " + listed.site + " (" +
-                             std::to_string(listed.number) +
-                             "): no room before the record ends; allowed: occupations further "
-                             "apart, or a larger schedule.lead_out_min");
+            refuse(
+                scenario, listed,
+                "no room before the record ends; allowed: occupations further apart, or a larger "
+                "schedule.lead_out_min");
         }
         intervals.push_back(interval);
     }

@@ -13,15 +13,15 @@ constexpr double kMilliGalPerGal = 1000.0;
 
 double draw(RandomStream& stream, Range range) { return stream.uniform(range.low, range.high); }
 
-/// Length and strength are drawn once; frequency, phase and 0.5 to 1 of the strength per axis.
+/// Length and strength are drawn once; frequency, phase and share of the strength per axis.
 Burst draw_burst(RandomStream& stream, Burst::Envelope envelope, Range length_s, Range hz,
-                 Range peak_gal) {
+                 Range peak_gal, Range axis_share) {
     Burst burst;
     burst.envelope = envelope;
     burst.length_s = draw(stream, length_s);
     const double peak_mgal = kMilliGalPerGal * draw(stream, peak_gal);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        burst.peak_mgal[axis] = peak_mgal * stream.uniform(0.5, 1.0);
+        burst.peak_mgal[axis] = peak_mgal * draw(stream, axis_share);
         burst.frequency_hz[axis] = draw(stream, hz);
         burst.phase_rad[axis] = stream.uniform(0.0, 2.0 * std::numbers::pi);
     }
@@ -56,7 +56,7 @@ std::vector<Burst> draw_bursts(const Scenario& scenario, const std::vector<Plann
         for (double t = mean_wait_s * vehicles.exponential(); t < record_s;
              t += mean_wait_s * vehicles.exponential()) {
             Burst burst = draw_burst(vehicles, Burst::Envelope::swell, p.vehicle_s, p.vehicle_hz,
-                                     p.vehicle_gal);
+                                     p.vehicle_gal, p.axis_share);
             burst.start_s = t;
             bursts.push_back(burst);
         }
@@ -70,20 +70,20 @@ std::vector<Burst> draw_bursts(const Scenario& scenario, const std::vector<Plann
         const double end_s = seconds_between(scenario.start(), set_up.end);
         if (handling.uniform() < p.handling_probability) {
             Burst burst = draw_burst(handling, Burst::Envelope::decay, p.handling_s, p.handling_hz,
-                                     p.handling_gal);
+                                     p.handling_gal, p.axis_share);
             burst.start_s = start_s;
             bursts.push_back(burst);
         }
         if (handling.uniform() < p.handling_probability) {
             Burst burst = draw_burst(handling, Burst::Envelope::growth, p.handling_s, p.handling_hz,
-                                     p.handling_gal);
+                                     p.handling_gal, p.axis_share);
             burst.start_s = end_s - burst.length_s;
             bursts.push_back(burst);
         }
         if (knocks.uniform() < p.knock_probability / set_up.parts) {
-            Burst burst =
-                draw_burst(knocks, Burst::Envelope::decay, p.knock_s, p.handling_hz, p.knock_gal);
-            burst.start_s = start_s + (end_s - start_s) * knocks.uniform(0.25, 0.75);
+            Burst burst = draw_burst(knocks, Burst::Envelope::decay, p.knock_s, p.knock_hz,
+                                     p.knock_gal, p.axis_share);
+            burst.start_s = start_s + (end_s - start_s) * draw(knocks, p.knock_position);
             bursts.push_back(burst);
         }
     }

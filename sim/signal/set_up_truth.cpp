@@ -7,6 +7,7 @@
 #include "protocol/text/csv.hpp"
 #include "sim/signal/disturbance.hpp"
 #include "sim/signal/signal_source.hpp"
+#include "sim/signal/true_time.hpp"
 
 namespace a351::sim {
 namespace {
@@ -65,8 +66,12 @@ void add_vector_terms(const Scenario& scenario, const PlannedSetUp& set_up, cons
     const Vector vertical = tilted_vertical(set_up);
     double force_mgal = set_up.site.gravity->value();
     for (const double term : truth.terms_mgal) force_mgal += term;
-    Vector total_mgal{};
-    for (std::size_t i = 0; i < 3; ++i) total_mgal[i] = vertical[i] * force_mgal + bias_mgal[i];
+    const double along_vertical_mgal = set_up.site.gravity->value() +
+                                       truth.terms_mgal[static_cast<std::size_t>(Term::tide)] +
+                                       truth.terms_mgal[static_cast<std::size_t>(Term::ripple)];
+    Vector total_mgal = bias_mgal;
+    for (std::size_t i = 0; i < 3; ++i) total_mgal[i] += vertical[i] * along_vertical_mgal;
+    total_mgal[2] += force_mgal - along_vertical_mgal;
     truth.tilt_mgal = std::sqrt(dot(total_mgal, total_mgal)) - force_mgal;
 
     constexpr double kRate = SignalSource::kRateHz;
@@ -116,14 +121,18 @@ std::string truth_csv(const Scenario& scenario, const std::vector<PlannedSetUp>&
     for (const char* column : kTermColumns) csv += std::string(",") + column;
     csv += ",tilt_mgal,burst_mgal,rectification_mgal\n";
     const std::vector<SetUpTruth> truth = set_up_truth(scenario, plan, seed);
+    const std::vector<PlannedSetUp> rows = by_true_time(scenario, plan, seed);
     for (std::size_t i = 0; i < truth.size(); ++i) {
-        const PlannedSetUp& set_up = plan[i];
+        const PlannedSetUp& set_up = rows[i];
         const SetUpTruth& mean = truth[i];
         csv += set_up.site.name + "," + std::to_string(set_up.number) + "," +
                to_rfc3339(set_up.start, 3) + "," + to_rfc3339(set_up.end, 3) + "," +
                shortest(set_up.site.gravity->value()) + (set_up.is_outlier ? ",0," : ",1,") +
                std::to_string(set_up.part);
-        const auto cell = [&csv](double value) { csv += "," + shortest(rounded(value)); };
+        const auto cell = [&csv](double value) {
+            csv += ',';
+            csv += shortest(rounded(value));
+        };
         cell(mean.ambient_degc);
         cell(mean.temperature_degc);
         cell(set_up.about_y_rad * kDegreesPerRadian);

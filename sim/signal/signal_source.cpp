@@ -2,16 +2,18 @@
 
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace a351::sim {
-namespace {
 
-std::int32_t rounded(double counts) noexcept {
-    return static_cast<std::int32_t>(std::floor(counts + 0.5));
+std::int32_t to_counts(double counts) noexcept {
+    using Limits = std::numeric_limits<std::int32_t>;
+    const double whole = std::floor(counts + 0.5);
+    if (whole >= static_cast<double>(Limits::max())) return Limits::max();
+    if (whole > static_cast<double>(Limits::min())) return static_cast<std::int32_t>(whole);
+    return Limits::min();
 }
-
-}  // namespace
 
 std::array<double, 3> tilted_vertical(const PlannedSetUp& set_up) {
     const double y = set_up.about_y_rad, x = set_up.about_x_rad;
@@ -103,20 +105,22 @@ TimedSample SignalSource::next() {
     const double share = share_of_second();
     const double vertical_mgal =
         from_.vertical.value() + share * (to_.vertical - from_.vertical).value();
+    const double z_mgal = from_.along_z.value() + share * (to_.along_z - from_.along_z).value();
     std::array<double, 3> axes_mgal = vertical_[from_.set_up];
-    for (double& axis : axes_mgal) axis *= vertical_mgal;
+    for (double& axis : axes_mgal) axis *= vertical_mgal - z_mgal;
+    axes_mgal[2] += z_mgal;
     disturbances_.add_to(axes_mgal, static_cast<double>(index_) / kRateHz);
     add_noise(axes_mgal);
 
     const double counts_per_mgal =
         std::ldexp(1.0, profile_.acceleration_fraction_bits) / kMilliGalPerStandardGravity;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        sample.values.axes_counts[axis] = rounded(axes_mgal[axis] * counts_per_mgal);
+        sample.values.axes_counts[axis] = to_counts(axes_mgal[axis] * counts_per_mgal);
     }
     const double temperature_degc = from_.temperature.value() +
                                     share * (to_.temperature - from_.temperature).value() +
                                     scenario_.sensor.temperature_white_degc * temperature_.normal();
-    sample.values.temperature_counts = rounded(
+    sample.values.temperature_counts = to_counts(
         (temperature_degc - profile_.temperature_offset_degc) / profile_.temperature_slope_degc);
     if (++index_ % kRateHz == 0) {
         from_ = to_;

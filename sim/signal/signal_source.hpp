@@ -20,8 +20,11 @@ namespace a351::sim {
 /// The vertical as the axes see it, after turning about y by one angle and then about x.
 [[nodiscard]] std::array<double, 3> tilted_vertical(const PlannedSetUp& set_up);
 
-/// Of x and y, fixed for a unit; that of the vertical is a Term.
+/// Of x and y, fixed for a unit; that of z is a Term.
 [[nodiscard]] std::array<double, 3> axis_bias_mgal(const Scenario& scenario, std::uint64_t seed);
+
+/// The nearest count; at the ends of the range, which no count is beyond, and the lowest for NaN.
+[[nodiscard]] std::int32_t to_counts(double counts) noexcept;
 
 /// Noise between two frequencies: white noise through a first-order high-pass and low-pass.
 class BandNoise {
@@ -40,8 +43,10 @@ private:
 /// The samples of a simulated day, 50 a second by the sensor's clock: sample k depends on
 /// (scenario, profile, seed, k) only, and with a true clock belongs to scenario start + k/50 s.
 ///
-/// The vertical specific force is turned into the axes by the levelling angles of the set-up,
-/// then come axis biases, ground noise, bursts, spikes, white noise and rounding to counts.
+/// Gravity, tide and ripple are a force along the vertical, turned into the axes by the levelling
+/// angles of the set-up.  The rest of what the vertical reads arises within the sensor - bias,
+/// temperature error, slow noise, drift - and stays on axis z however the box stands.  Then come
+/// the biases of x and y, ground noise, bursts, spikes, white noise and rounding to counts.
 class SignalSource final : public SampleSource {
 public:
     static constexpr int kRateHz = 50;

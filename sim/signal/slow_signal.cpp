@@ -8,18 +8,13 @@
 namespace a351::sim {
 namespace {
 
-/// Time over which the period of the ripple wanders: some ten of its periods.
-constexpr double kWanderSeconds = 600.0;
-
 /// White noise is given as the rms of 20 s means, the sampling of the published record.
 constexpr double kWhiteMeanSeconds = 20.0;
 
-/// The oven has been running for hours when the record starts: its cycle is established after two.
-constexpr int kRunInSteps = 7200;
-
 ThermalPlant running_plant(const OvenParameters& oven, DegC ambient) {
     ThermalPlant plant(oven, ambient);
-    for (int i = 0; i < kRunInSteps; ++i) plant.step(ambient);
+    const auto steps = std::llround(3600.0 * oven.run_in_h / ThermalPlant::kStepSeconds);
+    for (long long i = 0; i < steps; ++i) plant.step(ambient);
     return plant;
 }
 
@@ -53,7 +48,7 @@ double SlowSignal::drift_mgal(double elapsed_h) {
 
 double SlowSignal::ripple_mgal() {
     const SlowNoiseParameters& p = scenario_.slow_noise;
-    const double keep = std::exp(-kStepSeconds / kWanderSeconds);
+    const double keep = std::exp(-kStepSeconds / p.ripple_wander_s);
     wander_value_ = keep * wander_value_ + std::sqrt(1.0 - keep * keep) * wander_.normal();
     ripple_phase_rad_ += 2.0 * std::numbers::pi * kStepSeconds /
                          (p.ripple_period_s * std::exp(p.ripple_wander * wander_value_));
@@ -79,7 +74,8 @@ SlowValue SlowSignal::next() {
         return value.terms_mgal[static_cast<std::size_t>(t)];
     };
     const text::Site& site = set_up.site;
-    const MilliGal tide = earth_tide(site.latitude, site.longitude, site.altitude, now);
+    const MilliGal tide = earth_tide(site.latitude, site.longitude, site.altitude, now,
+                                     scenario_.tide.gravimetric_factor);
     const MilliGal temperature_error = error_.next(plant_.body(), since_power_on_s);
     const double white_gain = std::sqrt(kWhiteMeanSeconds / kStepSeconds);
     term(Term::tide) = tide.value();
@@ -94,6 +90,9 @@ SlowValue SlowSignal::next() {
     term(Term::white) = scenario_.slow_noise.white_mgal * white_gain * white_.normal();
     term(Term::drift) = drift_mgal(elapsed_s / 3600.0);
     term(Term::ripple) = ripple_mgal();
+    value.along_z = MilliGal(scenario_.sensor.bias_mgal) + temperature_error +
+                    MilliGal(term(Term::placement) + term(Term::flicker) + term(Term::resonant) +
+                             term(Term::white) + term(Term::drift));
     value.vertical = *site.gravity + tide + MilliGal(scenario_.sensor.bias_mgal) +
                      temperature_error +
                      MilliGal(term(Term::placement) + term(Term::flicker) + term(Term::resonant) +

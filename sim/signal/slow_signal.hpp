@@ -33,9 +33,10 @@ inline constexpr std::size_t kTermCount = 12;
 
 /// What changes slowly, at one instant.
 struct SlowValue {
-    MilliGal vertical;       ///< Specific force along the vertical as read: gravity and all terms.
-    DegC temperature;        ///< As the sensor reports it, without its white noise of samples.
-    DegC ambient;            ///< Air inside the cool box.
+    MilliGal vertical;  ///< Specific force along the vertical as read: gravity and all terms.
+    MilliGal along_z;   ///< Of it, what is the sensor's own: everything but gravity, tide, ripple.
+    DegC temperature;   ///< As the sensor reports it, without its white noise of samples.
+    DegC ambient;       ///< Air inside the cool box.
     std::size_t set_up = 0;  ///< Index in the plan: the one that is, was or comes next.
     std::array<double, kTermCount> terms_mgal{};  ///< By Term.
 };

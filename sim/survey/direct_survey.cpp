@@ -1,7 +1,10 @@
 #include "sim/survey/direct_survey.hpp"
 
-#include <optional>
+#include <array>
+#include <cinttypes>
+#include <cstdio>
 #include <span>
+#include <system_error>
 #include <utility>
 
 #include "protocol/core/input_error.hpp"
@@ -15,6 +18,7 @@
 #include "sim/noise/random.hpp"
 #include "sim/scenario/survey_plan.hpp"
 #include "sim/signal/signal_source.hpp"
+#include "sim/signal/true_time.hpp"
 #include "sim/survey/plan_files.hpp"
 #include "sim/truth/truth_file.hpp"
 
@@ -29,7 +33,6 @@ constexpr int kBaud = 460800;
 
 /// Of the imagined host, which was started an hour before the record.
 constexpr Nanoseconds kHostUptime = 1h;
-constexpr std::string_view kBootId = "00000000-0000-4000-8000-000000000351";
 
 /// NTP over a good network keeps a host within this.
 constexpr std::int64_t kHostClockErrorUs = 100;
@@ -48,14 +51,26 @@ timing::ClockReading clock_at(const Scenario& scenario, UtcTime utc) {
     return reading;
 }
 
+/// Of the kernel that the imagined host runs.
+std::string boot_id(RandomStream& stream) {
+    std::array<char, sizeof "00000000-0000-4000-8000-000000000000"> text{};
+    std::snprintf(text.data(), text.size(), "00000000-0000-4000-8000-%012" PRIx64,
+                  stream.bits() >> 16U);
+    return text.data();
+}
+
 record::JournalHeader journal_header(const Scenario& scenario, const wire::DeviceProfile& profile,
                                      const MachineIdentity& identity, std::uint64_t seed) {
     record::JournalHeader header;
-    RandomStream session(seed, "session");
+    // Days of one seed are sessions of their own, recorded by hosts of their own.
+    std::string day = "session of " + scenario.name;
+    day += " at " + to_rfc3339(scenario.start(), 3);
+    day += " by " + std::string(profile.name);
+    RandomStream session(seed, day);
     for (std::uint8_t& byte : header.session.bytes) {
         byte = static_cast<std::uint8_t>(session.bits() >> 56U);
     }
-    header.boot_id = kBootId;
+    header.boot_id = boot_id(session);
     header.program_version = A351_VERSION;
     header.profile = profile.name;
     header.product_id = identity.product_id;
@@ -105,30 +120,32 @@ void write_station_xml(const Scenario& scenario, const wire::DeviceProfile& prof
     write_text_file(root / "metadata" / "station.xml", record::to_station_xml(station));
 }
 
-/// Start, further set-ups and stop of every occupation, at the first sample at or after the instant.
-void write_events(const std::vector<PlannedSetUp>& plan, const record::SessionId& session,
-                  UtcTime first_sample, const fs::path& root) {
-    const auto append = [&](std::string type, const PlannedSetUp& set_up, UtcTime utc) {
+/// Start, further set-ups and stop of every occupation.
+std::vector<record::Event> planned_events(const std::vector<PlannedSetUp>& plan,
+                                          const record::SessionId& session) {
+    std::vector<record::Event> events;
+    const auto add = [&](std::string type, const PlannedSetUp& set_up, UtcTime utc) {
         record::Event event;
         event.type = std::move(type);
         event.session = session;
-        const Nanoseconds spacing = Nanoseconds(1s) / SignalSource::kRateHz;
-        event.index = (utc - first_sample + spacing - Nanoseconds(1)) / spacing;
-        event.utc = first_sample + *event.index * spacing;
+        event.utc = utc;
         event.details = {{"site", set_up.site.name}};
-        record::append_event(record::posix_files(), root / "events", event);
+        events.push_back(std::move(event));
     };
     for (const PlannedSetUp& set_up : plan) {
         if (!set_up.is_occupied) continue;
-        append(set_up.part == 1 ? "start" : "setup", set_up, set_up.start);
-        if (set_up.part == set_up.parts) append("stop", set_up, set_up.end);
+        add(set_up.part == 1 ? "start" : "setup", set_up, set_up.start);
+        if (set_up.part == set_up.parts) add("stop", set_up, set_up.end);
     }
+    return events;
 }
 
-/// The daemon's end of a line without delay: frames are gathered until a chunk is taken.
+/// The daemon's end of a line without delay: frames are gathered until a chunk is taken.  Each of
+/// the events, in time order, is put on the first sample at or after it.
 class Collected final : public LineSink {
 public:
-    Collected(TruthWriter& truth, const Scenario& scenario) : truth_(truth), scenario_(scenario) {}
+    Collected(TruthWriter& truth, const Scenario& scenario, std::vector<record::Event> events)
+        : truth_(truth), scenario_(scenario), events_(std::move(events)) {}
 
     void send(std::span<const std::byte> bytes, UtcTime leaves, const TruthRecord* frame) override {
         chunk_.bytes.insert(chunk_.bytes.end(), bytes.begin(), bytes.end());
@@ -136,7 +153,11 @@ public:
             {static_cast<std::uint32_t>(chunk_.bytes.size()), raw_at(scenario_, leaves)});
         if (frame == nullptr) return;
         truth_.append(*frame);
-        if (!first_sample_) first_sample_ = frame->utc;
+        for (; next_event_ < events_.size() && events_[next_event_].utc <= frame->utc;
+             ++next_event_) {
+            events_[next_event_].index = frames_;
+            events_[next_event_].utc = frame->utc;
+        }
         ++frames_;
     }
 
@@ -145,57 +166,73 @@ public:
     [[nodiscard]] bool is_empty() const noexcept { return chunk_.bytes.empty(); }
     [[nodiscard]] record::RxChunk take() { return std::exchange(chunk_, record::RxChunk{}); }
 
-    [[nodiscard]] std::optional<UtcTime> first_sample() const noexcept { return first_sample_; }
+    [[nodiscard]] const std::vector<record::Event>& events() const noexcept { return events_; }
     [[nodiscard]] std::int64_t frames() const noexcept { return frames_; }
 
 private:
     TruthWriter& truth_;
     const Scenario& scenario_;
     record::RxChunk chunk_;
-    std::optional<UtcTime> first_sample_;
+    std::vector<record::Event> events_;
+    std::size_t next_event_ = 0;
     std::int64_t frames_ = 0;
 };
 
-void write_survey_file(const Scenario& scenario, const fs::path& root) {
-    write_text_file(
-        root / "survey.toml",
-        "# Simulated day; true gravity: truth.csv.  occupations = \"\" takes the event log,\n"
-        "# which has the same times.\n"
-        "[survey]\n"
-        "name = \"" +
-            scenario.name +
-            "\"\n"
-            "root = \".\"\n"
-            "sites = \"sites.csv\"\n"
-            "occupations = \"schedule.csv\"\n"
-            "base = \"" +
-            scenario.sites.front().name +
-            "\"\n"
-            "model = \"auto\"\n"
-            "flags = \"ignore\"\n");
+/// Where a day is written before it is whole: where it is left, the day was cut short.
+class PartialRoot {
+public:
+    static constexpr const char* kName = "partial";
+
+    explicit PartialRoot(const fs::path& root) : root_(root), path_(root / kName) {
+        fs::create_directories(path_);
+    }
+    ~PartialRoot() {
+        std::error_code ignored;
+        if (!is_moving_) fs::remove_all(path_, ignored);
+    }
+    PartialRoot(const PartialRoot&) = delete;
+    PartialRoot& operator=(const PartialRoot&) = delete;
+
+    [[nodiscard]] const fs::path& path() const noexcept { return path_; }
+
+    /// Moves the whole day to its root.
+    void publish() {
+        is_moving_ = true;  // What is not moved then stays, and tells.
+        const std::vector<fs::path> entries(fs::directory_iterator(path_), {});
+        for (const fs::path& entry : entries) fs::rename(entry, root_ / entry.filename());
+        fs::remove(path_);
+    }
+
+private:
+    fs::path root_, path_;
+    bool is_moving_ = false;
+};
+
+void require_no_day(const fs::path& root) {
+    for (const char* name : {"journal", "archive", "events", "metadata", "truth.bin", "sites.csv",
+                             "schedule.csv", "truth.csv", "survey.toml", PartialRoot::kName}) {
+        if (fs::exists(root / name)) {
+            throw InputError("--out " + root.string() + ": already holds " + name +
+                             "; allowed: a directory without a day");
+        }
+    }
 }
 
-}  // namespace
-
-DirectSurvey write_survey(const Scenario& scenario, const wire::DeviceProfile& profile,
-                          std::uint64_t seed, const fs::path& root) {
-    if (fs::exists(root / "journal")) {
-        throw InputError("--out " + root.string() +
-                         ": already holds a journal; allowed: a directory without one");
-    }
-    SignalSource source(scenario, profile, seed);
-    fs::create_directories(root);
+DirectSurvey write_day(const Scenario& scenario, const wire::DeviceProfile& profile,
+                       std::uint64_t seed, SignalSource& source, const fs::path& root) {
     MachineIdentity identity;
     identity.product_id = product_id_of(profile);
     RegisterMachine machine(profile, identity, Nanoseconds(0));
     start_logging(machine, RegisterMachine::kPowerOnTime);
 
+    const record::JournalHeader header = journal_header(scenario, profile, identity, seed);
     TruthWriter truth(root / "truth.bin");
-    Collected collected(truth, scenario);
+    Collected collected(
+        truth, scenario,
+        planned_events(by_true_time(scenario, source.plan(), seed), header.session));
     DeviceStream stream(source, machine);
 
     record::FileLayer& files = record::posix_files();
-    const record::JournalHeader header = journal_header(scenario, profile, identity, seed);
     record::JournalWriter journal(files, root / "journal");
     record::ArchiveWriter archive(files, root / "archive", header.codes);
     record::Archiver archiver(archive);
@@ -218,9 +255,23 @@ DirectSurvey write_survey(const Scenario& scenario, const wire::DeviceProfile& p
 
     write_plan(scenario, seed, root);
     write_station_xml(scenario, profile, header, root);
-    write_events(source.plan(), header.session, *collected.first_sample(), root);
-    if (!scenario.fixed_record) write_survey_file(scenario, root);
+    for (const record::Event& event : collected.events()) {
+        record::append_event(files, root / "events", event);
+    }
+    if (has_two_sites(scenario)) write_survey_file(scenario, root);
     return {collected.frames(), static_cast<std::int64_t>(archive.records_written())};
+}
+
+}  // namespace
+
+DirectSurvey write_survey(const Scenario& scenario, const wire::DeviceProfile& profile,
+                          std::uint64_t seed, const fs::path& root) {
+    require_no_day(root);
+    SignalSource source(scenario, profile, seed);
+    PartialRoot partial(root);
+    const DirectSurvey survey = write_day(scenario, profile, seed, source, partial.path());
+    partial.publish();
+    return survey;
 }
 
 }  // namespace a351::sim

@@ -16,11 +16,13 @@ struct DirectSurvey {
 
 /// Writes a simulated day to a data root as the daemon would have: journal, archive, metadata,
 /// events; beside them sites.csv, schedule.csv, survey.toml and the truth (truth.csv, truth.bin).
-/// The frames arrive without any delay beyond the device's own.  A record without occupations has no
-/// survey.toml.
+/// The frames arrive without any delay beyond the device's own.  Without occupations at two sites
+/// there is nothing to survey, and no survey.toml.
 ///
-/// @throws InputError         `root` already holds a journal; the occupations do not fit into the
-///                            record.
+/// The day is written to `partial` in `root` and moved up when it is whole; a failure removes it.
+///
+/// @throws InputError         `root` already holds a file or directory of a day, or `partial` of
+///                            one that was killed; the occupations do not fit into the record.
 /// @throws std::system_error  a file cannot be written.
 DirectSurvey write_survey(const Scenario& scenario, const wire::DeviceProfile& profile,
                           std::uint64_t seed, const std::filesystem::path& root);

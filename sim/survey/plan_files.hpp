@@ -14,4 +14,12 @@ namespace a351::sim {
 void write_plan(const Scenario& scenario, std::uint64_t seed,
                 const std::filesystem::path& directory);
 
+/// Whether occupations were made at two sites or more: at one, gravity does not change, and a model
+/// fitted to it would mean nothing.
+[[nodiscard]] bool has_two_sites(const Scenario& scenario);
+
+/// Writes survey.toml, which has a day corrected by the tables of write_plan().
+/// @throws std::system_error  the file cannot be written.
+void write_survey_file(const Scenario& scenario, const std::filesystem::path& directory);
+
 }  // namespace a351::sim

@@ -39,8 +39,21 @@ Integer take(const char*& at) {
 
 }  // namespace
 
+void TruthWriter::require_own(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return;
+    std::ifstream in(file, std::ios::binary);
+    std::array<char, kMagic.size()> begin{};
+    in.read(begin.data(), begin.size());
+    const std::string_view found(begin.data(), static_cast<std::size_t>(in.gcount()));
+    if (!found.empty() && found != kMagic) {
+        throw InputError(file.string() +
+                         ": exists and is no truth file; allowed: a new path, or a truth file");
+    }
+}
+
 TruthWriter::TruthWriter(std::filesystem::path file)
-    : path_(std::move(file)), out_(path_, std::ios::binary | std::ios::trunc) {
+    : path_((require_own(file), std::move(file))), out_(path_, std::ios::binary | std::ios::trunc) {
     std::array<char, kHeaderSize> header{};
     std::memcpy(header.data(), kMagic.data(), kMagic.size());
     char* at = header.data() + kMagic.size();

@@ -31,6 +31,11 @@ struct TruthRecord {
 
 class TruthWriter {
 public:
+    /// A file that is there may be replaced: it is empty or a truth file.  None may be there.
+    /// @throws InputError  it is something else.
+    static void require_own(const std::filesystem::path& file);
+
+    /// @throws InputError         as require_own.
     /// @throws std::system_error  the file cannot be written; so does every other member.
     explicit TruthWriter(std::filesystem::path file);
 

@@ -146,7 +146,7 @@ std::vector<Figure> indoor_figures(int seeds) {
         {"band slope, sign turned, 280 s earlier [mGal/degC]", "256.89", 200.0, 310.0, {}},
         {"band R2", "0.464", 0.35, 0.65, {}},
         {"delay of the negative peak [s]", "240-280", 220.0, 300.0, {}},
-        {"delay of the positive peak [s]", "other side", -450.0, 0.0, {}},
+        {"delay of the positive peak [s]", "other side", -260.0, -120.0, {}},
         {"positive peak by negative peak", "about 1", 0.9, 1.1, {}},
     };
     for (int seed = 1; seed <= seeds; ++seed) {

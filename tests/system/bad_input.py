@@ -86,7 +86,7 @@ with Scratch() as scratch:
             ("no room at the end", head + "[schedule]\nlead_out_min = 1\n", ["day.toml:4", "lead_out_min"]),
             ("no room between", head + "".join(f"[[occupation]]\nsite = \"No.1\"\nnumber = {n}\ncentre_utc = "
                                                f"\"2017-07-16T00:0{n}:00Z\"\nambient_degc = 25\n" for n in range(1, 7)),
-             ["scenario x", "No.1", "lead_out_min"])):
+             ["scenario x", "No.1", "further apart"])):
         day.write_text(text)
         for command in ("plan", "survey"):
             refuse(f"scenario for {command}: {title}", scratch, parts, BIN / "a351-sim", command, "--scenario",
@@ -99,6 +99,25 @@ with Scratch() as scratch:
     refuse("link in place of a foreign link", scratch, ["foreign", "/nonexistent"], *device, "foreign")
     refuse("control socket in place of a file", scratch, ["taken", "no socket"], *device, "sensor",
            "--control", "taken")
+    (scratch / "loop").symlink_to("loop")
+    long = "x" * 300
+    refuse("empty link", scratch, ["empty path", "allowed"], *device, "")
+    refuse("link of 300 characters", scratch, ["too long", "allowed"], *device, long)
+    refuse("link below a symlink loop", scratch, ["loop/sensor", "no directory"], *device, "loop/sensor")
+    refuse("link in place of a symlink loop", scratch, ["loop", "allowed"], *device, "loop")
+    refuse("link where none can be made", scratch, ["/proc/sensor", "allowed"], *device, "/proc/sensor")
+    for option in ("--truth", "--report", "--state"):
+        for title, file in (("no directory", "absent/file"), ("a directory", "."), ("a symlink loop", "loop"),
+                            ("a name of 300 characters", long), ("a directory without files", "/proc/file")):
+            refuse(f"{option} in {title}", scratch, [file, "allowed"], *device, "sensor", option, file)
+    for option in ("--control", "--oven-link"):
+        for title, file in (("no directory", "absent/file"), ("a symlink loop", "loop/file"),
+                            ("a name of 300 characters", long), ("a directory without files", "/proc/file")):
+            refuse(f"{option} in {title}", scratch, [file, "allowed"], *device, "sensor", option, file,
+                   "--truth", "truth.bin")
+    refuse("truth in place of a foreign file", scratch, ["taken", "no truth file"], *device, "sensor", "--truth",
+           "taken")
+    demand("the foreign file is what it was", (scratch / "taken").read_text() == "somebody's")
     refuse("missing fault script", scratch, ["absent.toml"], *device, "sensor", "--faults", "absent.toml")
     (scratch / "flash.toml").write_text("format = 1\n[registers]\nSIG_CTRL = 0x1FFFF\n")
     refuse("impossible flash memory", scratch, ["flash.toml:3", "registers.SIG_CTRL", "65535"], *device,

@@ -2,6 +2,7 @@
 
 import datetime
 import json
+import os
 import random
 import signal
 import socket
@@ -14,28 +15,70 @@ from programs import BIN, Scratch, compare_truth, daemon_config, demand, read_js
 SPEED = 20
 INTACT, DAMAGED, LOST, REPEATED, MISPLACED = range(5)
 
-# Every fault that leaves the session as it is; the places of damage are drawn from the seed.
+FRAME = 24
+
+# What the daemon counts of each fault of single frames; of what is not named here, nothing.  A flipped bit or a byte
+# too many may hit a marker or not: then only the bytes and the gap are certain, and how often the decoder starts anew
+# is not.
+GAP_OF_3 = {"gaps": 1, "samples_missing": 3}
+BY_CHANCE = ("checksum_errors", "framing_errors")
+ROWS = [
+    ("flip_bit count=3", {"bytes_skipped": 3 * FRAME, **GAP_OF_3}, BY_CHANCE),
+    ("flip_bit count=3 bits=16", {"bytes_skipped": 3 * FRAME, **GAP_OF_3}, BY_CHANCE),
+    ("bad_checksum count=3", {"checksum_errors": 3, "bytes_skipped": 3 * FRAME, **GAP_OF_3}, ()),
+    ("drop_bytes count=3 bytes=7", {"bytes_skipped": 3 * (FRAME - 7), **GAP_OF_3}, BY_CHANCE),
+    ("insert_bytes count=3 bytes=2", {"bytes_skipped": 3 * (FRAME + 2), **GAP_OF_3}, BY_CHANCE),
+    ("garbage bytes=10000", {"bytes_skipped": 10000}, BY_CHANCE),
+    ("truncate_frame count=3", {"bytes_skipped": "what is left of them", **GAP_OF_3}, BY_CHANCE),
+    ("lose_frames count=3", GAP_OF_3, ()),
+    ("duplicate_frame count=3", {"duplicates": 3}, ()),
+    ("reorder_frames count=3", {"anomalies": 3, "gaps": 3, "samples_missing": 3}, ()),
+    ("counter_stuck count=3", {"duplicates": 3, **GAP_OF_3}, ()),
+    ("error_flags count=3 diag_stat=32", {"error_flags": 3}, ()),
+    ("stall seconds=3", {}, ()),
+    ("silence seconds=4", {"gaps": 1, "samples_missing": "as many as were silent"}, ()),
+]
+
+# The counter says that samples are missing, or that it is another one: times shift, or begin anew.
+COUNTER_ROWS = [
+    ("counter_jump count=10", {"gaps": 1, "samples_missing": 10}, ()),
+    ("counter_jump ticks=7", {"anomalies": 1, "sessions": 1}, ()),
+    ("counter_reset", {"anomalies": 1, "sessions": 1}, ()),
+]
+WATCHED = ("bytes_skipped", "checksum_errors", "framing_errors", "gaps", "samples_missing", "duplicates",
+           "anomalies", "error_flags", "sessions")
+
+# All at once and at random.
 WITHIN_A_SESSION = """
 [random]
 seed = 5
 flip_bit_per_h = 120
 drop_bytes_per_h = 60
 duplicate_frame_per_h = 60
-""" + "".join(f'[[fault]]\nat_s = {at}\nkind = "{kind}"\n{keys}\n' for at, kind, keys in [
-    (40, "flip_bit", "count = 5\nbits = 3"),
-    (45, "bad_checksum", "count = 2"),
-    (50, "drop_bytes", "count = 3\nbytes = 7"),
-    (55, "insert_bytes", "count = 3\nbytes = 2"),
-    (60, "garbage", "bytes = 10000"),
-    (70, "duplicate_frame", "count = 4"),
-    (75, "reorder_frames", "count = 2"),
-    (80, "truncate_frame", "count = 3"),
-    (85, "lose_frames", "count = 5"),
-    (90, "counter_stuck", "count = 4"),
-    (95, "error_flags", "count = 6\ndiag_stat = 0x20"),
-    (100, "stall", "seconds = 3"),
-    (110, "silence", "seconds = 4"),
-])
+"""
+
+
+def ask(scratch, line):
+    """One order through the control socket, and the answer."""
+    with socket.socket(socket.AF_UNIX) as control:
+        control.connect(str(scratch / "control"))
+        control.sendall(line.encode() + b"\n")
+        answer = b""
+        while not answer.endswith(b"\n"):
+            more = control.recv(65536)
+            if not more:
+                demand(f"the emulator answers the order {line}, came: {answer}", False)
+            answer += more
+    return answer.decode()
+
+
+def wait_for(claim, is_true, seconds=60):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if is_true():
+            return
+        time.sleep(0.1)
+    demand(f"{claim} within {seconds} s", False)
 
 
 class Session:
@@ -57,18 +100,13 @@ class Session:
         self.log = open(scratch / "a351d.log", "w")
         self.daemon = subprocess.Popen([BIN / "a351d", "--config", "a351d.toml", "--clock", clock],
                                        cwd=scratch, stderr=self.log)
-        self.wait_for("the control socket", (scratch / "control").exists)
+        wait_for("the control socket", (scratch / "control").exists)
 
     def order(self, line):
-        with socket.socket(socket.AF_UNIX) as control:
-            control.connect(str(self.scratch / "control"))
-            control.sendall(line.encode() + b"\n")
-            answer = b""
-            while not answer.endswith(b"\n"):
-                answer += control.recv(65536)
-        if not answer.startswith(b"ok"):
+        answer = ask(self.scratch, line)
+        if not answer.startswith("ok"):
             demand(f"the emulator takes the order {line}: {answer}", False)
-        return answer.decode()[3:].strip()
+        return answer[3:].strip()
 
     def emulated(self):
         return json.loads(self.order("status"))
@@ -78,16 +116,34 @@ class Session:
                      check=False)
         return json.loads(result.stdout) if result.stdout else {}
 
-    def wait_for(self, claim, is_true, seconds=60):
-        end = time.monotonic() + seconds
-        while time.monotonic() < end:
-            if is_true():
-                return
-            time.sleep(0.1)
-        demand(f"{claim} within {seconds} s", False)
-
     def wait_for_frames(self, count):
-        self.wait_for(f"{count} frames", lambda: self.status().get("counters", {}).get("frames", 0) >= count)
+        wait_for(f"{count} frames", lambda: self.status().get("counters", {}).get("frames", 0) >= count)
+
+    def settled(self):
+        """Counters of the daemon once it has all that the emulator had sent by now, and 100 frames more."""
+        sent = self.emulated()["frames_sent"]
+        self.wait_for_frames(sent + 100)
+        return self.status()["counters"]
+
+    def play(self, order, expected, by_chance):
+        """One fault, and what the daemon counts of it."""
+        before, emulated = self.settled(), self.emulated()
+        self.order(order)
+        time.sleep(0.1)
+        kind = order.split()[0]
+        wait_for(order, lambda: self.emulated()["faults"].get(kind, 0) > emulated["faults"].get(kind, 0))
+        counters, after = self.settled(), self.emulated()
+        came = {key: counters[key] - before[key] for key in WATCHED if key not in by_chance}
+        if kind == "silence":
+            expected = {**expected, "samples_missing": after["faults"][kind] - emulated["faults"].get(kind, 0)}
+        if kind == "truncate_frame":
+            cut = after["bytes_dropped"] - emulated["bytes_dropped"]
+            expected = {**expected, "bytes_skipped": 3 * FRAME - cut}
+        demand(f"{order}: the daemon counts {came}, of it expected {expected} and no more",
+               came == {key: expected.get(key, 0) for key in came})
+        chance = sum(counters[key] - before[key] for key in by_chance)
+        if by_chance:
+            demand(f"{order}: damage is seen as damage ({chance})", chance > 0)
 
     def end(self):
         """Silence first, so that nothing is under way when the counters are read."""
@@ -101,6 +157,11 @@ class Session:
         self.log.close()
         report = read_json(self.scratch / "report.json")
         report.pop("faults_applied")
+        demand("every fault could be had", report["faults_refused"] == [])
+        demand("every frame made is settled once, second copies apart",
+               report["frames_made"] + report["faults"].get("duplicate_frame", 0)
+               == report["frames_sent"] + report["frames_damaged"] + report["frames_lost"]
+               + report["frames_pending"])
         print("emulator:", report)
         print("daemon:", counters)
         demand("the control socket and the link are gone",
@@ -119,13 +180,17 @@ class Session:
         return {row[0]: row[1:5] for row in self.rows()}
 
     def archive_is_true(self, missing, steps=0):
+        """Without `steps`, where times begin anew, only the values.  The temperature (BK1) repeats its own: where a gap
+        or a misplaced frame of it stands is uncertain by a sample or two."""
         for name, counted in compare_truth(self.scratch / "data" / "archive",
                                            self.scratch / "truth.bin").items():
             demand(f"{name}: no damaged, lost or repeated frame is in the archive, none altered",
                    counted["altered"] == counted["duplicated"] == 0 and counted["matched"] > 0)
+            slack = 2 if name == "BK1" and (missing, steps) != (0, 0) else 0
             demand(f"{name}: {counted['missing']:.0f} of {counted['truth']:.0f} intact frames missing, "
-                   f"{counted['steps']:.0f} time steps (allowed {missing} and {steps})",
-                   counted["missing"] == missing and counted["steps"] == steps)
+                   f"{counted['steps']:.0f} time steps (allowed {missing} and {steps}, each and {slack})",
+                   missing <= counted["missing"] <= missing + slack
+                   and (steps is None or steps <= counted["steps"] <= steps + slack))
 
 
 def gaps_of(truth):
@@ -149,34 +214,50 @@ def bytes_agree(report, counters):
 
 
 with Scratch() as scratch:
+    session = Session(scratch, "")
+    session.wait_for_frames(500)
+    for row in ROWS:
+        session.play(*row)
+    report, counters = session.end()
+    bytes_agree(report, counters)
+    demand("one session", counters["sessions"] == len(report["runs"]) == 1)
+    session.archive_is_true(missing=0)
+    first_samples = session.samples()
+
+with Scratch() as scratch:
+    session = Session(scratch, "")
+    session.wait_for_frames(500)
+    for row in COUNTER_ROWS:
+        session.play(*row)
+    report, counters = session.end()
+    bytes_agree(report, counters)
+    demand("one run of sampling, two counters that are no longer the same",
+           len(report["runs"]) == 1 and counters["sessions"] == 3)
+    session.archive_is_true(missing=0, steps=None)
+
+with Scratch() as scratch:
     session = Session(scratch, WITHIN_A_SESSION)
-    session.wait_for_frames(50 * 140)
+    session.wait_for_frames(50 * 100)
     report, counters = session.end()
     bytes_agree(report, counters)
     gaps, missing = gaps_of(session.truth())
     demand(f"{counters['gaps']} gaps of {counters['samples_missing']} samples are the truth's",
            (counters["gaps"], counters["samples_missing"]) == (gaps, missing))
-    demand(f"{counters['duplicates']} duplicates", counters["duplicates"] == report["frames_repeated"] > 8)
-    demand(f"{counters['anomalies']} anomalies", counters["anomalies"] == report["frames_misplaced"] == 2)
-    demand(f"{counters['error_flags']} flagged frames",
-           counters["error_flags"] == report["frames_flagged"] == 6)
-    demand("damage is seen as damage", counters["checksum_errors"] + counters["framing_errors"]
-           >= report["frames_damaged"] > 16)
+    demand(f"{counters['duplicates']} duplicates", counters["duplicates"] == report["frames_repeated"])
     demand("one session", counters["sessions"] == len(report["runs"]) == 1)
     session.archive_is_true(missing=0)
-    first_samples = session.samples()
 
 # The device ends sampling: no frame is under way when the daemon configures it again.
 with Scratch() as scratch:
     session = Session(scratch, "")
     runs = 1
     for fault in ("stop", "reset", "power_cycle", "hang_up seconds=40 loses_power=true"):
-        session.wait_for(f"run {runs}", lambda: session.emulated()["runs"][runs - 1:]
+        wait_for(f"run {runs}", lambda: session.emulated()["runs"][runs - 1:]
                          and session.emulated()["runs"][-1]["frames"] > 500)
         session.order(fault)
         runs += 1
-        session.wait_for(f"sampling again after {fault}", lambda: len(session.emulated()["runs"]) == runs)
-    session.wait_for("frames of the last run", lambda: session.emulated()["runs"][-1]["frames"] > 500)
+        wait_for(f"sampling again after {fault}", lambda: len(session.emulated()["runs"]) == runs)
+    wait_for("frames of the last run", lambda: session.emulated()["runs"][-1]["frames"] > 500)
     report, counters = session.end()
     bytes_agree(report, counters)
     demand(f"{runs} runs are as many sessions", counters["sessions"] == len(report["runs"]) == runs)
@@ -187,16 +268,68 @@ with Scratch() as scratch:
     demand(f"{len(common)} samples at equal instants of two runs are equal",
            len(common) > 2000 and all(one == other for one, other in common))
 
+# Another device, or the same with other settings.  What the daemon does not notice is said at each.
+with Scratch() as scratch:
+    session = Session(scratch, "")
+
+    def wait_for_run(runs):
+        wait_for(f"run {runs}", lambda: len(session.emulated()["runs"]) >= runs
+                         and session.emulated()["runs"][-1]["frames"] > 500)
+        return session.settled()
+
+    wait_for_run(1)
+    session.order("other_unit serial_number=87654321")
+    demand("another unit is another session", wait_for_run(2)["sessions"] == 2)
+    demand("with its own number", session.status()["device"]["serial_number"] == "87654321")
+
+    session.order("failing_tests diag_stat=32")
+    session.order("power_cycle")
+    demand("a unit whose tests fail is a session all the same", wait_for_run(3)["sessions"] == 3)
+    demand("its tests do fail", session.emulated()["faults"]["failing_tests"] == 1)
+    session.order("failing_tests diag_stat=0")
+
+    session.order("change_settings output_rate_hz=100 filter=k512_fc16")
+    counters = wait_for_run(4)
+    # Not noticed: frames twice as dense, of which every second one does not fit the counter.
+    demand("another rate: frames come whole, and half of them are anomalies",
+           counters["bytes_skipped"] == 0 and counters["anomalies"] > 200)
+    demand("another rate goes unnoticed", session.status()["device"]["output_rate_hz"] == 50)
+
+    session.order("stop")
+    before = wait_for_run(5)
+    session.order("change_settings burst_ctrl=0x0702")
+    counters = wait_for_run(7)
+    demand("another layout: all its bytes are skipped, and the daemon starts anew",
+           counters["bytes_skipped"] > before["bytes_skipped"]
+           and counters["link_sessions"] > before["link_sessions"])
+
+    sent = session.emulated()["frames_sent"]
+    before, emulated = session.settled(), session.emulated()
+    session.order("change_baud")
+    wait_for("garbage", lambda: session.emulated()["frames_damaged"] > emulated["frames_damaged"] + 1000)
+    wait_for("bytes are skipped", lambda: session.status()["counters"]["bytes_skipped"]
+             > before["bytes_skipped"] + 1000)
+    # Not noticed as such: the daemon asks at the old speed for ever; who switches the device off ends it.
+    heard, after = session.status()["counters"]["frames"] - before["frames"], session.emulated()
+    demand(f"another speed: of {after['frames_damaged'] - emulated['frames_damaged']} frames none is found in what "
+           f"is heard, but for {heard} before", heard <= after["frames_sent"] - sent)
+    session.order("power_cycle")
+    runs = len(session.emulated()["runs"])
+    wait_for_run(runs + 1)
+    report, counters = session.end()
+    demand("nothing altered", all(counted["altered"] == counted["duplicated"] == 0 for counted in compare_truth(
+        scratch / "data" / "archive", scratch / "truth.bin").values()))
+
 # Pulled out and back under another name while it samples: what comes before the daemon has stopped it is nobody's.
 with Scratch() as scratch:
     session = Session(scratch, "")
     session.wait_for_frames(1000)
     before = (scratch / "sensor").readlink()
     session.order("hang_up seconds=60")
-    session.wait_for("the port is gone", lambda: not (scratch / "sensor").is_symlink())
-    session.wait_for("the port is back", lambda: (scratch / "sensor").is_symlink())
+    wait_for("the port is gone", lambda: not (scratch / "sensor").is_symlink())
+    wait_for("the port is back", lambda: (scratch / "sensor").is_symlink())
     demand("under another name", (scratch / "sensor").readlink() != before)
-    session.wait_for("a second run", lambda: len(session.emulated()["runs"]) == 2
+    wait_for("a second run", lambda: len(session.emulated()["runs"]) == 2
                      and session.emulated()["runs"][1]["frames"] > 500)
     report, counters = session.end()
     unheard = report["frames_sent"] - counters["frames"]
@@ -223,3 +356,30 @@ with Scratch() as scratch:
            (counters["gaps"], counters["samples_missing"]) == (gaps, missing))
     demand("one session", counters["sessions"] == 1)
     session.archive_is_true(missing=0)
+
+# A scenario of any name, and links that something else has taken: the emulator goes on and reports to the end.
+with Scratch() as scratch:
+    scenario = os.fsencode(scratch) + b"/caf\xe9.toml"
+    with open(scenario, "w") as text:
+        text.write('base = "tsukuba"\nname = "x"\n')
+    (scratch / "faults.toml").write_text('[[fault]]\nkind = "oven_unplug"\nat_s = 20\n'
+                                         '[[fault]]\nkind = "oven_unplug"\nat_s = 60\ncount = 0\n')
+    sim = subprocess.Popen([BIN / "a351-sim", "device", "--link", "sensor", "--oven-link", "oven", "--control",
+                            "control", "--speed", str(SPEED), "--scenario", scenario, "--report", "report.json",
+                            "--truth", "truth.bin", "--faults", "faults.toml"], cwd=scratch, stderr=subprocess.PIPE)
+    wait_for("the control socket", (scratch / "control").exists)
+    wait_for("the oven is out", lambda: not (scratch / "oven").is_symlink())
+    (scratch / "oven").write_text("somebody's")
+    demand("the status is one line of JSON", json.loads(ask(scratch, "status")[3:])["frames_made"] == 0)
+    ask(scratch, "hang_up seconds=10")
+    wait_for("the sensor is out", lambda: not (scratch / "sensor").is_symlink())
+    (scratch / "sensor").write_text("somebody's")
+    demand("the order tells what is in the way", "oven: exists" in ask(scratch, "oven_unplug count=0"))
+    wait_for("the script's turn", lambda: json.loads(ask(scratch, "status")[3:])["faults_refused"])
+    ask(scratch, "quit")
+    said = sim.communicate(timeout=30)[1].decode()
+    demand(f"it ends cleanly and has said once what was in the way: {said}",
+           sim.returncode == 0 and said.count("\n") == said.count("sensor: exists") == 1)
+    demand("report and truth are written", read_json(scratch / "report.json")["faults_refused"][0]["kind"]
+           == "oven_unplug" and (scratch / "truth.bin").stat().st_size == 16)
+    demand("what was in the way is what it was", (scratch / "sensor").read_text() == "somebody's")

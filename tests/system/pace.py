@@ -2,9 +2,9 @@
 
 import datetime
 import os
+import select
 import statistics
 import subprocess
-import termios
 import time
 
 from programs import BIN, IS_LONG, IS_SANITIZED, Scratch, demand, read_json, run
@@ -22,6 +22,8 @@ def listen(port, seconds):
     arrivals, received = [], 0
     end = time.monotonic() + seconds
     while time.monotonic() < end:
+        if not select.select([port], [], [], 2.0)[0]:
+            break
         received += len(os.read(port, 4096))
         now = time.time_ns()
         arrivals += [now] * (received // FRAME - len(arrivals))
@@ -49,6 +51,7 @@ with Scratch() as scratch:
     os.close(port)
     report = read_json(scratch / "report.json")
 
+    demand("every frame came", len(arrivals) >= 50 * (SECONDS - 1))
     first_ns = host_ns + report["runs"][0]["first_index"] * 20_000_000 + DELAY_NS
     late_ms = [(arrival - first_ns - k * 20_000_000) / 1e6 for k, arrival in enumerate(arrivals)]
     within = sum(1 for late in late_ms if late <= 1.0) / len(late_ms)
@@ -58,8 +61,8 @@ with Scratch() as scratch:
           f"and last ten seconds {ends[0]:.3f} and {ends[1]:.3f} ms")
     print(f"at the emulator: {report['frames_late']} of {report['frames_sent']} frames later than 1 ms, "
           f"largest {1e3 * report['largest_lateness_s']:.3f} ms")
-    demand("every frame came", len(arrivals) >= 50 * (SECONDS - 1))
     demand("no frame came before its instant", min(late_ms) >= 0.0)
+    demand("the least late came within 1 ms of its instant", min(late_ms) < 1.0)
     demand("the grid has not drifted", abs(ends[1] - ends[0]) < 0.5)
     if IS_LONG and not IS_SANITIZED:
         demand("99 % leave within 1 ms of their instant",

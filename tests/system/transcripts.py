@@ -180,7 +180,8 @@ class Emulator:
     def stop(self):
         self.host.close()
         self.program.send_signal(signal.SIGTERM)
-        self.program.wait(20)
+        if self.program.wait(20) != 0:
+            raise Broken(f"the emulator ended with {self.program.returncode}")
 
 
 def converse(file, scratch):
@@ -194,6 +195,7 @@ def converse(file, scratch):
 
 def main():
     files = [pathlib.Path(name) for name in sys.argv[1:]] or sorted(FOLDER.glob("*.txt"))
+    demand(f"there are transcripts in {FOLDER}", files)
     for file in files:
         with Scratch() as scratch:
             trouble = ""

@@ -223,6 +223,37 @@ TEST_CASE("rates above the grid's hold each sample", "[sim][device_stream]") {
     }
 }
 
+TEST_CASE("after a stop in the middle of a held sample a lower rate is on time from the start",
+          "[sim][device_stream]") {
+    // Stopped at 1000/s with 15 of 20 repeats sent, started again at 50/s before the next sample.
+    CountingSource source(50);
+    Bench bench;
+    DeviceStream stream(source, bench.machine);
+    Collected line;
+    const auto receive = [&](std::string_view hex, UtcTime now) {
+        stream.receive(bytes_of(hex), {now, bench.now}, line);
+    };
+    bench.send({"FE 01", "85 02", "86 0B", "88 01", "8C 03", "8D C7", "FE 00", "83 01"});
+    const UtcTime stop = UtcTime(1s + 15ms);
+    stream.advance_to({stop, bench.now}, line);
+    const std::size_t first_run = line.truth.size();
+    REQUIRE(first_run > 1000);
+    receive("83 02 0D FE 01 0D 85 06 0D FE 00 0D 83 01 0D", stop);
+    REQUIRE(stream.next_due() == UtcTime(1s + 20ms) + bench.machine.frame_delay());
+    for (UtcTime now = stop; now < UtcTime(3s); now += 1ms) {
+        const std::size_t before = line.truth.size();
+        stream.advance_to({now, bench.now}, line);
+        REQUIRE(line.truth.size() - before <= 1);
+    }
+    REQUIRE(line.truth.size() > first_run + 90);
+    for (std::size_t i = first_run; i < line.truth.size(); ++i) {
+        const auto nth = static_cast<std::int64_t>(i - first_run);
+        CHECK(line.truth[i].utc == UtcTime(1s + 20ms + nth * 20ms));
+        CHECK(line.truth[i].grid_index == 51 + nth);
+        CHECK(line.truth[i].values.count == 80 * (nth + 1));
+    }
+}
+
 TEST_CASE("a truth file gives back its records and refuses what is none", "[sim][truth_file]") {
     const auto file = std::filesystem::temp_directory_path() / "a351_truth_test.bin";
     TruthRecord record;

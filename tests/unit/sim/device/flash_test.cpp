@@ -165,7 +165,9 @@ TEST_CASE("the flash file brings settings and coefficients to the next run", "[s
             write_flash_file(file, memory);
             return true;
         });
-        bench.send({"FE 01", "85 06", "86 06", "98 A5", "96 02"});
+        bench.send({"FE 01", "98 A5", "96 02"});
+        bench.wait(UserFilter::kWriteTime);
+        bench.send({"86 0B", "85 06", "86 06"});
         back_up(bench);
     }
     const FlashMemory kept = read_flash_file(file, profile());
@@ -186,6 +188,99 @@ TEST_CASE("a new user filter is in the flash once it is selected", "[sim][flash]
     CHECK(stores == 0);
     bench.send({"86 0B", "86 0C"});
     CHECK(stores == 1);
+}
+
+TEST_CASE("coefficients that no filter was selected for are gone after power or reset",
+          "[sim][flash]") {
+    const auto read_first = [](Bench& bench) {
+        bench.send({"FE 01", "9B 08", "9A 00", "96 01"});
+        return bench.read("W1:18");
+    };
+    for (const bool is_selected : {false, true}) {
+        CAPTURE(is_selected);
+        std::optional<FlashMemory> kept;
+        int stores = 0;
+        Bench bench;
+        bench.machine.on_flash_written([&](const FlashMemory& memory) {
+            kept = memory;
+            return ++stores > 0;
+        });
+        bench.send({"FE 01", "98 55", "96 02"});
+        bench.wait(UserFilter::kWriteTime);
+        if (is_selected) bench.write("W1:86 0B");
+        CHECK(read_first(bench) == "0055");
+        CHECK(bench.machine.flash() == kept.value_or(FlashMemory{}));
+        const std::string expected = is_selected ? "0055" : "00FF";
+        power_cycle(bench);
+        CHECK(read_first(bench) == expected);
+        Bench next_run("A352AD10", kIdentity, kept.value_or(FlashMemory{}));
+        CHECK(read_first(next_run) == expected);
+        CHECK(stores == (is_selected ? 1 : 0));
+    }
+}
+
+TEST_CASE("a reset writes nothing to the flash, and a user filter in it is in force",
+          "[sim][flash]") {
+    FlashMemory flash;
+    flash.coefficients.fill(0);
+    flash.coefficients[3] = 0x40;  // One coefficient of 0.5.
+    Bench bench("A352AD10", kIdentity, flash);
+    int stores = 0;
+    bench.machine.on_flash_written([&stores](const FlashMemory&) { return ++stores > 0; });
+    bench.send({"FE 01", "85 06", "86 0B", "88 01", "8C 00", "8D 01"});
+    back_up(bench);
+    REQUIRE(stores == 1);
+    bench.send({"FE 01", "98 55", "96 02"});
+    bench.wait(UserFilter::kWriteTime);
+    power_cycle(bench);
+    CHECK(stores == 1);
+    Bench next_run("A352AD10", kIdentity, bench.machine.flash());
+    for (Bench* started : {&bench, &next_run}) {
+        started->send({"83 01"});
+        CHECK(started->sample(1, {{0, 0, 2 * kOneG}, 0}) == "80 01 00 00 00 0D");
+    }
+}
+
+TEST_CASE("a rate that the long-term filter does not take leaves the other registers writable",
+          "[sim][flash]") {
+    FlashMemory flash;
+    std::size_t i = 0;
+    for (const wire::Register& reg : wire::kRegisters) {
+        if (!reg.is_saved_in_flash) continue;
+        if (reg.name == wire::kSmplCtrl.name) flash.settings[i] = 0x0200;
+        if (reg.name == kLongFilter.name) flash.settings[i] = kLongFilterOn;
+        ++i;
+    }
+    Bench bench("A352AD10", kIdentity, flash);
+    bench.send({"FE 01", "8C 03", "88 01", "9C 03"});
+    CHECK(bench.read("W1:0C") == "4703");
+    CHECK(bench.read("W1:08") == "0101");
+    CHECK(bench.read("W1:1C") == "0001");
+    bench.write("W1:85 03");
+    CHECK(bench.read("W1:04") == "0300");
+}
+
+TEST_CASE("a flash file with the long-term filter at a rate it does not take is refused",
+          "[sim][flash]") {
+    const auto file = scratch("pair");
+    for (const bool is_too_fast : {false, true}) {
+        write_flash_file(file, FlashMemory{});
+        std::string text = text::read_text_file(file);
+        const auto set = [&text](std::string_view key, std::string_view value) {
+            const std::size_t at = text.find(key) + key.size() + std::string_view(" = ").size();
+            text.replace(at, value.size(), value);
+        };
+        set("LONGFILT_CTRL", "0x0001");
+        set("SMPL_CTRL", is_too_fast ? "0x0200" : "0x0300");
+        std::ofstream(file, std::ios::trunc) << text;
+        if (is_too_fast) {
+            CHECK_THROWS_WITH(read_flash_file(file, profile()),
+                              Contains("pair:11:") && Contains("LONGFILT_CTRL = 0x1"));
+        } else {
+            CHECK_NOTHROW(read_flash_file(file, profile()));
+        }
+    }
+    std::filesystem::remove(file);
 }
 
 TEST_CASE("any content of the flash survives the file", "[sim][flash]") {

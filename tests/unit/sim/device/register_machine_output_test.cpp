@@ -58,6 +58,22 @@ TEST_CASE("an alarm stays until FLAG is read, by command or by a frame that carr
     CHECK(streaming.sample(1, calm).substr(0, 8) == "80 8E 00");
 }
 
+TEST_CASE("a frame without FLAG shows no alarm, which stands until FLAG is read",
+          "[sim][register_machine]") {
+    Bench bench;
+    const SensorSample shaken{{0, 0, 20 * kOneG}, 0};
+    bench.send({"FE 01", "85 06", "86 06", "88 01", "8C 03", "8D 47", "FE 00", "83 01"});
+    bench.sample(Bench::kTransient);
+    std::vector<std::byte> frames;
+    for (int i = 0; i < 3; ++i) {
+        const auto values = bench.machine.sample(shaken, frames);
+        REQUIRE(values);
+        CHECK(values->flag == 0);
+    }
+    CHECK((std::stoi(bench.read("W0:06"), nullptr, 16) & 0x1C) == 0x04);
+    CHECK((std::stoi(bench.read("W0:06"), nullptr, 16) & 0x1C) == 0);
+}
+
 TEST_CASE("tilt is the arc sine of the acceleration, in radians times 2^29",
           "[sim][register_machine]") {
     const auto& profile = *wire::find_profile("A352AD10");

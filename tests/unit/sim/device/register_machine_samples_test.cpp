@@ -125,20 +125,16 @@ TEST_CASE("COUNT keeps its last value when sampling stops", "[sim][register_mach
     CHECK(bench.read("W0:0A") == "07D0");
 }
 
-TEST_CASE("the counter can jump and stand", "[sim][register_machine]") {
+TEST_CASE("the counter can jump, and goes on for samples that nobody hears",
+          "[sim][register_machine]") {
     Bench bench;
     bench.start_logging();
     bench.sample(Bench::kTransient + 1);
     bench.machine.jump_counter(160);
     bench.sample();
     CHECK(bench.read("W0:0A") == "0140");
-    bench.machine.freeze_counter(2);
-    bench.sample(2);
-    CHECK(bench.read("W0:0A") == "0140");
-    bench.sample();
-    CHECK(bench.read("W0:0A") == "0190");
     bench.machine.skip_sample();
-    CHECK(bench.read("W0:0A") == "01E0");
+    CHECK(bench.read("W0:0A") == "0190");
 }
 
 TEST_CASE("a rate and filter that do not fit give ALIASI_ERR and 100 g on all axes",
@@ -176,6 +172,14 @@ TEST_CASE("reading a value clears its new-data flag and no other", "[sim][regist
     bench.sample(Bench::kTransient + 1);
     for (const auto& [place, left] :
          {std::pair{"W0:30", "8600"}, {"W0:36", "8200"}, {"W0:38", "8000"}, {"W0:0E", "0000"}}) {
+        CAPTURE(place);
+        static_cast<void>(bench.read(place));
+        CHECK(bench.read("W0:06") == left);
+    }
+    // Tilt is read with the same flags.
+    bench.sample();
+    for (const auto& [place, left] :
+         {std::pair{"W0:3C", "8600"}, {"W0:42", "8200"}, {"W0:44", "8000"}, {"W0:48", "8000"}}) {
         CAPTURE(place);
         static_cast<void>(bench.read(place));
         CHECK(bench.read("W0:06") == left);

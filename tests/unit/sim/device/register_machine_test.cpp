@@ -80,7 +80,7 @@ TEST_CASE("a dump of all registers after start-up shows the documented defaults"
     std::size_t listed = 0;
     for (int window = 0; window < 2; ++window) {
         for (int address = 0; address < 0x80; address += 2) {
-            const std::string place = "W" + std::to_string(window) + ":" +
+            const std::string place = std::string("W") + std::to_string(window) + ":" +
                                       hex_of(std::vector{static_cast<std::byte>(address)});
             const auto* found = std::ranges::find(kDefaults, place, &Default::place);
             const bool is_listed = found != std::end(kDefaults);
@@ -228,6 +228,53 @@ TEST_CASE("DIAG_STAT and EA are cleared by reading it", "[sim][register_machine]
     CHECK(bench.read("W0:04") == "0020");
     CHECK(bench.read("W0:04") == "0000");
     CHECK(bench.read("W0:06") == "0000");
+}
+
+TEST_CASE("settings changed from outside leave the host's window, half a command and count alone",
+          "[sim][register_machine]") {
+    const std::array changes{RegisterChange{wire::kSmplCtrl, 0x0600, wire::kHighByte},
+                             RegisterChange{wire::kFilterCtrl, 0x0006, wire::kFilterSelect},
+                             RegisterChange{wire::kUartCtrl, 0x0300, wire::kHighByte},
+                             RegisterChange{wire::kBurstCtrl, 0xC703}};
+    const auto whole = bytes_of("04 00 0D");
+    for (std::size_t sent = 0; sent < whole.size(); ++sent) {
+        CAPTURE(sent);
+        Bench bench;
+        bench.machine.raise_diagnostics(0x0020);
+        bench.send({"FE 01", "88 01"});
+        const std::uint64_t commands = bench.machine.command_count();
+        std::vector<std::byte> answers;
+        bench.machine.receive(std::span(whole).first(sent), bench.now, answers);
+
+        bench.machine.apply_settings(changes, bench.now);
+        bench.machine.clear_diagnostics();
+        CHECK(bench.machine.command_count() == commands);
+        CHECK(bench.machine.is_sampling());
+        CHECK(bench.machine.sampling_run() == 1);
+
+        bench.machine.receive(std::span(whole).subspan(sent), bench.now, answers);
+        CHECK(hex_of(answers) == "04 06 00 0D");  // SMPL_CTRL; DIAG_STAT in the other window.
+        CHECK(bench.machine.command_count() == commands + 1);
+        CHECK(bench.read("W1:06") == "0026");  // Busy.
+        CHECK(bench.read("W1:08") == "0301");
+        CHECK(bench.read("W1:0C") == "C703");
+        CHECK(bench.read("W0:04") == "0000");
+    }
+}
+
+TEST_CASE("settings do not change from outside while the device starts up or sleeps",
+          "[sim][register_machine]") {
+    const std::array changes{RegisterChange{wire::kSmplCtrl, 0x0600, wire::kHighByte}};
+    Bench bench;
+    bench.send({"83 03"});
+    bench.machine.apply_settings(changes, bench.now);
+    CHECK(bench.machine.is_asleep());
+    CHECK_FALSE(bench.machine.is_sampling());
+    bench.machine.power_cycle(bench.now);
+    bench.machine.apply_settings(changes, bench.now);
+    CHECK_FALSE(bench.machine.is_sampling());
+    bench.wait(RegisterMachine::kPowerOnTime);
+    CHECK(bench.read("W1:04") == "0400");
 }
 
 TEST_CASE("a faulty device shows HARD_ERR after every start-up until it is healed",

@@ -24,6 +24,7 @@ fs::path socket_path(const std::string& name) {
 
 std::string echo(const std::string& line) {
     if (line == "bad") throw InputError("no such thing; allowed: another");
+    if (line == "worse") throw std::runtime_error("no terminal left");
     if (line == "long") return std::string(100'000, 'x');
     return line;
 }
@@ -69,13 +70,15 @@ TEST_CASE("each line is answered with ok or error, wherever it is cut", "[sim][c
     const auto path = socket_path("lines");
     ControlSocket socket(path, echo);
     Client client(path);
-    const std::string text = "one\nbad\n\ntwo\n";
+    const std::string text = "one\nbad\n\nworse\ntwo\n";
     for (std::size_t cut = 0; cut <= text.size(); ++cut) {
         client.say(text.substr(0, cut));
         socket.serve({});
         client.say(text.substr(cut));
         socket.serve({});
-        CHECK(client.hear() == "ok one\nerror no such thing; allowed: another\nok\nok two\n");
+        CHECK(client.hear() ==
+              "ok one\nerror no such thing; allowed: another\nok\n"
+              "error no terminal left\nok two\n");
     }
 }
 
@@ -174,4 +177,6 @@ TEST_CASE("a socket left behind is replaced, one that is listened to is not", "[
     CHECK_THROWS_AS(ControlSocket("/nonexistent/socket", echo), InputError);
     CHECK_THROWS_AS(ControlSocket(fs::temp_directory_path() / std::string(200, 'x'), echo),
                     InputError);
+    CHECK_THROWS_AS(ControlSocket("", echo), InputError);
+    CHECK_THROWS_AS(ControlSocket("/proc/a351", echo), InputError);
 }

@@ -1,145 +1,12 @@
 #include "sim/line/fault_injector.hpp"
 
 #include <catch2/catch.hpp>
-#include <chrono>
-#include <map>
 
 #include "protocol/core/input_error.hpp"
-#include "protocol/timing/sample_index.hpp"
-#include "protocol/wire/burst_decoder.hpp"
-#include "sim/device/device_stream.hpp"
-#include "sim/noise/random.hpp"
-#include "tests/unit/sim/device/machine_script.hpp"
+#include "tests/unit/sim/line/fault_rig.hpp"
 
 using namespace a351;
 using namespace a351::sim;
-using namespace std::chrono_literals;
-using Kind = timing::Placement::Kind;
-
-namespace {
-
-/// Noise, without end.
-class NoiseSource final : public SampleSource {
-public:
-    [[nodiscard]] int rate_hz() const noexcept override { return 50; }
-    [[nodiscard]] std::optional<UtcTime> next_instant() const override {
-        return UtcTime(index_ * 20ms);
-    }
-    [[nodiscard]] TimedSample next() override {
-        TimedSample sample{*next_instant(), index_++, {}};
-        for (std::int32_t& axis : sample.values.axes_counts) axis = draw();
-        sample.values.temperature_counts = draw();
-        return sample;
-    }
-
-private:
-    std::int32_t draw() { return static_cast<std::int32_t>(noise_.bits() >> 44U); }
-    std::int64_t index_ = 0;
-    RandomStream noise_{1, "test"};
-};
-
-/// What a host makes of the bytes.
-struct Heard {
-    std::vector<wire::BurstValues> frames;
-    std::map<Kind, int> places;
-    std::int64_t missing = 0;
-    std::size_t bytes_skipped = 0;
-};
-
-struct Rig {
-    explicit Rig(const std::string& toml)
-        : faults(parse_fault_script(toml, "script.toml", UtcTime(0s), rules), UtcTime(0s), line,
-                 bench.machine, rules.profile, {}, [this](std::string_view kind, int count) {
-                     oven = std::string(kind) + " " + std::to_string(count);
-                     return true;
-                 }) {
-        bench.start_logging();
-    }
-
-    void run_to(UtcTime end) {
-        for (; now <= end; now += 100ms) {
-            const Instant instant{now, bench.now};
-            faults.begin(instant);
-            stream.advance_to(instant, faults);
-            faults.catch_up(instant);
-            const auto shown = line.shown(now);
-            bytes.insert(bytes.end(), shown.begin(), shown.end());
-            line.handed_over(shown.size(), now);
-        }
-    }
-
-    [[nodiscard]] Heard heard() const {
-        Heard heard;
-        wire::BurstDecoder decoder(wire::BurstLayout::recommended(), 80);
-        timing::SampleIndex index(80, Hertz(50));
-        std::span<const std::byte> input(bytes);
-        while (const auto event = decoder.next(input)) {
-            if (const auto* lost = std::get_if<wire::Discarded>(&*event)) {
-                heard.bytes_skipped += lost->byte_count;
-                continue;
-            }
-            const auto& values = std::get<wire::BurstFrame>(*event).values();
-            heard.frames.push_back(values);
-            const RawTime arrival(static_cast<std::int64_t>(heard.frames.size()) * 20ms);
-            auto place = index.place(values.count, true, arrival);
-            ++heard.places[place.kind];
-            heard.missing += place.missing;
-            if (place.kind != Kind::new_session) continue;
-            index = timing::SampleIndex(80, Hertz(50));
-            static_cast<void>(index.place(values.count, true, arrival));
-        }
-        heard.bytes_skipped += decoder.pending_bytes();
-        return heard;
-    }
-
-    [[nodiscard]] std::vector<wire::BurstValues> arrived() const {
-        std::vector<wire::BurstValues> values;
-        for (const TruthRecord& record : truth) {
-            if (record.fate != Fate::damaged && record.fate != Fate::lost) {
-                values.push_back(record.values);
-            }
-        }
-        return values;
-    }
-
-    [[nodiscard]] std::int64_t count(Fate fate) const {
-        return std::ranges::count(truth, fate, &TruthRecord::fate);
-    }
-
-    FaultRules rules{*wire::find_profile("A352AD10"), 1.0, {"oven_silence"}};
-    NoiseSource source;
-    Bench bench;
-    DeviceStream stream{source, bench.machine};
-    std::vector<TruthRecord> truth;
-    Line line{{}, 1, UtcTime(0s), [this](const TruthRecord& record) { truth.push_back(record); }};
-    FaultInjector faults;
-    UtcTime now{0s};
-    std::vector<std::byte> bytes;
-    std::string oven;
-};
-
-std::string fault(const std::string& kind, const std::string& keys) {
-    return "[[fault]]\nkind = \"" + kind + "\"\n" + keys + "\n";
-}
-
-/// Frames before, fault, frames behind; what the emulator says is what a host finds.
-Heard check_report(Rig& rig) {
-    rig.run_to(UtcTime(30s));
-    const Heard heard = rig.heard();
-    const LineReport& report = rig.line.report();
-    CHECK(heard.frames == rig.arrived());
-    CHECK(static_cast<std::int64_t>(heard.frames.size()) == report.frames_sent);
-    CHECK(static_cast<std::int64_t>(heard.bytes_skipped) ==
-          report.bytes_handed_over - report.bytes_of_frames);
-    CHECK(report.bytes_handed_over == static_cast<std::int64_t>(rig.bytes.size()));
-    CHECK(report.frames_damaged == rig.count(Fate::damaged));
-    CHECK(report.frames_lost == rig.count(Fate::lost));
-    CHECK(report.frames_repeated == rig.count(Fate::repeated));
-    CHECK(report.frames_misplaced == rig.count(Fate::misplaced));
-    return heard;
-}
-
-}  // namespace
 
 TEST_CASE("an empty script changes no byte", "[sim][fault]") {
     Rig rig("");
@@ -234,49 +101,6 @@ TEST_CASE("lost frames are a gap of their number", "[sim][fault]") {
     CHECK(heard.places[Kind::after_gap] == 1);
     CHECK(heard.bytes_skipped == 0);
     CHECK(rig.count(Fate::lost) == count);
-}
-
-TEST_CASE("a counter that jumps by whole samples is a gap, by others an anomaly and a new session",
-          "[sim][fault]") {
-    const int count = GENERATE(1, 10, 400);
-    Rig whole(fault("counter_jump", "at_frame = 100\ncount = " + std::to_string(count)));
-    CHECK(check_report(whole).missing == count);
-    CHECK(whole.count(Fate::misplaced) == 0);
-    Rig part(fault("counter_jump", "at_frame = 100\nticks = 7"));
-    Heard heard = check_report(part);
-    CHECK(heard.places[Kind::anomaly] == 1);
-    CHECK(heard.places[Kind::new_session] == 1);
-    CHECK(part.truth[101].fate == Fate::misplaced);
-    CHECK(part.count(Fate::misplaced) == 1);
-}
-
-TEST_CASE("a counter that stands still repeats itself and is right afterwards", "[sim][fault]") {
-    const int count = GENERATE(1, 2, 30);
-    Rig rig(fault("counter_stuck", "at_frame = 100\ncount = " + std::to_string(count)));
-    Heard heard = check_report(rig);
-    CHECK(heard.places[Kind::duplicate] == count);
-    CHECK(heard.missing == count);
-    CHECK(rig.count(Fate::repeated) == count);
-    const auto last = static_cast<std::size_t>(100 + count);
-    CHECK(rig.truth[last].values.count == rig.truth[100].values.count);
-    CHECK(rig.truth[last + 1].values.count == 80 * (last + 2) % 65536);
-}
-
-TEST_CASE("a counter that starts anew is an anomaly, then a new session", "[sim][fault]") {
-    Rig rig(fault("counter_reset", "at_frame = 100"));
-    Heard heard = check_report(rig);
-    CHECK(rig.truth[101].values.count == 80);
-    CHECK(heard.places[Kind::anomaly] == 1);
-    CHECK(heard.places[Kind::new_session] == 1);
-}
-
-TEST_CASE("error flags stand in as many frames as asked for", "[sim][fault]") {
-    Rig rig(fault("error_flags", "at_frame = 100\ncount = 7\ndiag_stat = 0x20"));
-    const Heard heard = check_report(rig);
-    for (std::size_t i = 0; i < heard.frames.size(); ++i) {
-        REQUIRE((heard.frames[i].flag & wire::kFlagError) == (i > 100 && i <= 107 ? 1 : 0));
-    }
-    CHECK(rig.line.report().frames_flagged == 7);
 }
 
 TEST_CASE("a reset, a power cut and a stop end the stream in configuration mode", "[sim][fault]") {
@@ -386,9 +210,21 @@ TEST_CASE("other settings come as asked for, and frames with them", "[sim][fault
 
 TEST_CASE("another speed of the device garbles what it sends", "[sim][fault]") {
     Rig rig(fault("change_baud", "at_frame = 100\nbaud = 115200"));
-    rig.run_to(UtcTime(10s));
+    rig.run_to(UtcTime(2s));
+    const std::size_t before = rig.arrived().size();
+    REQUIRE(rig.faults.report().by_kind[static_cast<std::size_t>(FaultKind::change_baud)] == 0);
+    for (; rig.now < UtcTime(10s);) {
+        rig.line.set_speeds(rig.bench.machine.baud(), 460800);
+        rig.run_to(rig.now);
+    }
     CHECK(rig.bench.machine.baud() == 115200);
     CHECK(rig.bench.machine.is_sampling());
+    CHECK(rig.truth.size() > 400);
+    // Of the frames that were made at the new speed none is whole, nor is one found in the bytes.
+    CHECK(before < 101);
+    CHECK(rig.arrived().size() == 101);
+    CHECK(rig.heard().frames == rig.arrived());
+    CHECK(rig.count(Fate::damaged) == static_cast<std::int64_t>(rig.truth.size()) - 101);
 }
 
 TEST_CASE("answers may cut a frame if asked to", "[sim][fault]") {
@@ -401,6 +237,58 @@ TEST_CASE("answers may cut a frame if asked to", "[sim][fault]") {
         CHECK(heard.missing == (cuts ? 1 : 0));
         CHECK(rig.line.report().bytes_of_answers == (cuts ? 0 : 4));
     }
+}
+
+TEST_CASE("without frames that come by themselves no answer waits for one", "[sim][fault]") {
+    Rig rig("answers_cut_frames = true\n");
+    rig.bench.send({"FE 00", "83 02", "FE 01", "88 00", "FE 00", "83 01"});  // UART_AUTO = 0.
+    rig.run_to(UtcTime(5s));
+    rig.stream.receive(bytes_of("02 00 0D"), {rig.now, rig.bench.now}, rig.faults);
+    CHECK_FALSE(rig.line.is_empty());
+    rig.run_to(UtcTime(6s));
+    CHECK(hex_of(rig.bytes) == "02 00 00 0D");
+}
+
+TEST_CASE("an answer that waits for a frame comes without one when sampling ends", "[sim][fault]") {
+    Rig rig("answers_cut_frames = true\n");
+    rig.run_to(UtcTime(5s));
+    const std::size_t before = rig.bytes.size();
+    const auto say = [&rig](std::string_view hex) {
+        rig.stream.receive(bytes_of(hex), {rig.now, rig.bench.now}, rig.faults);
+    };
+    say("02 00 0D");
+    REQUIRE(rig.line.is_empty());
+    say("FE 00 0D 83 02 0D");
+    std::string expected = "02 00 00 0D";
+    SECTION("by itself") {}
+    SECTION("ahead of the next answer") {
+        say("02 00 0D");
+        expected += " 02 04 00 0D";
+    }
+    rig.run_to(UtcTime(6s));
+    CHECK(hex_of(std::span(rig.bytes).subspan(before)) == expected);
+    CHECK(rig.count(Fate::damaged) == 0);
+}
+
+TEST_CASE("of faults of the line that overlap the longer one decides", "[sim][fault]") {
+    const auto kind = GENERATE("silence", "stall", "overrun", "hang_up");
+    CAPTURE(kind);
+    Rig rig(fault(kind, "at_s = 2\nseconds = 6") + fault(kind, "at_s = 3\nseconds = 1"));
+    const auto heard_by = [&rig](UtcTime end) {
+        rig.run_to(end);
+        return rig.bytes.size();
+    };
+    const std::size_t before = heard_by(UtcTime(3500ms));
+    const std::size_t after = heard_by(UtcTime(7500ms));
+    const UtcTime until = UtcTime(8s);
+    if (kind == std::string("overrun")) {
+        CHECK(rig.faults.is_overrun(until - 200ms));
+        CHECK_FALSE(rig.faults.is_overrun(until + 200ms));
+    } else {
+        CHECK(after == before);
+    }
+    if (kind == std::string("hang_up")) CHECK(rig.faults.take_hang_up()->until > until - 200ms);
+    if (kind == std::string("silence")) CHECK(heard_by(UtcTime(9s)) > after);
 }
 
 TEST_CASE("a frame suffers one fault, and the next one the next", "[sim][fault]") {
@@ -430,6 +318,28 @@ TEST_CASE("random faults follow their rates, and the seed alone", "[sim][fault]"
     CHECK(count(FaultKind::drop_bytes) == Approx(500).margin(5 * std::sqrt(500.0)));
     CHECK(count(FaultKind::duplicate_frame) == Approx(250).margin(5 * std::sqrt(250.0)));
     check_report(rig);
+}
+
+TEST_CASE("faults that are rarer than any run is long do not happen", "[sim][fault]") {
+    const auto rate = GENERATE("1e-9", "1e-300", "5e-324");
+    CAPTURE(rate);
+    Rig rig("[random]\nflip_bit_per_h = " + std::string(rate) + "\n");
+    check_report(rig);
+    CHECK(rig.truth.size() > 1400);
+    CHECK(rig.count(Fate::intact) == static_cast<std::int64_t>(rig.truth.size()));
+    CHECK(later_by(1e300, UtcTime(0s)) == UtcTime::max());
+    CHECK(later_by(1.0, UtcTime::max() - 100ms) == UtcTime::max());
+    CHECK(later_by(1.0, UtcTime(1s)) == UtcTime(2s));
+}
+
+TEST_CASE("a fault of the script that cannot be had is told of and ends nothing", "[sim][fault]") {
+    Rig rig(fault("oven_silence", "at_s = 1"));
+    rig.oven_trouble = "the link is taken";
+    check_report(rig);
+    REQUIRE(rig.faults.report().refused.size() == 1);
+    CHECK(rig.faults.report().refused[0].name == "oven_silence");
+    CHECK(rig.faults.report().refused[0].reason == rig.oven_trouble);
+    CHECK(rig.faults.report().applied.empty());
 }
 
 TEST_CASE("faults of the oven are handed on, unknown ones refused", "[sim][fault]") {

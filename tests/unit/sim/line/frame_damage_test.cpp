@@ -78,3 +78,35 @@ TEST_CASE("a bad checksum leaves the rest alone", "[sim][frame_damage]") {
         REQUIRE(bad.back() == whole.back());
     }
 }
+
+TEST_CASE("without a checksum, a million bytes more hold no frame either", "[sim][frame_damage]") {
+    wire::BurstValues values;
+    values.temperature = 2466;
+    values.axes = {-203896, 604794, 16713252};
+    values.count = 80;
+    const auto layout = *wire::BurstLayout::from_burst_ctrl(0x4702);  // The factory's.
+    Bytes whole;
+    wire::append_frame(layout, values, whole);
+    const auto frames_in = [&whole](const Bytes& bytes) {
+        std::size_t frames = 0;
+        for (std::size_t i = 0; i + whole.size() <= bytes.size(); ++i) {
+            frames += bytes[i] == wire::kStartByte && bytes[i + whole.size() - 1] == wire::kEndByte;
+        }
+        return frames;
+    };
+    RandomStream random(1, "test");
+    for (const int count : {1, 2, 19, 20, 21, 1'000'000}) {
+        CAPTURE(count);
+        const Bytes longer = with_more_bytes(whole, count, random);
+        CHECK(longer.size() == whole.size() + static_cast<std::size_t>(count));
+        CHECK(frames_in(longer) == 0);
+        Bytes garbage = garbage_before(whole, count, random);
+        CHECK(garbage.size() == static_cast<std::size_t>(count));
+        garbage.insert(garbage.end(), whole.begin(), whole.end());
+        CHECK(frames_in(garbage) == 1);
+    }
+    // Markers wherever one looks: a frame is left at any place, and it ends all the same.
+    Bytes markers(whole.size(), wire::kStartByte);
+    std::fill(markers.begin() + 10, markers.end(), wire::kEndByte);
+    CHECK(with_more_bytes(markers, 1, random).size() == markers.size() + 1);
+}

@@ -1,5 +1,6 @@
 #include "sim/line/line.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>
 
@@ -120,6 +121,50 @@ TEST_CASE("what is sent while nothing is plugged in is lost, and nothing after",
     line.handed_over(line.shown(UtcTime(1s)).size(), UtcTime(1s));
     CHECK(fates == std::vector{Fate::lost, Fate::lost, Fate::intact});
     CHECK(line.report().bytes_handed_over == 24);
+}
+
+TEST_CASE("what was lost on purpose is not lost by the plug or the terminal as well",
+          "[sim][line]") {
+    for (const bool is_overrun : {true, false}) {
+        Line line({}, 1, UtcTime(0s), [](const TruthRecord&) {});
+        line.hold_until(UtcTime(1h));
+        for (std::uint32_t i = 0; i < 4; ++i) {
+            TruthRecord record = frame_of(i);
+            record.utc = UtcTime(i * 20ms);
+            if (i == 1 || i == 2) record.fate = Fate::lost;
+            line.send(i == 1 || i == 2 ? std::span<const std::byte>() : kFrame, UtcTime(0s),
+                      &record);
+        }
+        is_overrun ? line.overrun(2 * 24, UtcTime(0s)) : line.unplug(UtcTime(0s));
+        const LineReport& report = line.report();
+        CHECK(report.frames_lost == 4);
+        CHECK((is_overrun ? report.lost_by_overrun : report.lost_unplugged) == 2);
+    }
+}
+
+TEST_CASE("at the end each frame has a fate, wherever the host had come to", "[sim][line]") {
+    for (std::size_t cut = 0; cut <= 3 * 24; ++cut) {
+        CAPTURE(cut);
+        std::vector<Fate> fates;
+        Line line({}, 1, UtcTime(0s),
+                  [&fates](const TruthRecord& record) { fates.push_back(record.fate); });
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            TruthRecord record = frame_of(i);
+            record.utc = UtcTime(i * 20ms);
+            line.send(kFrame, UtcTime(0s), &record);
+        }
+        line.handed_over(cut, UtcTime(0s));
+        line.abandon(UtcTime(0s));
+        REQUIRE(fates.size() == 3);
+        const LineReport& report = line.report();
+        const auto whole = static_cast<std::int64_t>(cut / 24);
+        CHECK(report.frames_sent == whole);
+        CHECK(report.frames_damaged == (cut % 24 > 0 ? 1 : 0));
+        CHECK(report.frames_pending == 3 - whole - report.frames_damaged);
+        CHECK(report.frames_lost == 0);
+        CHECK(std::ranges::count(fates, Fate::lost) == report.frames_pending);
+        CHECK(line.is_empty());
+    }
 }
 
 TEST_CASE("a frame without bytes is settled in its turn", "[sim][line]") {

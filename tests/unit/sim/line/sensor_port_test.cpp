@@ -107,7 +107,9 @@ struct Served {
     Line line{{}, 1, scenario.start(), [this](const TruthRecord& r) { truth.push_back(r); }};
     FaultInjector faults{{}, scenario.start(), line, machine, profile, {}, {}};
     Pty pty;
-    SensorPort port{pty, stream, line, &faults};
+    std::vector<std::string> troubles;
+    SensorPort port{pty, stream, line, &faults,
+                    [this](const std::string& trouble) { troubles.push_back(trouble); }};
     std::atomic<bool> stop = false;
     std::thread thread;
 };
@@ -222,6 +224,12 @@ TEST_CASE("a path that is not ours is refused and stays", "[sim][pty]") {
     std::filesystem::create_symlink(other.slave_path(), link);  // A terminal that is served.
     refused();
     CHECK_THROWS_AS(Pty("/nonexistent/sensor"), InputError);
+    CHECK_THROWS_AS(Pty(""), InputError);
+    CHECK_THROWS_AS(Pty(link_path(std::string(300, 'x'))), InputError);
+    CHECK_THROWS_AS(Pty("/proc/a351"), InputError);
+    std::filesystem::create_symlink(link, link);
+    CHECK_THROWS_AS(Pty(link / "sensor"), InputError);
+    refused();
 }
 
 TEST_CASE("a link that somebody else has put in place is not removed", "[sim][pty]") {
@@ -294,4 +302,52 @@ TEST_CASE("an overrun loses what the receiver has no room for and says exactly h
     CHECK(report.frames_sent == frames);
     CHECK(report.frames_made == report.frames_sent + report.frames_lost + report.frames_damaged);
     CHECK(served.truth.size() == static_cast<std::size_t>(report.frames_made));
+}
+
+TEST_CASE("at the end every frame has its place, and every unread byte", "[sim][sensor_port]") {
+    Served served("settled", 1000.0);
+    Host host(served.link);
+    host.send(kStartLogging);
+    const bool is_reading = GENERATE(true, false);
+    if (is_reading) {
+        REQUIRE(host.receive(24 * 100).size() == 24 * 100);
+        host.send("83 02 0D");
+        while (host.is_readable()) static_cast<void>(host.receive(4096));
+    } else {
+        std::this_thread::sleep_for(500ms);  // 25 000 frames.
+    }
+    served.end();
+    served.port.finish(served.scenario.start() + 24h);
+    const LineReport& report = served.line.report();
+    CHECK(report.frames_made ==
+          report.frames_sent + report.frames_damaged + report.frames_lost + report.frames_pending);
+    CHECK(served.truth.size() == static_cast<std::size_t>(report.frames_made));
+    CHECK(served.port.was_drained() == is_reading);
+    CHECK((report.frames_pending > 0) != is_reading);
+    CHECK(served.port.bytes_unread() ==
+          (is_reading ? 0 : static_cast<std::size_t>(report.bytes_handed_over)));
+}
+
+TEST_CASE("where something has taken the link's place the port stays out, says so and waits",
+          "[sim][sensor_port]") {
+    Served served("taken", 50.0);
+    const auto gone = [&served](bool is_gone) {
+        for (int i = 0; i < 400; ++i) {
+            if (std::filesystem::is_symlink(served.link) != is_gone) return;
+            std::this_thread::sleep_for(5ms);
+        }
+        FAIL("the link stays");
+    };
+    served.faults.apply(parse_fault("hang_up seconds=30", {served.profile, 50.0}),
+                        served.scenario.start() + 1s);
+    gone(true);
+    std::ofstream(served.link) << "a file of somebody";
+    std::this_thread::sleep_for(1s);
+    CHECK(std::filesystem::is_regular_file(served.link));
+    std::filesystem::remove(served.link);
+    gone(false);
+    CHECK(served.line.report().frames_sent == 0);
+    served.end();
+    REQUIRE(served.troubles.size() == 1);
+    CHECK(served.troubles[0].find("no link") != std::string::npos);
 }

@@ -163,3 +163,11 @@ TEST_CASE("the delays are a function of the seed", "[sim][transport]") {
     CHECK(one == delays_ms(carry(parameters, 100, 5)));
     CHECK(one != delays_ms(carry(parameters, 100, 6)));
 }
+
+TEST_CASE("a shorter hold does not end a longer one", "[sim][transport]") {
+    Transport transport({}, 1, UtcTime(0s));
+    transport.hold_until(UtcTime(8s));
+    transport.hold_until(UtcTime(4s));
+    transport.carry(1, UtcTime(1s));
+    CHECK(transport.next_shown() == UtcTime(8s));
+}

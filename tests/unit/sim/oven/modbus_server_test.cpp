@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
+#include <numeric>
+#include <random>
 #include <sstream>
 #include <string>
 
@@ -49,6 +51,13 @@ struct Bench {
         return heard;
     }
 };
+
+/// Everything that the report knows of.
+std::int64_t total(const OvenReport& report) {
+    return report.answers + report.answers_lost + report.resets + report.broadcasts +
+           report.for_other_units + report.unreadable + report.unheard +
+           std::accumulate(report.faults.begin(), report.faults.end(), std::int64_t{0});
+}
 
 const Bytes kReadPv = bytes_of("01 03 20 00 00 01 8F CA");
 const Bytes kPv = bytes_of("01 03 02 01 A9 79 AA");
@@ -134,6 +143,84 @@ TEST_CASE("while an answer is due nothing is heard", "[sim][modbus_server]") {
     CHECK(bench.ask(twice) == kPv);
     CHECK(bench.server.report().unheard == 2);
     CHECK(bench.server.report().answers == 2);
+}
+
+TEST_CASE("what comes while nothing is heard counts once, however it is cut",
+          "[sim][modbus_server]") {
+    // A byte takes 1.1 ms at 9600 baud; the answer is due after 37 ms.
+    for (const std::size_t piece : {std::size_t{1}, std::size_t{3}, kReadPv.size()}) {
+        CAPTURE(piece);
+        Bench bench;
+        const auto send_in_pieces = [&] {
+            for (std::size_t at = 0; at < kReadPv.size(); at += piece) {
+                bench.now += 1ms;
+                bench.server.receive(
+                    std::span(kReadPv).subspan(at, std::min(piece, kReadPv.size() - at)),
+                    bench.now);
+            }
+        };
+        bench.server.receive(kReadPv, bench.now);
+        send_in_pieces();
+        CHECK(bench.server.report().unheard == 1);
+        bench.now += 5ms;
+        send_in_pieces();  // Another one, after a silence.
+        CHECK(bench.server.report().unheard == 2);
+        CHECK(bench.wait(300ms) == kPv);
+        bench.server.restart(bench.now);
+        send_in_pieces();
+        CHECK(bench.server.report().unheard == 3);
+        CHECK(bench.server.report().answers == 1);
+        CHECK(total(bench.server.report()) == 4);
+    }
+}
+
+TEST_CASE("an answer is counted when it leaves", "[sim][modbus_server]") {
+    Bench bench;
+    bench.server.receive(kReadPv, bench.now);
+    CHECK(total(bench.server.report()) == 0);
+    CHECK(bench.wait(300ms) == kPv);
+    CHECK(bench.server.report().answers == 1);
+
+    bench.server.receive(kReadPv, bench.now);
+    CHECK(bench.server.advance_to(bench.now + 300ms, false).empty());
+    CHECK(bench.server.advance_to(bench.now + 300ms).empty());
+    CHECK(bench.server.report().answers_lost == 1);
+
+    bench.now += 1s;
+    bench.server.fail_next(OvenFault::crc_error, 1);
+    bench.server.receive(kReadPv, bench.now);
+    bench.server.restart(bench.now);
+    CHECK(bench.wait(300ms).empty());
+    CHECK(bench.server.report().answers_lost == 2);
+    CHECK(bench.server.report().answers == 1);
+    CHECK(total(bench.server.report()) == 3);
+}
+
+TEST_CASE("half a request that a loss of power cuts is one unheard run", "[sim][modbus_server]") {
+    Bench bench;
+    bench.server.receive(std::span(kReadPv).first(5), bench.now);
+    bench.server.restart(bench.now);
+    bench.server.receive(std::span(kReadPv).subspan(5), bench.now + 1ms);
+    CHECK(bench.wait(300ms).empty());
+    CHECK(bench.server.report().unheard == 1);
+    CHECK(total(bench.server.report()) == 1);
+}
+
+TEST_CASE("a software reset is counted as one, and leaves the faults to real answers",
+          "[sim][modbus_server]") {
+    Bench bench;
+    REQUIRE(bench.controller.operate(0, 1) == std::nullopt);
+    bench.server.fail_next(OvenFault::truncated, 1);
+    Bytes reset_and_more = sealed(bytes_of("01 06 00 00 06 00"));
+    reset_and_more.insert(reset_and_more.end(), kReadPv.begin(), kReadPv.end());
+    CHECK(bench.ask(reset_and_more).empty());
+    CHECK(bench.server.report().resets == 1);
+    CHECK(bench.server.report().unheard == 1);
+    CHECK(total(bench.server.report()) == 2);
+    bench.now += 5s;
+    CHECK(bench.ask(kReadPv) == bytes_of("01 03 02"));
+    CHECK(bench.ask(kReadPv) == kPv);
+    CHECK(total(bench.server.report()) == 4);
 }
 
 TEST_CASE("each fault spoils as many answers as asked for, in its own way",
@@ -224,4 +311,58 @@ TEST_CASE("every request is counted once", "[sim][modbus_server]") {
     CHECK(report.exceptions == 1);
     CHECK(report.unreadable == 2);
     CHECK(report.unheard == 0);
+}
+
+TEST_CASE("a sealed frame of a known function that is too short for it is unreadable",
+          "[sim][modbus_server]") {
+    for (const char* begin : {"01 03", "01 10", "01 10 20", "01 10 21 03", "01 08 00 00 00"}) {
+        CAPTURE(begin);
+        Bench bench;
+        CHECK(bench.ask(sealed(bytes_of(begin))).empty());
+        CHECK(bench.server.report().unreadable == 1);
+        CHECK(total(bench.server.report()) == 1);
+        CHECK(bench.ask(kReadPv) == kPv);
+    }
+}
+
+TEST_CASE("sealed frames of any length and function count once, however they are cut",
+          "[sim][modbus_server]") {
+    std::mt19937 random(7);
+    Bench bench;
+    std::int64_t sent = 0;
+    const auto deliver = [&](const Bytes& frame, std::size_t first, std::size_t piece) {
+        const std::span<const std::byte> all(frame);
+        bench.server.receive(all.first(first), bench.now);
+        for (std::size_t at = first; at < all.size(); at += piece) {
+            bench.server.receive(all.subspan(at, std::min(piece, all.size() - at)), bench.now);
+        }
+        static_cast<void>(bench.server.advance_to(bench.now + 10ms));
+        static_cast<void>(bench.server.advance_to(bench.now + 2s));
+        bench.now += 3s;
+        ++sent;
+        if (total(bench.server.report()) == sent) return;
+        CAPTURE(frame.size(), std::to_integer<int>(frame[1]), first, piece);
+        REQUIRE(total(bench.server.report()) == sent);
+    };
+    for (std::size_t length = 4; length <= 264; ++length) {
+        for (unsigned function = 0; function < 256; ++function) {
+            Bytes frame(length - 2);
+            for (std::byte& byte : frame) byte = static_cast<std::byte>(random() & 0xFF);
+            frame[0] = static_cast<std::byte>(random() % 3);  // All units, this one, another.
+            frame[1] = static_cast<std::byte>(function);
+            frame = sealed(std::move(frame));
+            deliver(frame, length, 1);
+            deliver(frame, 1, 1);
+            deliver(frame, 1, 7);
+            for (std::size_t cut = 1; cut < std::min<std::size_t>(length, 16); ++cut) {
+                deliver(frame, cut, length);
+            }
+            deliver(frame, 1 + random() % (length - 1), length);
+        }
+    }
+    const OvenReport& report = bench.server.report();
+    CHECK(report.answers > 1000);
+    CHECK(report.broadcasts > 1000);
+    CHECK(report.for_other_units > 1000);
+    CHECK(report.unreadable > 1000);
 }

@@ -238,3 +238,19 @@ TEST_CASE("an oven unplugged and plugged in again is found under its link", "[si
     Master master(running.link);
     CHECK(master.read(0x2000) == 425);
 }
+
+TEST_CASE("an answer that was due when the oven was unplugged is lost, not given",
+          "[sim][oven_port]") {
+    RunningOven running;
+    Master master(running.link);
+    const std::array<std::uint8_t, 6> request{1, 3, 0x20, 0, 0, 1};
+    REQUIRE(modbus_send_raw_request(master.get(), request.data(), request.size()) > 0);
+    const auto serve = [&running, start = host_now()](Nanoseconds after) {
+        running.port().serve({start, after});
+    };
+    serve(1h);
+    REQUIRE(running.port().apply_fault("oven_unplug", 1));
+    serve(1h + 1s);
+    CHECK(running.port().report().answers == 0);
+    CHECK(running.port().report().answers_lost == 1);
+}

@@ -194,6 +194,32 @@ TEST_CASE("segments of a session follow each other without a break", "[sim][repl
     CHECK_FALSE(device.next_due());
 }
 
+TEST_CASE("segments of one identifier but of two boots, or earlier on raw time, are two sessions",
+          "[sim][replay]") {
+    Recorded recorded;
+    recorded.segment({header_of(1, 10s), read_of("one", 15s)});
+    auto other_day = header_of(1);
+    other_day.clock.realtime += 24h;
+    if (GENERATE(false, true)) {
+        other_day.boot_id = "another";
+        other_day.clock.raw += 10s;
+    }
+    const Nanoseconds read = other_day.clock.raw - kRawStart + 5s;
+    recorded.segment({other_day, read_of("two", read)});
+    ReplayDevice device = recorded.device();
+    ReplayHost host(device, kStart);
+    host.configure({}, kProfile);
+    host.listen();
+    CHECK(text_of(host.line) == "one");
+    host.line.pieces.clear();
+    host.configure({}, kProfile);
+    host.wait_until(kStart + 24h);
+    host.listen();
+    CHECK(text_of(host.line) == "two");
+    CHECK(host.line.pieces.back().leaves == kStart + 24h + 5s);
+    CHECK(device.report().sessions == 2);
+}
+
 TEST_CASE("a session ends in configuration mode, and the next waits for a new start",
           "[sim][replay]") {
     Recorded recorded;

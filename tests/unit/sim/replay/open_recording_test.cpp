@@ -98,6 +98,33 @@ TEST_CASE("a directory stands for its segments in the order of their numbers", "
               .identity.firmware == 3);
 }
 
+TEST_CASE("of a directory, segments without a header are passed over and told of",
+          "[sim][replay]") {
+    const test::TemporaryDirectory directory;
+    auto torn = good_segment();
+    torn.resize(60);
+    const fs::path empty_file = directory.path() / "00000002_x.a351j";
+    const fs::path torn_file = directory.path() / "00000003_x.a351j";
+    test::write_bytes(empty_file, {});
+    test::write_bytes(torn_file, torn);
+    CHECK(refusal({directory.path()})
+              .starts_with(directory.path().string() +
+                           ": no journal segment in it has a whole header"));
+    test::write_bytes(directory.path() / "00000001_x.a351j", good_segment(7));
+    const auto recording = open_recording({.files = {directory.path()}});
+    CHECK(recording->unit().identity.firmware == 7);
+    REQUIRE(recording->damage().size() == 2);
+    CHECK(recording->damage()[0].file == empty_file);
+    CHECK(recording->damage()[0].byte_count == 0);
+    CHECK(recording->damage()[0].reason == "shorter than its preamble");
+    CHECK(recording->damage()[1].file == torn_file);
+    CHECK(recording->damage()[1].byte_count == 60);
+    CHECK(recording->damage()[1].reason == "torn chunk");
+    // Named by itself such a file is a mistake.
+    CHECK(refusal({directory.path() / "00000001_x.a351j", empty_file})
+              .starts_with(empty_file.string() + ": empty"));
+}
+
 TEST_CASE("journal and other files are not mixed", "[sim][replay]") {
     const test::TemporaryDirectory directory;
     test::write_bytes(directory.path() / "a.a351j", good_segment());

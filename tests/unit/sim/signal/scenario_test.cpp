@@ -154,6 +154,12 @@ TEST_CASE("what does not fit into the record is refused in one line", "[sim][sce
     const std::string air = "[[ambient]]\nat_h = 0\ndegc = 20\n";
     CHECK_NOTHROW(parse_scenario("base = \"tsukuba\"\nname = \"x\"\n" + fixed + site + air, "x"));
     refused(fixed + air, "site");
+    for (const char* name : {"A\\\"", "A,B", "A\\\\", "A\\u0007", "A\\n", "A\\u007f"}) {
+        refused(fixed + with(site, "\"A\"", std::string("\"") + name + "\"") + air, "name");
+        CHECK_THROWS_WITH(
+            parse_scenario("base = \"tsukuba\"\nname = \"" + std::string(name) + "\"\n", "x.toml"),
+            Contains("x.toml") && Contains("name") && !Contains("\n"));
+    }
     refused(fixed + site, "ambient");
     refused(fixed + "lead_in_h = 3.0\n" + site + air, "lead_in_h");
     refused("[schedule]\nstart_utc = \"2020-01-01T00:00:00Z\"\n" + site + air, "duration_h");
@@ -170,7 +176,7 @@ TEST_CASE("what does not fit into the record is refused in one line", "[sim][sce
         "to_utc");
     refused("[schedule]\nlead_in_h = 0.05\n", "lead_in_h");
     refused("[schedule]\nlead_out_min = 5\n", "lead_out_min");
-    refused("[schedule]\nsetups = 10\nshortest_s = 60\n", "setups");
+    refused("[schedule]\nsetups = 10\nshortest_s = 60\njitter_s = 125\n", "setups");
     const std::string stay =
         "[[occupation]]\nsite = \"No.1\"\ncentre_utc = \"2017-07-16T00:00:00Z\"\n"
         "ambient_degc = 25\n";
@@ -180,6 +186,84 @@ TEST_CASE("what does not fit into the record is refused in one line", "[sim][sce
     refused("[line]\njitter_s = 1\n", "jitter_s");
     refused("[clock]\nerror_ppm = 1e6\n", "error_ppm");
     refused("[temperature_error]\nunit_scatter = 1.5\n", "unit_scatter");
+    refused("[vibration]\nground_low_hz = 10\nground_high_hz = 5\n", "ground_high_hz");
+    refused("[slow_noise]\nflicker_shortest_s = 40000\n", "flicker_longest_s");
+    refused("[sensor]\npower_on_before_start_h = 1.9\n", "power_on_before_start_h");
+    // The run-in itself is enough.
+    CHECK_NOTHROW(parse_scenario(
+        "base = \"tsukuba\"\nname = \"x\"\n[sensor]\npower_on_before_start_h = 2\n", "x.toml"));
+}
+
+TEST_CASE("the air around the oven is refused from the scenario's own set point on",
+          "[sim][scenario]") {
+    const auto parse = [](const std::string& text) {
+        return parse_scenario("base = \"tsukuba\"\nname = \"x\"\n" + text, "x.toml");
+    };
+    const std::string warm = "[oven]\nset_point_degc = 55\n";
+    CHECK_NOTHROW(parse(warm + "[[ambient]]\nat_h = 1\ndegc = 54.9\n"));
+    CHECK_THROWS_WITH(parse(warm + "[[ambient]]\nat_h = 1\ndegc = 55\n"), Contains("degc = 55"));
+    CHECK_THROWS_WITH(parse("[[ambient]]\nat_h = 1\ndegc = 42.5\n"),
+                      Contains("degc = 42.5") && Contains("oven.set_point_degc = 42.5"));
+    CHECK_THROWS_WITH(parse("[[lid_open]]\nsite = \"No.1\"\noutside_degc = 43\n"),
+                      Contains("outside_degc"));
+    CHECK_THROWS_WITH(parse("[schedule]\nambient_after_degc = 50\n"),
+                      Contains("set_point_degc") && Contains("50 degC"));
+    // The base's own course is as warm as 34.4 degC.
+    CHECK_THROWS_WITH(parse("[oven]\nset_point_degc = 34\n"),
+                      Contains("set_point_degc") && Contains("34.4 degC"));
+}
+
+TEST_CASE("an oven whose step would be unstable is refused with its bound; at the bound it is calm",
+          "[sim][scenario]") {
+    const auto parse = [](const std::string& oven) {
+        return parse_scenario("base = \"tsukuba\"\nname = \"x\"\n[oven]\n" + oven, "x.toml");
+    };
+    CHECK_THROWS_WITH(parse("heater_capacity_j_per_k = 1\nheater_body_k_per_w = 0.01\n"),
+                      Contains("heater_capacity_j_per_k") && Contains("100.08"));
+    CHECK_THROWS_WITH(parse("body_capacity_j_per_k = 1\nbody_ambient_k_per_w = 0.5\n"),
+                      Contains("body_capacity_j_per_k") && Contains("2.2 or more"));
+    const Scenario at_the_bound = parse(
+        "heater_body_k_per_w = 0.01\nheater_capacity_j_per_k = 100.1\n"
+        "body_capacity_j_per_k = 100.1\n");
+    ThermalPlant plant(at_the_bound.oven, DegC(25.0));
+    for (int i = 0; i < 20'000; ++i) plant.step(DegC(25.0));
+    CHECK(plant.body().value() > 35.0);
+    CHECK(plant.body().value() < 50.0);
+}
+
+TEST_CASE("set-ups are measured by the shortest stay that can be drawn", "[sim][scenario]") {
+    const auto parse = [](const std::string& text) {
+        return parse_scenario("base = \"tsukuba\"\nname = \"x\"\n[schedule]\n" + text, "x.toml");
+    };
+    const auto stay = [](const std::string& more) {
+        return "[[occupation]]\nsite = \"No.1\"\ncentre_utc = \"2017-07-16T00:00:00Z\"\n"
+               "ambient_degc = 25\n" +
+               more;
+    };
+    // 20 min less 2 min of jitter: 10 set-ups of 108 s, whatever shortest_s says.
+    CHECK_NOTHROW(parse("shortest_s = 60\n" +
+                        stay("length_s = 1200\nabout_y_deg = "
+                             "[0,0,0,0,0,0,0,0,0,0]\nabout_x_deg = [0,0,0,0,0,0,0,0,0,0]\n")));
+    CHECK_THROWS_WITH(parse("shortest_s = 60\n" + stay("length_s = 240\nabout_y_deg = [0, 0, 0]\n"
+                                                       "about_x_deg = [0, 0, 0]\n")),
+                      Contains("about_y_deg") && Contains("No.1 (1)"));
+    CHECK_THROWS_WITH(parse("shortest_s = 60\nsetups = 3\n" + stay("length_s = 240\n")),
+                      Contains("setups") && Contains("No.1 (1)"));
+}
+
+TEST_CASE("a stay that the one before leaves no time for is refused", "[sim][survey_plan]") {
+    const auto plan_of = [](const std::string& second) {
+        return plan_survey(
+            parse_scenario("base = \"tsukuba\"\nname = \"x\"\n[schedule]\nlead_out_min = 90\n"
+                           "[[occupation]]\nsite = \"No.1\"\ncentre_utc = "
+                           "\"2017-07-16T00:30:00Z\"\nlength_s = 7200\nambient_degc = 25\n"
+                           "[[occupation]]\nsite = \"No.2\"\ncentre_utc = \"2017-07-16T" +
+                               second + "Z\"\nambient_degc = 25\n",
+                           "x.toml"),
+            1);
+    };
+    CHECK_THROWS_WITH(plan_of("00:40:00"), Contains("No.2 (1)") && Contains("not over in time"));
+    CHECK_NOTHROW(plan_of("01:40:00"));
 }
 
 TEST_CASE("occupations that cannot be moved apart within the record are refused",
@@ -191,7 +275,7 @@ TEST_CASE("occupations that cannot be moved apart within the record are refused"
                 ":00Z\"\nambient_degc = 25\n";
     }
     CHECK_THROWS_WITH(plan_survey(parse_scenario(text, "x.toml"), 1),
-                      Contains("No.1") && Contains("lead_out_min"));
+                      Contains("No.1") && Contains("further apart"));
 }
 
 TEST_CASE("several set-ups share an occupation without a gap, each with its own draws",
@@ -273,7 +357,7 @@ TEST_CASE("occupations close together are moved apart, not overlapped", "[sim][s
         "base = \"tsukuba\"\nname = \"rush\"\n"
         "[[occupation]]\nsite = \"No.0\"\ncentre_utc = \"2017-07-16T00:00:00Z\"\nambient_degc = "
         "25\n"
-        "[[occupation]]\nsite = \"No.1\"\ncentre_utc = \"2017-07-16T00:05:00Z\"\nambient_degc = "
+        "[[occupation]]\nsite = \"No.1\"\ncentre_utc = \"2017-07-16T00:14:00Z\"\nambient_degc = "
         "25\n",
         "rush.toml");
     const auto plan = plan_survey(scenario, 1);

@@ -80,6 +80,48 @@ TEST_CASE("the truth's terms add up to what the samples' norm reads", "[sim][tru
     }
 }
 
+TEST_CASE("each term of the truth is what the samples' norm shows of it", "[sim][truth]") {
+    // Of an ideal day, one thing at a time: its size in the truth, and that of the norm, to 0.01.
+    struct Case {
+        const char* column;
+        const char* toml;
+        double least_mgal;
+    };
+    const auto [column, toml, least_mgal] = GENERATE(values<Case>({
+        {"tide_mgal", "", 0.1},
+        {"static_mgal", "[temperature_error]\ncrystal_static_mgal_per_degc = -12\n", 0.5},
+        {"dynamic_mgal", "[temperature_error]\ncrystal_dynamic_mgal_per_degc = -950\n", 0.05},
+        {"clock_mgal", "[temperature_error]\nclock_mgal_per_degc = -20\n", 0.5},
+        {"warm_up_mgal", "[temperature_error]\nwarm_up_mgal = 36\n", 0.1},
+        {"placement_mgal", "[slow_noise]\nplacement_mgal = 3\n", 0.05},
+        {"flicker_mgal", "[slow_noise]\nflicker_mgal = 3\n", 0.05},
+        {"resonant_mgal", "[slow_noise]\nresonant_mgal = 3\n", 0.05},
+        {"drift_mgal", "[slow_noise]\ndrift_linear_mgal_per_h = 5\n", 0.9},
+        {"ripple_mgal", "[slow_noise]\nripple_mgal = 2\nripple_period_s = 5000\n", 0.05},
+        {"tilt_mgal", "[sensor]\nlevelling_sigma_deg = 2\nhorizontal_bias_max_mgal = 2000\n", 0.5},
+        {"burst_mgal", "[vibration]\nvehicles_per_h = 60\nvehicle_hz = [0.1, 0.1]\n", 0.05},
+        {"rectification_mgal",
+         "[vibration]\nvehicles_per_h = 60\nvehicle_gal = [20, 20]\nvehicle_hz = [9, 11]\n", 0.5},
+    }));
+    const auto truth_and_norms = [](const std::string& more) {
+        // A day and hour of tide above 0.1 mGal: new moon of 23 July 2017, Moon and Sun high.
+        const Scenario scenario = parse_scenario(
+            "base = \"ideal\"\nname = \"x\"\n[schedule]\nlead_in_h = 0.2\njitter_s = 0\n" + more +
+                "[[occupation]]\nsite = \"No.5\"\ncentre_utc = \"2017-07-23T03:00:00Z\"\n"
+                "ambient_degc = 25\n",
+            "x.toml");
+        return std::pair(
+            text::CsvTable::parse(truth_csv(scenario, plan_survey(scenario, 1), 1), "truth.csv"),
+            mean_norms_mgal(scenario, 1));
+    };
+    CAPTURE(column);
+    const auto [table, norms] = truth_and_norms(toml);
+    CHECK(std::abs(table.number(0, column)) >= least_mgal);
+    CHECK(norms[0] == Approx(sum_of(table, 0)).epsilon(0.0).margin(0.01));
+    // The Moon and the Sun above pull up: gravity is less.
+    CHECK(table.number(0, "tide_mgal") < -0.1);
+}
+
 TEST_CASE("an ideal day's truth has tide and bias, and no error", "[sim][truth]") {
     const Scenario scenario = load_scenario("ideal");
     const auto plan = plan_survey(scenario, 3);
@@ -102,7 +144,11 @@ TEST_CASE("tilting by two degrees to each side shows the axis bias", "[sim][trut
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const auto truth = set_up_truth(scenario, plan_survey(scenario, seed), seed);
         const auto bias_mgal = axis_bias_mgal(scenario, seed);
-        const double sine = std::sin(2.0 * 3.14159265358979 / 180.0);
+        // Gravity's share across the axis acts on the norm by its share of the norm, which has the
+        // bias of axis z in it.
+        const double gravity_mgal = scenario.sites.front().gravity->value();
+        const double sine = std::sin(2.0 * 3.14159265358979 / 180.0) * gravity_mgal /
+                            (gravity_mgal + scenario.sensor.bias_mgal);
         CHECK(truth[1].tilt_mgal - truth[2].tilt_mgal ==
               Approx(2.0 * bias_mgal[0] * sine).margin(0.01));
         CHECK(truth[3].tilt_mgal - truth[4].tilt_mgal ==

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "sim/signal/earth_tide.hpp"
 
@@ -40,9 +41,11 @@ std::vector<Means> occupation_means(const std::string& name, std::uint64_t seed)
             const UtcTime time = *source.next_instant();
             const SensorSample sample = source.next().values;
             if (time < occupation.start + std::chrono::seconds(60)) continue;
-            const double residual_mgal =
-                norm_mgal(sample) - site.gravity->value() - scenario.sensor.bias_mgal -
-                earth_tide(site.latitude, site.longitude, site.altitude, time).value();
+            const double residual_mgal = norm_mgal(sample) - site.gravity->value() -
+                                         scenario.sensor.bias_mgal -
+                                         earth_tide(site.latitude, site.longitude, site.altitude,
+                                                    time, scenario.tide.gravimetric_factor)
+                                             .value();
             sum += residual_mgal;
             square += residual_mgal * residual_mgal;
             ++count;
@@ -81,6 +84,34 @@ TEST_CASE("an ideal day reads gravity, tide and bias and nothing else", "[sim][s
         CHECK(std::abs(mean.residual_mgal) < 0.004);
         CHECK(mean.norm_rms_mgal < 0.15);
     }
+}
+
+TEST_CASE("counts end with the range of their type", "[sim][signal_source]") {
+    CHECK(to_counts(2.5) == 3);
+    CHECK(to_counts(-2.5) == -2);
+    CHECK(to_counts(1e12) == std::numeric_limits<std::int32_t>::max());
+    CHECK(to_counts(-1e12) == std::numeric_limits<std::int32_t>::min());
+    CHECK(to_counts(std::numeric_limits<double>::infinity()) ==
+          std::numeric_limits<std::int32_t>::max());
+    CHECK(to_counts(std::nan("")) == std::numeric_limits<std::int32_t>::min());
+}
+
+TEST_CASE("the bias of axis z stays on it when the box is turned", "[sim][signal_source]") {
+    const Scenario scenario = parse_scenario(
+        "base = \"ideal\"\nname = \"x\"\n[schedule]\nlead_in_h = 0.1\njitter_s = 0\n"
+        "[sensor]\nwhite_mgal = 0.0\n[[occupation]]\nsite = \"No.1\"\nambient_degc = 25\n"
+        "centre_utc = \"2017-07-16T00:00:00Z\"\nabout_y_deg = [30]\nabout_x_deg = [0]\n",
+        "x.toml");
+    SignalSource source(scenario, a351_profile(), 1);
+    const SensorSample sample = source.next().values;
+    const auto mgal = [](std::int32_t counts) {
+        return to_milligal(a351_profile().acceleration(counts)).value();
+    };
+    const double gravity_mgal = scenario.sites[1].gravity->value();
+    // Half a count of 0.058 mGal, and a tide of at most 0.3 mGal.
+    CHECK(mgal(sample.axes_counts[0]) == Approx(0.5 * gravity_mgal).margin(0.2));
+    CHECK(mgal(sample.axes_counts[2]) ==
+          Approx(std::sqrt(0.75) * gravity_mgal + scenario.sensor.bias_mgal).margin(0.33));
 }
 
 TEST_CASE("a tilted unit misreads by the horizontal bias, differently at each levelling",

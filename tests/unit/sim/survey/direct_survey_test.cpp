@@ -1,13 +1,15 @@
 #include "sim/survey/direct_survey.hpp"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <csignal>
 
-#include "protocol/core/input_error.hpp"
 #include "protocol/record/archive_reader.hpp"
 #include "protocol/record/event_log.hpp"
+#include "protocol/record/journal_reader.hpp"
 #include "protocol/record/station_xml.hpp"
 #include "protocol/text/csv.hpp"
 #include "sim/scenario/survey_plan.hpp"
@@ -34,6 +36,20 @@ public:
 private:
     std::filesystem::path path_;
 };
+
+/// Two stations within half an hour.
+Scenario brief_day(const std::string& name = "brief", const std::string& date = "2017-07-16",
+                   const std::string& more = "") {
+    return parse_scenario("base = \"ideal\"\nname = \"" + name +
+                              "\"\n[schedule]\nlead_in_h = 0.2\nlead_out_min = 8\n"
+                              "length_s = 300\nshortest_s = 300\njitter_s = 20\n"
+                              "[[occupation]]\nsite = \"No.0\"\ncentre_utc = \"" +
+                              date +
+                              "T01:00:00Z\"\nambient_degc = 25\n"
+                              "[[occupation]]\nsite = \"No.1\"\ncentre_utc = \"" +
+                              date + "T01:10:00Z\"\nambient_degc = 25\n" + more,
+                          "brief.toml");
+}
 
 }  // namespace
 
@@ -69,9 +85,101 @@ TEST_CASE("a day written to a data root reads back as the truth", "[sim][direct_
     CHECK(std::abs(seconds_between(plan[0].start, occupations[0].set_ups[0].start)) <= 0.02);
     CHECK(std::abs(seconds_between(plan[0].end, occupations[0].set_ups[0].end)) <= 0.02);
     CHECK(record::read_station_xml(root / "metadata" / "station.xml").channels.size() >= 4);
-    CHECK(std::filesystem::exists(root / "survey.toml"));
+    CHECK_FALSE(std::filesystem::exists(root / "survey.toml"));  // One site: nothing to survey.
+    CHECK_FALSE(std::filesystem::exists(root / "partial"));
+}
 
-    CHECK_THROWS_AS(write_survey(scenario, *wire::find_profile("A351"), 1, root), InputError);
+TEST_CASE("a day is not written beside any part of another", "[sim][direct_survey]") {
+    const Root directory;
+    for (const char* name : {"journal", "archive", "events", "metadata", "truth.bin", "sites.csv",
+                             "schedule.csv", "truth.csv", "survey.toml", "partial"}) {
+        std::filesystem::create_directories(directory.path() / name);
+        CAPTURE(name);
+        CHECK_THROWS_WITH(
+            write_survey(brief_day(), *wire::find_profile("A351"), 1, directory.path()),
+            Catch::Contains(std::string("already holds ") + name) && !Catch::Contains("\n"));
+        std::filesystem::remove_all(directory.path() / name);
+    }
+    CHECK(std::filesystem::is_empty(directory.path()));
+    // An empty directory may be there.
+    static_cast<void>(write_survey(brief_day(), *wire::find_profile("A351"), 1, directory.path()));
+    CHECK(std::filesystem::exists(directory.path() / "journal"));
+    CHECK(std::filesystem::exists(directory.path() / "survey.toml"));
+}
+
+TEST_CASE("a day that cannot be written whole leaves nothing behind", "[sim][direct_survey]") {
+    const Root directory;
+    rlimit limit{};
+    REQUIRE(::getrlimit(RLIMIT_FSIZE, &limit) == 0);
+    const rlimit small{1'000'000, limit.rlim_max};
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
+    bool has_failed = false;
+    try {
+        static_cast<void>(
+            write_survey(brief_day(), *wire::find_profile("A351"), 1, directory.path()));
+    } catch (const std::system_error&) {
+        has_failed = true;
+    }
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, handler);
+    CHECK(has_failed);
+    CHECK(std::filesystem::is_empty(directory.path()));
+}
+
+TEST_CASE("each day is a session of its own: of its scenario, start, profile and seed",
+          "[sim][direct_survey]") {
+    const auto header_of = [](const Scenario& scenario, const char* profile, std::uint64_t seed) {
+        const Root directory;
+        static_cast<void>(
+            write_survey(scenario, *wire::find_profile(profile), seed, directory.path()));
+        record::JournalReader reader(
+            record::journal_segments(directory.path() / "journal").front());
+        return std::get<record::JournalHeader>(*reader.next());
+    };
+    std::vector<record::JournalHeader> headers;
+    headers.push_back(header_of(brief_day(), "A351", 1));
+    headers.push_back(header_of(brief_day("another"), "A351", 1));
+    headers.push_back(header_of(brief_day("brief", "2017-07-17"), "A351", 1));
+    headers.push_back(header_of(brief_day(), "A352AD10", 1));
+    headers.push_back(header_of(brief_day(), "A351", 2));
+    for (std::size_t i = 0; i < headers.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            CAPTURE(i, j);
+            CHECK(headers[i].session != headers[j].session);
+            CHECK(headers[i].boot_id != headers[j].boot_id);
+        }
+    }
+    CHECK(header_of(brief_day(), "A351", 1).session == headers.front().session);
+}
+
+TEST_CASE("with a clock that is wrong, events and tables are in true time",
+          "[sim][direct_survey]") {
+    const Root directory;
+    const Scenario scenario = brief_day("brief", "2017-07-16", "[clock]\nerror_ppm = 100\n");
+    static_cast<void>(write_survey(scenario, *wire::find_profile("A351"), 1, directory.path()));
+    const auto truth = read_truth(directory.path() / "truth.bin");
+    const auto events = record::read_events(directory.path() / "events").events;
+    const auto schedule = text::read_csv(directory.path() / "schedule.csv");
+    const auto rows = text::read_csv(directory.path() / "truth.csv");
+    const auto plan = plan_survey(scenario, 1);
+    REQUIRE(events.size() == 2 * plan.size());
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        const char* column = i % 2 == 0 ? "start_utc" : "end_utc";
+        const UtcTime listed = *parse_rfc3339(schedule.cell(i / 2, column));
+        const UtcTime counted = i % 2 == 0 ? plan[i / 2].start : plan[i / 2].end;
+        CAPTURE(i);
+        REQUIRE(events[i].index);
+        const TruthRecord& frame = truth.at(static_cast<std::size_t>(*events[i].index));
+        CHECK(std::abs(seconds_between(frame.utc, events[i].utc)) < 0.01);
+        CHECK(seconds_between(listed, events[i].utc) > -0.001);
+        CHECK(seconds_between(listed, events[i].utc) < 0.021);
+        CHECK(rows.cell(i / 2, column) == schedule.cell(i / 2, column));
+        // The sensor is ahead: what it counts as a second is shorter.
+        CHECK(seconds_between(listed, counted) ==
+              Approx(1e-4 * seconds_between(scenario.start(), listed)).margin(0.001));
+    }
+    CHECK(1e-4 * seconds_between(scenario.start(), scenario.end()) > 0.1);
 }
 
 TEST_CASE("further set-ups stand in the event log and in the tables", "[sim][direct_survey]") {

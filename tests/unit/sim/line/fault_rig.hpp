@@ -1,0 +1,147 @@
+#pragma once
+/// @file
+/// A device under a fault script, and a host that takes all that comes.
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "protocol/core/input_error.hpp"
+#include "protocol/timing/sample_index.hpp"
+#include "protocol/wire/burst_decoder.hpp"
+#include "sim/device/device_stream.hpp"
+#include "sim/line/fault_injector.hpp"
+#include "sim/noise/random.hpp"
+#include "tests/unit/sim/device/machine_script.hpp"
+
+namespace a351::sim {
+
+using namespace std::chrono_literals;
+using Kind = timing::Placement::Kind;
+
+/// Noise, without end.
+class NoiseSource final : public SampleSource {
+public:
+    [[nodiscard]] int rate_hz() const noexcept override { return 50; }
+    [[nodiscard]] std::optional<UtcTime> next_instant() const override {
+        return UtcTime(index_ * 20ms);
+    }
+    [[nodiscard]] TimedSample next() override {
+        TimedSample sample{*next_instant(), index_++, {}};
+        for (std::int32_t& axis : sample.values.axes_counts) axis = draw();
+        sample.values.temperature_counts = draw();
+        return sample;
+    }
+
+private:
+    std::int32_t draw() { return static_cast<std::int32_t>(noise_.bits() >> 44U); }
+    std::int64_t index_ = 0;
+    RandomStream noise_{1, "test"};
+};
+
+/// What a host makes of the bytes.
+struct Heard {
+    std::vector<wire::BurstValues> frames;
+    std::map<Kind, int> places;
+    std::int64_t missing = 0;
+    std::size_t bytes_skipped = 0;
+};
+
+struct Rig {
+    explicit Rig(const std::string& toml)
+        : faults(parse_fault_script(toml, "script.toml", UtcTime(0s), rules), UtcTime(0s), line,
+                 bench.machine, rules.profile, {}, [this](std::string_view kind, int count) {
+                     if (!oven_trouble.empty()) throw InputError(oven_trouble);
+                     oven = std::string(kind) + " " + std::to_string(count);
+                     return true;
+                 }) {
+        bench.start_logging();
+    }
+
+    void run_to(UtcTime end) {
+        for (; now <= end; now += 100ms) {
+            const Instant instant{now, bench.now};
+            faults.begin(instant);
+            stream.advance_to(instant, faults);
+            faults.catch_up(instant);
+            const auto shown = line.shown(now);
+            bytes.insert(bytes.end(), shown.begin(), shown.end());
+            line.handed_over(shown.size(), now);
+        }
+    }
+
+    [[nodiscard]] Heard heard() const {
+        Heard heard;
+        wire::BurstDecoder decoder(wire::BurstLayout::recommended(), 80);
+        timing::SampleIndex index(80, Hertz(50));
+        std::span<const std::byte> input(bytes);
+        while (const auto event = decoder.next(input)) {
+            if (const auto* lost = std::get_if<wire::Discarded>(&*event)) {
+                heard.bytes_skipped += lost->byte_count;
+                continue;
+            }
+            const auto& values = std::get<wire::BurstFrame>(*event).values();
+            heard.frames.push_back(values);
+            const RawTime arrival(static_cast<std::int64_t>(heard.frames.size()) * 20ms);
+            auto place = index.place(values.count, true, arrival);
+            ++heard.places[place.kind];
+            heard.missing += place.missing;
+            if (place.kind != Kind::new_session) continue;
+            index = timing::SampleIndex(80, Hertz(50));
+            static_cast<void>(index.place(values.count, true, arrival));
+        }
+        heard.bytes_skipped += decoder.pending_bytes();
+        return heard;
+    }
+
+    [[nodiscard]] std::vector<wire::BurstValues> arrived() const {
+        std::vector<wire::BurstValues> values;
+        for (const TruthRecord& record : truth) {
+            if (record.fate != Fate::damaged && record.fate != Fate::lost) {
+                values.push_back(record.values);
+            }
+        }
+        return values;
+    }
+
+    [[nodiscard]] std::int64_t count(Fate fate) const {
+        return std::ranges::count(truth, fate, &TruthRecord::fate);
+    }
+
+    FaultRules rules{*wire::find_profile("A352AD10"), 1.0, {"oven_silence"}};
+    NoiseSource source;
+    Bench bench;
+    DeviceStream stream{source, bench.machine};
+    std::vector<TruthRecord> truth;
+    Line line{{}, 1, UtcTime(0s), [this](const TruthRecord& record) { truth.push_back(record); }};
+    FaultInjector faults;
+    UtcTime now{0s};
+    std::vector<std::byte> bytes;
+    std::string oven, oven_trouble;
+};
+
+inline std::string fault(const std::string& kind, const std::string& keys) {
+    return "[[fault]]\nkind = \"" + kind + "\"\n" + keys + "\n";
+}
+
+/// Frames before, fault, frames behind; what the emulator says is what a host finds.
+inline Heard check_report(Rig& rig) {
+    rig.run_to(UtcTime(30s));
+    const Heard heard = rig.heard();
+    const LineReport& report = rig.line.report();
+    CHECK(heard.frames == rig.arrived());
+    CHECK(static_cast<std::int64_t>(heard.frames.size()) == report.frames_sent);
+    CHECK(static_cast<std::int64_t>(heard.bytes_skipped) ==
+          report.bytes_handed_over - report.bytes_of_frames);
+    CHECK(report.bytes_handed_over == static_cast<std::int64_t>(rig.bytes.size()));
+    CHECK(report.frames_damaged == rig.count(Fate::damaged));
+    CHECK(report.frames_lost == rig.count(Fate::lost));
+    CHECK(report.frames_repeated == rig.count(Fate::repeated));
+    CHECK(report.frames_misplaced == rig.count(Fate::misplaced));
+    return heard;
+}
+
+}  // namespace a351::sim

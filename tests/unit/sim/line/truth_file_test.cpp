@@ -1,0 +1,31 @@
+#include "sim/truth/truth_file.hpp"
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "protocol/core/input_error.hpp"
+#include "protocol/text/text_file.hpp"
+
+using namespace a351;
+using namespace a351::sim;
+
+TEST_CASE("a truth file replaces its own kind and nothing of anybody else", "[sim][truth]") {
+    const auto file =
+        std::filesystem::temp_directory_path() / ("a351_truth_" + std::to_string(::getpid()));
+    const auto write = [&file](std::string_view text) { std::ofstream(file) << text; };
+    for (const std::string_view foreign : {"A", "A351TRU1", "title = \"mine\"\n"}) {
+        write(foreign);
+        CHECK_THROWS_AS(TruthWriter(file), InputError);
+        CHECK(text::read_text_file(file) == foreign);
+    }
+    write("");
+    for (int time = 0; time < 2; ++time) {  // Empty, then a truth file.
+        TruthWriter writer(file);
+        writer.append({});
+        writer.close();
+        CHECK(read_truth(file).size() == 1);
+    }
+    std::filesystem::remove(file);
+}
