@@ -64,7 +64,8 @@ Truth read_truth(const char* file) {
 
 struct ArchivedSample {
     std::int32_t counts;
-    double time_s;  // relative to the first truth row
+    std::int32_t z_counts;  // of the same position in the channel of axis z
+    double time_s;          // relative to the first truth row
     bool starts_record;
 };
 
@@ -88,7 +89,7 @@ std::vector<ArchivedSample> read_channel(const std::filesystem::path& archive,
             const auto* values = static_cast<const std::int32_t*>(record->datasamples);
             for (std::int64_t i = 0; i < record->numsamples; ++i) {
                 samples.push_back(
-                    {values[i], start_s + static_cast<double>(i) / record->samprate, i == 0});
+                    {values[i], 0, start_s + static_cast<double>(i) / record->samprate, i == 0});
             }
         }
         if (status != MS_ENDOFFILE) {
@@ -106,9 +107,11 @@ struct Comparison {
     double largest_time_error_s = 0.0;
 };
 
+using IsSame = bool (*)(const ArchivedSample&, const TruthRow&);
+
 /// Aligns by value: a run of equal samples decides, since white noise repeats by chance only.
 Comparison compare(const std::vector<ArchivedSample>& archived, const std::vector<TruthRow>& truth,
-                   std::int32_t (*value)(const TruthRow&)) {
+                   IsSame is_same) {
     constexpr std::size_t kRun = 24;
     Comparison result;
     const auto may_be_absent = [&](std::size_t j) { return truth[j].fate == misplaced; };
@@ -124,25 +127,25 @@ Comparison compare(const std::vector<ArchivedSample>& archived, const std::vecto
         std::size_t n = 0;
         for (; n < kRun && i + n < archived.size() && j < truth.size(); ++n, ++j) {
             while (j + 1 < truth.size() && may_be_absent(j) &&
-                   archived[i + n].counts != value(truth[j])) {
+                   !is_same(archived[i + n], truth[j])) {
                 ++j;
             }
-            if (archived[i + n].counts != value(truth[j])) return false;
+            if (!is_same(archived[i + n], truth[j])) return false;
         }
         return n > 0;
     };
     std::size_t j = 0, before = 0;
     bool joined = false;
     for (std::size_t i = 0; i < archived.size(); ++i) {
-        while (j < truth.size() && may_be_absent(j) && archived[i].counts != value(truth[j])) ++j;
-        if (j >= truth.size() || archived[i].counts != value(truth[j])) {
+        while (j < truth.size() && may_be_absent(j) && !is_same(archived[i], truth[j])) ++j;
+        if (j >= truth.size() || !is_same(archived[i], truth[j])) {
             std::size_t k = j;
             while (k < truth.size() && !matches_at(i, k)) ++k;
             if (k < truth.size()) {
                 count_missing(j, k);
                 joined = false;
                 j = k;
-                while (archived[i].counts != value(truth[j])) ++j;
+                while (!is_same(archived[i], truth[j])) ++j;
             } else {
                 const std::size_t from = j > 5000 ? j - 5000 : 0;
                 std::size_t back = from;
@@ -185,17 +188,26 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "compare-truth: %s holds no rows\n", argv[2]);
         return 1;
     }
+    using Sample = ArchivedSample;
+    using Row = TruthRow;
+    // A temperature repeats itself: its place is where axis z has the sample of the same position.
     const struct {
         const char* name;
-        std::int32_t (*value)(const TruthRow&);
-    } channels[] = {{"BN1", [](const TruthRow& r) { return r.axes[0]; }},
-                    {"BN2", [](const TruthRow& r) { return r.axes[1]; }},
-                    {"BNZ", [](const TruthRow& r) { return r.axes[2]; }},
-                    {"BK1", [](const TruthRow& r) { return r.temperature; }}};
+        IsSame is_same;
+    } channels[] = {{"BN1", [](const Sample& s, const Row& r) { return s.counts == r.axes[0]; }},
+                    {"BN2", [](const Sample& s, const Row& r) { return s.counts == r.axes[1]; }},
+                    {"BNZ", [](const Sample& s, const Row& r) { return s.counts == r.axes[2]; }},
+                    {"BK1", [](const Sample& s, const Row& r) {
+                         return s.counts == r.temperature && s.z_counts == r.axes[2];
+                     }}};
+    const auto z = read_channel(argv[1], "BNZ", truth.rows[0].utc_ns);
     bool is_good = true;
     for (const auto& channel : channels) {
-        const auto archived = read_channel(argv[1], channel.name, truth.rows[0].utc_ns);
-        const Comparison c = compare(archived, truth.rows, channel.value);
+        auto archived = read_channel(argv[1], channel.name, truth.rows[0].utc_ns);
+        for (std::size_t i = 0; i < std::min(archived.size(), z.size()); ++i) {
+            archived[i].z_counts = z[i].counts;
+        }
+        const Comparison c = compare(archived, truth.rows, channel.is_same);
         std::printf(
             "channel=%s truth=%zu archived=%zu matched=%zu missing=%zu first_missing=%zu "
             "missing_runs=%zu "

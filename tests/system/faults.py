@@ -180,17 +180,14 @@ class Session:
         return {row[0]: row[1:5] for row in self.rows()}
 
     def archive_is_true(self, missing, steps=0):
-        """Without `steps`, where times begin anew, only the values.  The temperature (BK1) repeats its own: where a gap
-        or a misplaced frame of it stands is uncertain by a sample or two."""
+        """Without `steps`, where times begin anew, only the values."""
         for name, counted in compare_truth(self.scratch / "data" / "archive",
                                            self.scratch / "truth.bin").items():
             demand(f"{name}: no damaged, lost or repeated frame is in the archive, none altered",
                    counted["altered"] == counted["duplicated"] == 0 and counted["matched"] > 0)
-            slack = 2 if name == "BK1" and (missing, steps) != (0, 0) else 0
             demand(f"{name}: {counted['missing']:.0f} of {counted['truth']:.0f} intact frames missing, "
-                   f"{counted['steps']:.0f} time steps (allowed {missing} and {steps}, each and {slack})",
-                   missing <= counted["missing"] <= missing + slack
-                   and (steps is None or steps <= counted["steps"] <= steps + slack))
+                   f"{counted['steps']:.0f} time steps (allowed {missing} and {steps})",
+                   counted["missing"] == missing and (steps is None or counted["steps"] == steps))
 
 
 def gaps_of(truth):
