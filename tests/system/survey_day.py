@@ -13,7 +13,7 @@ def shorter(day, name):
     """The first stays of the scenario, as a scenario of its own."""
     stays = (("No.0", 1, "2017-07-15T23:42:00Z"), ("No.12", 1, "2017-07-16T00:40:00Z"),
              ("No.0", 2, "2017-07-16T01:13:00Z"), ("No.1", 1, "2017-07-16T02:11:00Z"))
-    day.write_text(f'base = "{name}"\nname = "{name}, shorter"\n' + "".join(
+    day.write_text(f'base = "{name}"\nname = "{name}-shorter"\n' + "".join(
         f'[[occupation]]\nsite = "{site}"\nnumber = {number}\ncentre_utc = "{centre}"\nambient_degc = 25\n'
         for site, number, centre in stays))
     return day

@@ -8,7 +8,10 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <fstream>
+#include <mutex>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/wire/burst_decoder.hpp"
@@ -86,9 +89,20 @@ struct Served {
         : link(link_path(name)), pty(link), thread([this, speed] {
               const ClockScale clock{speed, scenario.start(), host_now()};
               std::array<Service*, 1> services{&port};
-              attend(services, clock, [this] { return stop.load(); });
+              attend(services, clock, [this] {
+                  const std::lock_guard lock(mutex);
+                  if (fault) faults.apply(*std::exchange(fault, std::nullopt), fault_at);
+                  return stop.load();
+              });
           }) {}
     ~Served() { end(); }
+
+    /// Done by the emulator's own thread, some time later.
+    void apply(std::string_view words, UtcTime at) {
+        const std::lock_guard lock(mutex);
+        fault = parse_fault(words, {profile, 50.0});
+        fault_at = at;
+    }
 
     void end() {
         stop = true;
@@ -110,6 +124,9 @@ struct Served {
     std::vector<std::string> troubles;
     SensorPort port{pty, stream, line, &faults,
                     [this](const std::string& trouble) { troubles.push_back(trouble); }};
+    std::mutex mutex;
+    std::optional<Fault> fault;
+    UtcTime fault_at;
     std::atomic<bool> stop = false;
     std::thread thread;
 };
@@ -277,7 +294,7 @@ TEST_CASE("at another speed nothing is understood, at the right one all is", "[s
 TEST_CASE("an overrun loses what the receiver has no room for and says exactly how much",
           "[sim][sensor_port]") {
     Served served("overrun", 50.0);
-    served.faults.apply(parse_fault("overrun", {served.profile, 50.0}), served.scenario.start());
+    served.apply("overrun", served.scenario.start());
     Host host(served.link);
     host.send(kStartLogging);
     std::this_thread::sleep_for(400ms);  // 1000 frames, 24 kB.
@@ -338,16 +355,15 @@ TEST_CASE("where something has taken the link's place the port stays out, says s
         }
         FAIL("the link stays");
     };
-    served.faults.apply(parse_fault("hang_up seconds=30", {served.profile, 50.0}),
-                        served.scenario.start() + 1s);
+    served.apply("hang_up seconds=30", served.scenario.start() + 1s);
     gone(true);
     std::ofstream(served.link) << "a file of somebody";
     std::this_thread::sleep_for(1s);
     CHECK(std::filesystem::is_regular_file(served.link));
     std::filesystem::remove(served.link);
     gone(false);
-    CHECK(served.line.report().frames_sent == 0);
     served.end();
+    CHECK(served.line.report().frames_sent == 0);
     REQUIRE(served.troubles.size() == 1);
     CHECK(served.troubles[0].find("no link") != std::string::npos);
 }
