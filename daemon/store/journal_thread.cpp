@@ -120,7 +120,7 @@ void JournalThread::work() {
         while (auto chunk = next_posted()) write(std::move(*chunk));
     }
     carry_out_commits();
-    if (is_dirty_ && steady_clock::now() - last_sync_ >= kSyncInterval) sync();
+    if (is_dirty_ && may_try_again() && steady_clock::now() - last_sync_ >= kSyncInterval) sync();
 }
 
 std::optional<record::JournalChunk> JournalThread::next_posted() {
@@ -184,22 +184,11 @@ void JournalThread::retry_unwritten() {
         unwritten_.reset();
         return;
     }
-    try {
-        if (header != nullptr) {
-            writer_.begin_segment(*header);
-            header_ = *header;
-            has_segment_ = true;
-        } else {
-            const timing::ClockReading clock = clock_.read();
-            // On rotation and after a fault: the archive must see what a reader will see.
-            if (writer_.append(*unwritten_, clock)) {
-                header_.clock = clock;
-                hand_over(header_);
-            }
-        }
-    } catch (const std::system_error&) {
-        lose_unsynced();
-        throw;
+    if (header != nullptr) {
+        writer_.begin_segment(*header);
+        has_segment_ = true;
+    } else if (const auto rotated = writer_.append(*unwritten_, clock_.read())) {
+        hand_over(*rotated);  // The archive must see what a reader will see.
     }
     is_dirty_ = true;
     hand_over(*std::exchange(unwritten_, std::nullopt));
@@ -256,21 +245,10 @@ void JournalThread::carry_out(Commit& commit) {
 void JournalThread::sync() {
     if (!is_dirty_) return;
     last_sync_ = steady_clock::now();
-    try {
-        writer_.sync();
-    } catch (const std::system_error&) {
-        lose_unsynced();
-        throw;
-    }
+    writer_.sync();
     is_dirty_ = false;
     is_failing_ = false;
     progress_.journal_synced(last_chunk_);
-}
-
-// The writer gave its segment up: what it had not synced cannot be synced any more.
-void JournalThread::lose_unsynced() {
-    if (is_dirty_) progress_.journal_lost(last_chunk_);
-    is_dirty_ = false;
 }
 
 void JournalThread::note_fault(const std::string& trouble) {

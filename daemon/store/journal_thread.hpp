@@ -82,7 +82,6 @@ private:
     void carry_out_commits();
     void carry_out(Commit& commit);
     void sync();
-    void lose_unsynced();
     void note_fault(const std::string& trouble);
     [[nodiscard]] bool may_try_again() const;
 
@@ -97,7 +96,6 @@ private:
 
     // Of the journal thread.
     bool has_segment_ = false;
-    record::JournalHeader header_;  ///< Of the segment.
     bool is_dirty_ = false;
     bool is_failing_ = false;                        ///< From a fault to the next good sync.
     std::optional<record::JournalChunk> unwritten_;  ///< What the disk refused.

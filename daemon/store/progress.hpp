@@ -25,12 +25,8 @@ public:
     void parsed(std::uint64_t chunk, const record::SessionId& session,
                 std::optional<std::int64_t> last_index);
 
-    /// Every chunk up to `chunk` is on disk ...
+    /// Every chunk up to `chunk` is on disk.
     void journal_synced(std::uint64_t chunk);
-
-    /// ... or, after a failed sync, those up to `chunk` may be lost: none of their samples is
-    /// called journaled until the archive has it.
-    void journal_lost(std::uint64_t chunk);
 
     void archive_synced(const record::SessionId& session, std::int64_t index);
 
@@ -46,10 +42,7 @@ private:
     mutable std::mutex mutex_;
     Indices indices_;
     std::deque<Parsed> unsynced_;  ///< Parsed, not known to be synced; ascending.
-    std::uint64_t parsed_chunk_ = 0;
     std::uint64_t synced_chunk_ = 0;
-    std::uint64_t lost_chunk_ = 0;            ///< 0: none.
-    std::optional<std::int64_t> lost_index_;  ///< Last sample that may be lost, as far as parsed.
 };
 
 }  // namespace a351::daemon

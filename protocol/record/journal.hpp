@@ -37,6 +37,14 @@ struct StationCodes {
     bool operator==(const StationCodes&) const = default;
 };
 
+/// Chunks of an earlier segment, from `sequence` on.
+struct RepeatedChunks {
+    std::uint64_t segment = 0;
+    std::uint32_t sequence = 0;
+
+    bool operator==(const RepeatedChunks&) const = default;
+};
+
 /// Heads every segment: a reader needs nothing but the file.
 struct JournalHeader {
     SessionId session;
@@ -53,6 +61,8 @@ struct JournalHeader {
     int baud = 0;
     std::optional<double> declared_rate_hz;  ///< For blockette 100; absent until commissioned.
     timing::ClockReading clock;
+    /// What the first chunks of this segment repeat, because its sync failed there.
+    std::optional<RepeatedChunks> repeats;
 };
 
 /// One read() of the port: its bytes end at `end` within the chunk.

@@ -51,6 +51,11 @@ JournalHeader header_from_json(const Json& json) {
         header.declared_rate_hz = json.at("declared_rate_hz").get<double>();
     }
     header.clock = clock_from_json(json.at("clock"));
+    if (json.contains("repeats")) {
+        const Json& repeats = json.at("repeats");
+        header.repeats = {repeats.at("segment").get<std::uint64_t>(),
+                          repeats.at("sequence").get<std::uint32_t>()};
+    }
     return header;
 }
 
@@ -74,6 +79,10 @@ std::string header_to_json(const JournalHeader& header) {
                  {"baud", header.baud}};
     if (header.declared_rate_hz) json["declared_rate_hz"] = *header.declared_rate_hz;
     json["clock"] = clock_to_json(header.clock);
+    if (header.repeats) {
+        json["repeats"] = {{"segment", header.repeats->segment},
+                           {"sequence", header.repeats->sequence}};
+    }
     // Product and serial number come off a wire: a byte that is no UTF-8 must not stop the journal.
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -4,23 +4,43 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <fstream>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
 #include "protocol/record/file_bytes.hpp"
 #include "protocol/record/journal_codec.hpp"
+#include "protocol/record/journal_compression.hpp"
 
 namespace a351::record {
+namespace {
 
-JournalReader::JournalReader(std::filesystem::path segment)
-    : path_(std::move(segment)), in_(path_, std::ios::binary) {
-    if (!in_) throw std::system_error(errno, std::generic_category(), "open " + path_.string());
+bool is_compressed(const std::filesystem::path& segment) { return segment.extension() == ".zst"; }
+
+}  // namespace
+
+JournalReader::JournalReader(std::filesystem::path segment) : path_(std::move(segment)) {
+    if (is_compressed(path_)) {
+        try {
+            const auto bytes = decompress_segment(path_);
+            size_ = bytes.size();
+            in_ = std::make_unique<std::istringstream>(
+                std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+        } catch (const std::runtime_error& error) {
+            size_ = std::filesystem::file_size(path_);
+            stop(error.what());
+        }
+        return;
+    }
+    in_ = std::make_unique<std::ifstream>(path_, std::ios::binary);
+    if (!*in_) throw std::system_error(errno, std::generic_category(), "open " + path_.string());
     size_ = std::filesystem::file_size(path_);
 }
 
 bool JournalReader::read(std::span<std::byte> bytes) {
-    in_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    return in_.good();
+    in_->read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    return in_->good();
 }
 
 std::optional<JournalChunk> JournalReader::stop(std::string reason) {
@@ -57,11 +77,29 @@ std::optional<JournalChunk> JournalReader::next() {
             if (!decoded) return stop("payload does not fit its type");
         }
         offset_ = at + head.size() + chunk.length;
-        ++next_sequence_;
+        sequence_ = next_sequence_++;
         if (decoded) return decoded;
     }
     if (next_sequence_ == 0) return stop("no header");
     return std::nullopt;
+}
+
+JournalSequence::JournalSequence(std::vector<std::filesystem::path> segments)
+    : segments_(std::move(segments)) {}
+
+std::optional<JournalChunk> JournalSequence::next() {
+    while (true) {
+        if (!reader_) {
+            if (next_segment_ == segments_.size()) return std::nullopt;
+            const auto& segment = segments_[next_segment_++];
+            number_ = segment_number(segment).value_or(0);
+            reader_.emplace(segment);
+        }
+        while (auto chunk = reader_->next())
+            if (!repetitions_.is_repeated(number_, reader_->sequence(), *chunk)) return chunk;
+        if (reader_->damage()) damage_.push_back(*reader_->damage());
+        reader_.reset();
+    }
 }
 
 std::optional<std::uint64_t> segment_number(const std::filesystem::path& file) {
@@ -80,21 +118,25 @@ std::vector<std::filesystem::path> journal_segments(const std::filesystem::path&
     if (std::filesystem::exists(directory)) {
         for (const auto& entry : std::filesystem::directory_iterator(directory)) {
             const auto number = segment_number(entry.path());
-            if (number && entry.path().extension() == ".a351j") {
+            const auto extension = entry.path().extension();
+            if (number && (extension == ".a351j" || is_compressed(entry.path()))) {
                 numbered.emplace_back(*number, entry.path());
             }
         }
     }
+    // By number; the original before its compressed copy, which a crash may have left beside it.
     std::sort(numbered.begin(), numbered.end());
     std::vector<std::filesystem::path> segments;
-    for (auto& [number, path] : numbered) segments.push_back(std::move(path));
+    std::optional<std::uint64_t> last;
+    for (auto& [number, path] : numbered)
+        if (std::exchange(last, number) != number) segments.push_back(std::move(path));
     return segments;
 }
 
 std::optional<JournalDamage> repair_newest_segment(FileLayer& files,
                                                    const std::filesystem::path& directory) {
     const auto segments = journal_segments(directory);
-    if (segments.empty()) return std::nullopt;
+    if (segments.empty() || is_compressed(segments.back())) return std::nullopt;
     JournalReader reader(segments.back());
     while (reader.next()) {
     }

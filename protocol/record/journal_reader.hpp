@@ -2,7 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
+#include <iosfwd>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "protocol/record/file_layer.hpp"
 #include "protocol/record/journal.hpp"
+#include "protocol/record/journal_repetitions.hpp"
 
 namespace a351::record {
 
@@ -21,7 +23,7 @@ struct JournalDamage {
     std::string reason;
 };
 
-/// Reads one segment chunk by chunk with bounded memory.  Chunks of a type unknown here are passed
+/// Reads one segment, compressed or not, chunk by chunk with bounded memory.  Chunks of a type unknown here are passed
 /// over; bytes that are no chunk end the segment.
 class JournalReader {
 public:
@@ -31,6 +33,9 @@ public:
     /// The next good chunk; std::nullopt at the end or at the first damage.
     [[nodiscard]] std::optional<JournalChunk> next();
 
+    /// Of the chunk that next() gave last.
+    [[nodiscard]] std::uint32_t sequence() const noexcept { return sequence_; }
+
     /// Set once next() met damage.  A torn tail is normal: the writer may die at any byte.
     [[nodiscard]] const std::optional<JournalDamage>& damage() const noexcept { return damage_; }
 
@@ -39,18 +44,39 @@ private:
     std::optional<JournalChunk> stop(std::string reason);
 
     std::filesystem::path path_;
-    std::ifstream in_;
+    std::unique_ptr<std::istream> in_;
     std::uint64_t size_ = 0;  ///< When the file was opened.
     std::vector<std::byte> payload_;
     std::uint64_t offset_ = 0;
     std::uint32_t next_sequence_ = 0;
+    std::uint32_t sequence_ = 0;
     std::optional<JournalDamage> damage_;
+};
+
+/// Reads segments one after the other, each chunk once: repeated ones are passed over.
+class JournalSequence {
+public:
+    /// @param segments  as journal_segments() gives them, or the last of these.
+    explicit JournalSequence(std::vector<std::filesystem::path> segments);
+
+    [[nodiscard]] std::optional<JournalChunk> next();
+
+    /// Of the segments read so far.
+    [[nodiscard]] const std::vector<JournalDamage>& damage() const noexcept { return damage_; }
+
+private:
+    std::vector<std::filesystem::path> segments_;
+    std::size_t next_segment_ = 0;
+    std::uint64_t number_ = 0;
+    std::optional<JournalReader> reader_;
+    Repetitions repetitions_;
+    std::vector<JournalDamage> damage_;
 };
 
 /// The counter in the name of a segment, whatever was appended to the name; std::nullopt for others.
 [[nodiscard]] std::optional<std::uint64_t> segment_number(const std::filesystem::path& file);
 
-/// Segments of a directory by their counter; none when there is no such directory.
+/// Segments of a directory, compressed or not, by their counter; none when there is no such directory.
 [[nodiscard]] std::vector<std::filesystem::path> journal_segments(
     const std::filesystem::path& directory);
 

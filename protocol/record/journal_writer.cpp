@@ -42,22 +42,64 @@ JournalWriter::JournalWriter(FileLayer& files, std::filesystem::path directory)
     files_.create_directories(directory_);
     for (const auto& entry : std::filesystem::directory_iterator(directory_)) {
         // Compressed and torn segments keep their number, so every name counts.
-        if (const auto number = segment_number(entry.path())) {
-            next_number_ = std::max(next_number_, *number + 1);
-        }
+        if (const auto number = segment_number(entry.path())) number_ = std::max(number_, *number);
     }
 }
 
 void JournalWriter::begin_segment(const JournalHeader& header) {
-    if (segment_) sync();
+    sync();
     segment_.reset();
+    open_segment(header);
     header_ = header;
-    next_sequence_ = 0;
-    const auto path = directory_ / segment_name(next_number_, header.clock.realtime);
+    newest_clock_ = header.clock;
+    forget_unsynced();
+}
+
+std::optional<JournalHeader> JournalWriter::append(const JournalChunk& chunk,
+                                                   const timing::ClockReading& clock) {
+    assert(header_);
+    if (!segment_) write_again();
+    const bool is_full =
+        clock.raw - header_->clock.raw >= kLongestSegment || segment_->size() >= kLargestSegment;
+    if (is_full) {
+        JournalHeader header = *header_;
+        header.clock = clock;
+        begin_segment(header);
+        untold_ = header;
+    }
+    write(chunk);
+    unsynced_.push_back(chunk);
+    if (const auto* reading = std::get_if<timing::ClockReading>(&chunk)) newest_clock_ = *reading;
+    return std::exchange(untold_, std::nullopt);
+}
+
+void JournalWriter::sync() {
+    if (!segment_ && unsynced_.empty()) return;
+    if (!segment_) write_again();
+    try {
+        segment_->sync();
+    } catch (...) {
+        give_up();
+        throw;
+    }
+    forget_unsynced();
+}
+
+// After a fault, in a segment of its own; not synced.
+void JournalWriter::write_again() {
+    JournalHeader header = *header_;
+    header.clock = synced_clock_;
+    open_segment(header);
+    for (const JournalChunk& chunk : unsynced_) write(chunk);
+}
+
+void JournalWriter::open_segment(const JournalHeader& header) {
+    JournalHeader head = header;
+    head.repeats = lost_from_;
+    const auto path = directory_ / segment_name(++number_, header.clock.realtime);
     auto bytes = encode_preamble();
-    const auto chunk = encode_chunk(header, next_sequence_++);
+    const auto chunk = encode_chunk(head, 0);
     bytes.insert(bytes.end(), chunk.begin(), chunk.end());
-    ++next_number_;  // Also when what follows fails: the name is taken.
     auto segment = files_.open_append(path);
     try {
         segment->append(bytes);
@@ -68,41 +110,33 @@ void JournalWriter::begin_segment(const JournalHeader& header) {
         throw;
     }
     segment_ = std::move(segment);
+    next_sequence_ = first_unsynced_ = 1;
     bytes_written_ += bytes.size();
 }
 
-bool JournalWriter::append(const JournalChunk& chunk, const timing::ClockReading& clock) {
-    assert(header_);
-    const bool is_full = segment_ && (clock.raw - header_->clock.raw >= kLongestSegment ||
-                                      segment_->size() >= kLargestSegment);
-    const bool begins_segment = !segment_ || is_full;
-    if (begins_segment) {
-        JournalHeader header = *header_;
-        header.clock = clock;
-        begin_segment(header);
-    }
+void JournalWriter::write(const JournalChunk& chunk) {
     const auto bytes = encode_chunk(chunk, next_sequence_);
     try {
         segment_->append(bytes);
     } catch (...) {
-        segment_.reset();
+        give_up();
         throw;
     }
     ++next_sequence_;
     bytes_written_ += bytes.size();
-    return begins_segment;
 }
 
-void JournalWriter::sync() {
-    if (!segment_) return;
-    try {
-        segment_->sync();
-    } catch (...) {
-        segment_.reset();
-        throw;
-    }
+// An attempt to write chunks again that fails does not change where they stood first.
+void JournalWriter::give_up() noexcept {
+    segment_.reset();
+    if (!lost_from_) lost_from_ = RepeatedChunks{number_, first_unsynced_};
 }
 
-std::uint64_t JournalWriter::bytes_written() const noexcept { return bytes_written_; }
+void JournalWriter::forget_unsynced() {
+    unsynced_.clear();
+    lost_from_.reset();
+    first_unsynced_ = next_sequence_;
+    synced_clock_ = newest_clock_;
+}
 
 }  // namespace a351::record

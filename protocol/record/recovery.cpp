@@ -71,10 +71,8 @@ RecoveryReport recover(FileLayer& files, const std::filesystem::path& data_root)
     ArchiveWriter writer(files, archive, replay.codes);
     writer.begin_replay(replay.earliest - kMargin);
     Archiver archiver(writer);
-    for (const auto& segment : replay.segments) {
-        JournalReader reader(segment);
-        while (const auto chunk = reader.next()) archiver.take(*chunk);
-    }
+    JournalSequence journal_chunks(replay.segments);
+    while (const auto chunk = journal_chunks.next()) archiver.take(*chunk);
     archiver.close_records();
     writer.end_replay();
     static_cast<void>(writer.sync());

@@ -103,6 +103,8 @@ void JournalRecording::open(std::size_t segment) {
 bool JournalRecording::load_chunk() {
     while (true) {
         while (auto chunk = reader_->next()) {
+            const std::uint64_t number = record::segment_number(segments_[at_].file).value_or(0);
+            if (repetitions_.is_repeated(number, reader_->sequence(), *chunk)) continue;
             auto* received = std::get_if<record::RxChunk>(&*chunk);
             if (received == nullptr || received->bytes.empty()) continue;
             chunk_ = std::move(*received);

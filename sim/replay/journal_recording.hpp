@@ -52,6 +52,7 @@ private:
     std::size_t at_ = 0;  ///< Segment being read.
     RecordedUnit unit_;
     std::optional<record::JournalReader> reader_;
+    record::Repetitions repetitions_;
     record::RxChunk chunk_;
     std::size_t read_ = 0;  ///< Of chunk_, the next one.
     UtcTime due_;           ///< Of that read.

@@ -29,23 +29,6 @@ TEST_CASE("a sample is journaled once its chunk is both parsed and synced", "[da
     CHECK(progress.indices().archived == std::nullopt);
 }
 
-TEST_CASE("after a failed sync nothing is called journaled until the archive has it",
-          "[daemon][progress]") {
-    Progress progress;
-    progress.parsed(1, kSession, 9);
-    progress.journal_synced(1);
-    progress.parsed(2, kSession, 19);
-    progress.journal_lost(3);
-    progress.parsed(3, kSession, 29);
-    progress.parsed(4, kSession, 39);
-    progress.journal_synced(4);
-    CHECK(progress.indices().journaled == 9);
-    progress.archive_synced(kSession, 28);
-    CHECK(progress.indices().journaled == 9);
-    progress.archive_synced(kSession, 29);
-    CHECK(progress.indices().journaled == 39);
-}
-
 TEST_CASE("indices of one session never count for another", "[daemon][progress]") {
     Progress progress;
     progress.parsed(1, kSession, 9);

@@ -151,16 +151,14 @@ struct JournalContent {
 
 inline JournalContent read_journal(const std::filesystem::path& root) {
     JournalContent content;
-    for (const auto& segment : record::journal_segments(root / "journal")) {
-        record::JournalReader reader(segment);
-        while (const auto chunk = reader.next()) {
-            if (const auto* rx = std::get_if<record::RxChunk>(&*chunk)) {
-                content.bytes.insert(content.bytes.end(), rx->bytes.begin(), rx->bytes.end());
-            } else if (const auto* event = std::get_if<record::EventChunk>(&*chunk)) {
-                content.events.push_back(event->json);
-            } else if (const auto* mark = std::get_if<record::MarkChunk>(&*chunk)) {
-                content.marks.push_back(*mark);
-            }
+    record::JournalSequence chunks(record::journal_segments(root / "journal"));
+    while (const auto chunk = chunks.next()) {
+        if (const auto* rx = std::get_if<record::RxChunk>(&*chunk)) {
+            content.bytes.insert(content.bytes.end(), rx->bytes.begin(), rx->bytes.end());
+        } else if (const auto* event = std::get_if<record::EventChunk>(&*chunk)) {
+            content.events.push_back(event->json);
+        } else if (const auto* mark = std::get_if<record::MarkChunk>(&*chunk)) {
+            content.marks.push_back(*mark);
         }
     }
     return content;

@@ -20,20 +20,22 @@ TEST_CASE_METHOD(Rig, "no sample is called journaled before its bytes are synced
     CHECK(store.stop());
 }
 
-TEST_CASE_METHOD(Rig, "after a failed sync its samples are called journaled only when archived",
+TEST_CASE_METHOD(Rig, "after a failed sync its samples are called journaled when written again",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
     record_first(store);
 
     files.does_sync_fail = true;
     feed(100);
-    REQUIRE(eventually([&] { return status_of(store).more_counters["journal_faults"] > 0; }));
-    files.does_sync_fail = false;
-    feed(100);
-    REQUIRE(eventually([&] { return status_of(store).received == 299; }));
+    REQUIRE(eventually([&] { return status_of(store).more_counters["journal_faults"] > 1; }));
     CHECK(status_of(store).journaled == 99);
+    files.does_sync_fail = false;
+    CHECK(eventually([&] { return status_of(store).journaled == 199; }));
+    feed(100);
+    CHECK(eventually([&] { return status_of(store).journaled == 299; }));
     CHECK(store.stop());
-    CHECK(status_of(store).journaled == 299);
+    CHECK(record::journal_segments(root / "journal").size() > 1);
+    CHECK(read_journal(root).bytes == bytes);
     CHECK(archived_counts(root, "BNZ") == expected_counts(300));
 }
 

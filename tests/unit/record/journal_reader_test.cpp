@@ -5,7 +5,9 @@
 #include <system_error>
 
 #include "protocol/record/journal_codec.hpp"
+#include "protocol/record/journal_compression.hpp"
 #include "protocol/record/journal_writer.hpp"
+#include "tests/unit/record/failing_files.hpp"
 #include "tests/unit/record/journal_samples.hpp"
 #include "tests/unit/record/temporary_directory.hpp"
 
@@ -180,19 +182,81 @@ TEST_CASE("a segment that cannot be opened is a system error", "[record][journal
     CHECK_THROWS_AS(JournalReader("/nonexistent/1.a351j"), std::system_error);
 }
 
+TEST_CASE_METHOD(Fixture, "a compressed segment reads as the original did", "[record][journal]") {
+    test::write_bytes(file_, whole_);
+    compress_segment(posix_files(), file_);
+    CHECK_FALSE(std::filesystem::exists(file_));
+    const auto segments = journal_segments(directory_.path());
+    REQUIRE(segments.size() == 1);
+    JournalReader reader(segments[0]);
+    for (const auto& chunk : test::one_of_each()) {
+        const auto read = reader.next();
+        REQUIRE(read);
+        CHECK(read->index() == chunk.index());
+    }
+    CHECK_FALSE(reader.next());
+    CHECK_FALSE(reader.damage());
+    CHECK_FALSE(repair_newest_segment(posix_files(), directory_.path()));
+}
+
+TEST_CASE_METHOD(Fixture, "a damaged compressed segment is damage, never an exception",
+                 "[record][journal]") {
+    test::write_bytes(file_, whole_);
+    compress_segment(posix_files(), file_);
+    const auto packed = journal_segments(directory_.path()).front();
+    const auto whole = test::read_bytes(packed);
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+        auto damaged = whole;
+        damaged[at] ^= std::byte{0x20};
+        test::write_bytes(packed, damaged);
+        JournalReader reader(packed);
+        while (reader.next()) {
+        }
+        test::write_bytes(packed, Bytes(whole.begin(), whole.begin() + static_cast<long>(at)));
+        JournalReader cut(packed);
+        CHECK_FALSE(cut.next());
+        CHECK(cut.damage());
+    }
+}
+
+TEST_CASE_METHOD(Fixture, "whichever file operation fails, compressing leaves a readable segment",
+                 "[record][journal]") {
+    for (int n = 1; n <= 8; ++n) {
+        test::write_bytes(file_, whole_);
+        test::FailingFiles files(n);
+        bool has_failed = false;
+        try {
+            compress_segment(files, file_);
+        } catch (const std::system_error&) {
+            has_failed = true;
+        }
+        const auto segments = journal_segments(directory_.path());
+        REQUIRE(segments.size() == 1);
+        JournalReader reader(segments[0]);
+        while (reader.next()) {
+        }
+        CHECK_FALSE(reader.damage());
+        CHECK(has_failed == (n <= files.operations()));
+        for (const auto& file : std::filesystem::directory_iterator(directory_.path()))
+            std::filesystem::remove(file);
+    }
+}
+
 TEST_CASE("segments are listed by counter, whatever the host clock did", "[record][journal]") {
     const test::TemporaryDirectory directory;
     for (const char* name :
          {"00000010_20260301T120000Z.a351j", "00000009_20270101T000000Z.a351j",
           "100000000_20200101T000000Z.a351j", "notes.txt", "00000011_20260301T120000Z.a351j.torn",
-          "00000008_20260301T120000Z.a351j.zst", "x_y.a351j"}) {
+          "00000008_20260301T120000Z.a351j.zst", "00000010_20260301T120000Z.a351j.zst",
+          "00000007_20260301T120000Z.a351j.zst.partial", "x_y.a351j"}) {
         test::write_bytes(directory.path() / name, {});
     }
     const auto segments = journal_segments(directory.path());
-    REQUIRE(segments.size() == 3);
-    CHECK(segment_number(segments[0]) == 9U);
-    CHECK(segment_number(segments[1]) == 10U);
-    CHECK(segment_number(segments[2]) == 100'000'000U);
+    REQUIRE(segments.size() == 4);
+    CHECK(segment_number(segments[0]) == 8U);
+    CHECK(segment_number(segments[1]) == 9U);
+    CHECK(segments[2].filename() == "00000010_20260301T120000Z.a351j");
+    CHECK(segment_number(segments[3]) == 100'000'000U);
     CHECK(journal_segments(directory.path() / "absent").empty());
 }
 
