@@ -8,6 +8,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/record/channel_code.hpp"
 #include "protocol/record/channel_packer.hpp"
+#include "protocol/record/retiming.hpp"
 #include "protocol/timing/sample_index.hpp"
 #include "protocol/wire/burst_decoder.hpp"
 #include "protocol/wire/device_profile.hpp"
@@ -93,10 +94,12 @@ private:
 
 class Archiver::Session {
 public:
-    Session(const JournalHeader& header, ArchiveSink& sink, ArchiverCounters& counters)
+    Session(const JournalHeader& header, ArchiveSink& sink, ArchiverCounters& counters,
+            Retiming* retiming)
         : header_(header),
           sink_(sink),
           counters_(counters),
+          retiming_(retiming),
           layout_(layout_of(header)),
           count_step_(profile_of(header).count_step(header.output_rate_hz)),
           decoder_(layout_, count_step_),
@@ -104,8 +107,7 @@ public:
           clock_(clock_options(header)),
           clip_counts_(std::ldexp(profile_of(header).rated_range.value(),
                                   profile_of(header).acceleration_fraction_bits)) {
-        ++counters_.sessions;
-        open_channels();
+        begin_run();
         adopt(header);
     }
 
@@ -133,9 +135,14 @@ public:
     }
 
     void observe_clock(const timing::ClockReading& reading) {
-        reading_ = reading;
+        const RawTime awake = clock_.awake(reading.raw);
         clock_.observe_clock(reading);
-        if (last_index_ && reading.raw - last_arrival_ > kMostAge) close_records(false);
+        if (retiming_) {
+            if (clock_.awake(reading.raw) != awake) retiming_->host_slept();
+            retiming_->observe_clock(reading);
+        }
+        if (last_index_ && clock_.awake(reading.raw) - last_arrival_ > kMostAge)
+            close_records(false);
         errors_.forget_before(oldest_unpacked());
     }
 
@@ -179,7 +186,7 @@ private:
     }
 
     [[nodiscard]] RecordContext context() {
-        return {clock_, record_header_, errors_, reading_.is_synchronised, sink_, counters_};
+        return {clock_, record_header_, errors_, sink_, counters_};
     }
     [[nodiscard]] std::int64_t next_index() const { return last_index_ ? *last_index_ + 1 : 0; }
 
@@ -204,7 +211,8 @@ private:
     void take_frame(const wire::BurstValues& values) {
         stream_offset_ += layout_.frame_size();
         ++counters_.frames;
-        const RawTime arrival = arrivals_.of(stream_offset_, header_.baud);
+        const RawTime raw_arrival = arrivals_.of(stream_offset_, header_.baud);
+        const RawTime arrival = clock_.awake(raw_arrival);
         timing::Placement placement = place(values, arrival);
         if (placement.kind == Kind::new_session) {
             restart();
@@ -218,7 +226,8 @@ private:
         } else if (placement.kind == Kind::anomaly) {
             ++counters_.anomalies;
         } else {
-            clock_.observe(placement.index, arrival);
+            clock_.observe(placement.index, raw_arrival);
+            if (retiming_) retiming_->observe(placement.index, raw_arrival);
             last_index_ = placement.index;
             last_arrival_ = arrival;
             if (is_data(values)) store({placement.index, values});
@@ -243,13 +252,17 @@ private:
     // The device restarted in mid-stream.
     void restart() {
         close_records(true);
-        ++counters_.sessions;
         index_ = timing::SampleIndex(count_step_, Hertz(header_.output_rate_hz));
-        clock_ = timing::SampleClock(clock_options(header_));
-        clock_.observe_clock(reading_);
+        clock_.restart_index();
         last_index_.reset();
         next_stored_.reset();
         errors_ = {};
+        begin_run();
+    }
+
+    void begin_run() {
+        ++counters_.sessions;
+        if (retiming_) retiming_->begin_run(header_, clock_options(header_), clock_);
         open_channels();
     }
 
@@ -257,6 +270,8 @@ private:
         if (next_stored_ && sample.index != *next_stored_) {
             ++counters_.gaps;
             counters_.samples_missing += static_cast<std::uint64_t>(sample.index - *next_stored_);
+            close_channels(false, sample.index);
+        } else if (next_stored_ && sample.index == clock_.last_break()) {
             close_channels(false, sample.index);
         }
         next_stored_ = sample.index + 1;
@@ -285,6 +300,7 @@ private:
     RecordHeader record_header_;
     ArchiveSink& sink_;
     ArchiverCounters& counters_;
+    Retiming* retiming_;
     wire::BurstLayout layout_;
     std::uint16_t count_step_;
     wire::BurstDecoder decoder_;
@@ -292,7 +308,6 @@ private:
     timing::SampleClock clock_;
     double clip_counts_;
     Arrivals arrivals_;
-    timing::ClockReading reading_;
     std::vector<Channel> channels_;
     IndexMarks errors_;
     std::uint64_t stream_offset_ = 0;  // bytes the decoder has reported on
@@ -302,7 +317,7 @@ private:
     std::optional<std::int64_t> next_stored_;
 };
 
-Archiver::Archiver(ArchiveSink& sink) : sink_(sink) {}
+Archiver::Archiver(ArchiveSink& sink, Retiming* retiming) : sink_(sink), retiming_(retiming) {}
 Archiver::~Archiver() = default;
 
 void Archiver::take(const JournalChunk& chunk) {
@@ -312,7 +327,7 @@ void Archiver::take(const JournalChunk& chunk) {
             return;
         }
         if (session_) session_->end();
-        session_ = std::make_unique<Session>(*header, sink_, counters_);
+        session_ = std::make_unique<Session>(*header, sink_, counters_, retiming_);
     } else if (const auto* received = std::get_if<RxChunk>(&chunk)) {
         counters_.bytes += received->bytes.size();
         if (session_)

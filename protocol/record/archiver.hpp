@@ -16,6 +16,8 @@
 
 namespace a351::record {
 
+class Retiming;
+
 /// A placed sample, before packing.
 struct Sample {
     std::int64_t index = 0;
@@ -70,7 +72,8 @@ struct ArchiverCounters {
 /// the host starts index and clock anew, as a session of its own; so does a changed layout.
 class Archiver {
 public:
-    explicit Archiver(ArchiveSink& sink);
+    /// @param retiming  if given, gathers what it needs, or in its second pass gives the times.
+    explicit Archiver(ArchiveSink& sink, Retiming* retiming = nullptr);
     ~Archiver();
 
     /// A header of another session closes all open records and starts the index anew.
@@ -89,6 +92,7 @@ public:
 private:
     class Session;
     ArchiveSink& sink_;
+    Retiming* retiming_;
     ArchiverCounters counters_;
     std::unique_ptr<Session> session_;
 };

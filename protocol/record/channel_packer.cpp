@@ -64,9 +64,8 @@ void ChannelPacker::pack_one(const RecordContext& context, bool ends_series) {
     RecordHeader header = context.header;
     header.channel = code_;
     header.start = std::chrono::floor<std::chrono::microseconds>(time.utc);
-    header.is_clock_locked =
-        context.is_host_synchronised && time.state == timing::TimingState::locked;
-    header.is_time_questionable = !context.is_host_synchronised || time.uncertainty > kQuestionable;
+    header.is_clock_locked = time.is_host_synchronised && time.state == timing::TimingState::locked;
+    header.is_time_questionable = !time.is_host_synchronised || time.uncertainty > kQuestionable;
     header.timing_quality_percent = timing_quality_percent(time.uncertainty);
 
     std::size_t available = samples_before_midnight(context.clock, header.start);

@@ -31,7 +31,6 @@ struct RecordContext {
     const timing::SampleClock& clock;
     const RecordHeader& header;  ///< Codes and rates.
     const IndexMarks& errors;    ///< Sample that was due when bytes were given up.
-    bool is_host_synchronised = false;
     ArchiveSink& sink;
     ArchiverCounters& counters;
 };

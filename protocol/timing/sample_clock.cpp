@@ -2,117 +2,162 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "protocol/timing/host_clock_rules.hpp"
 
 namespace a351::timing {
 namespace {
 
-// Device 10 ppm (M-A352AD10 data sheet, electrical specifications) + host crystal 100 ppm, twice
-// what PC crystals are usually specified to.
-constexpr std::int64_t kRateError_ppm = 110;
-constexpr std::int64_t kHostRateError_ppm = 100;
+using std::chrono::abs;
+using std::chrono::milliseconds;
 
-constexpr Nanoseconds kUnknownLatency = std::chrono::milliseconds(16);
-constexpr Nanoseconds kUnsynchronisedError = std::chrono::seconds(1);
 constexpr Nanoseconds kLargestPull = std::chrono::microseconds(200);  // per second of data
+constexpr Nanoseconds kBreak = milliseconds(5);
 constexpr Nanoseconds kUnlocked = std::chrono::seconds(60);
+constexpr Nanoseconds kLocked = milliseconds(3);
 constexpr Nanoseconds kRemembered = std::chrono::hours(24);
-
-Nanoseconds ppm(Nanoseconds duration, std::int64_t parts) { return duration / 1'000'000 * parts; }
 
 }  // namespace
 
 SampleClock::SampleClock(SampleClockOptions options)
-    : options_(options),
-      samples_per_step_(std::max<std::int64_t>(1, std::llround(options.rate.value()))),
-      nominal_step_(from_seconds(static_cast<double>(samples_per_step_) / options.rate.value())) {}
-
-// In whole steps and a rest, so that no rounding grows with the index.
-Nanoseconds SampleClock::duration(std::int64_t samples) const {
-    return samples / samples_per_step_ * nominal_step_ +
-           samples % samples_per_step_ * nominal_step_ / samples_per_step_;
-}
+    : options_(options), period_(options.rate), edge_(options.rate) {}
 
 void SampleClock::observe_clock(const ClockReading& reading) {
+    if (reading_ && reading.raw <= reading_->raw) return;
+    if (reading_) {
+        const Nanoseconds asleep =
+            (reading.boottime - reading_->boottime) - (reading.raw - reading_->raw);
+        if (asleep > kShortestSleep) {
+            slept_ += asleep;
+            edge_.restart();
+            mapping_.woke_up();
+            may_jump_ = true;
+        }
+    }
     reading_ = reading;
-    if (start_) fix_until(last_);
+    ClockReading awake_reading = reading;
+    awake_reading.raw = awake(reading.raw);
+    if (mapping_.observe(awake_reading)) may_jump_ = true;
+    if (last_ && !is_given_) fix_until(*last_);
 }
 
 void SampleClock::observe(std::int64_t index, RawTime arrival) {
-    const RawTime start = arrival - duration(index);
-    if (!start_) {
+    if (!first_) {
         first_ = index;
-        fixed_until_ = index - index % samples_per_step_;
-    }
-    if (!start_ || start <= *start_ + ppm(duration(index - touched_), kRateError_ppm)) {
-        start_ = start;
-        touched_ = index;
+        fixed_until_ = index - index % period_.per_second();
     }
     last_ = index;
-    if (index >= fixed_until_ && reading_) fix_until(index);
+    if (is_given_) {
+        const TimePiece& piece = piece_of(index);
+        if (piece.is_break) last_break_ = piece.first;
+        return;
+    }
+    if (edge_.is_empty()) fixed_until_ = std::max(fixed_until_, index);  // the first after a sleep
+    edge_.observe(index, awake(arrival));
+    fix_until(index);
 }
 
-RawTime SampleClock::line(std::int64_t index) const {
-    const Nanoseconds loosened =
-        ppm(duration(std::max<std::int64_t>(0, last_ - touched_)), kRateError_ppm);
-    return *start_ + loosened + duration(index);
+void SampleClock::restart_index() {
+    edge_.restart();
+    line_.reset();
+    first_.reset();
+    last_.reset();
+    pieces_.clear();
+    last_break_.reset();
+    may_jump_ = false;
+    is_given_ = false;
 }
 
-UtcTime SampleClock::target(std::int64_t index) const {
-    return reading_->realtime + (line(index) - reading_->raw) - options_.fixed_delay;
-}
-
-UtcTime SampleClock::on(const Piece& piece, std::int64_t index) const {
-    const std::int64_t samples = index - piece.first;
-    return piece.time + samples / samples_per_step_ * piece.step +
-           samples % samples_per_step_ * piece.step / samples_per_step_;
+void SampleClock::use(const std::vector<TimePiece>& times, bool is_host_synchronised) {
+    pieces_.assign(times.begin(), times.end());
+    is_given_ = !pieces_.empty();
+    is_given_synchronised_ = is_host_synchronised;
 }
 
 void SampleClock::fix_until(std::int64_t index) {
-    while (fixed_until_ <= index) {
-        const std::int64_t next = fixed_until_ + samples_per_step_;
-        const UtcTime from =
-            pieces_.empty() ? target(fixed_until_) : on(pieces_.back(), fixed_until_);
-        const Nanoseconds lag = target(next) - (from + nominal_step_);
-        const Nanoseconds step = nominal_step_ + std::clamp(lag, -kLargestPull, kLargestPull);
-        if (pieces_.empty() || step != pieces_.back().step)
-            pieces_.push_back({fixed_until_, from, step});
-        fixed_until_ = next;
-    }
-    while (pieces_.size() > 1 && duration(fixed_until_ - pieces_[1].first) > kRemembered)
+    if (edge_.is_empty() || (line_ && index < fixed_until_)) return;
+    line_ = edge_.line();
+    if (mapping_.is_empty() || !edge_.is_settled()) return;
+    while (fixed_until_ <= index) fix_second();
+    while (pieces_.size() > 1 && period_.of(fixed_until_ - pieces_[1].first) > kRemembered)
         pieces_.pop_front();
 }
 
-UtcTime SampleClock::published(std::int64_t index) const {
-    if (index < pieces_.front().first)
-        return pieces_.front().time - duration(pieces_.front().first - index);
-    if (index >= fixed_until_)
-        return on(pieces_.back(), fixed_until_) + duration(index - fixed_until_);
+void SampleClock::fix_second() {
+    const std::int64_t next = fixed_until_ + period_.per_second();
+    const UtcTime aim = target(fixed_until_);
+    const bool is_first = pieces_.empty();
+    UtcTime from = is_first ? aim : on(pieces_.back(), fixed_until_);
+    const bool is_break = std::exchange(may_jump_, false) && abs(aim - from) > kBreak;
+    if (is_break) {
+        from = aim;
+        last_break_ = fixed_until_;
+    }
+    const Nanoseconds step =
+        target(next) - aim + std::clamp(aim - from, -kLargestPull, kLargestPull);
+    if (is_first || is_break || step != pieces_.back().step)
+        pieces_.push_back({fixed_until_, from, step, line_->uncertainty, is_break});
+    fixed_until_ = next;
+}
+
+RawTime SampleClock::line_at(std::int64_t index) const {
+    const Nanoseconds after = period_.of(index - line_->index);
+    return line_->arrival + after +
+           from_seconds(line_->excess_rate * std::chrono::duration<double>(after).count());
+}
+
+UtcTime SampleClock::target(std::int64_t index) const {
+    return mapping_.at(line_at(index)) - options_.fixed_delay;
+}
+
+UtcTime SampleClock::on(const TimePiece& piece, std::int64_t index) const {
+    const std::int64_t samples = index - piece.first;
+    return piece.time + samples / period_.per_second() * piece.step +
+           samples % period_.per_second() * piece.step / period_.per_second();
+}
+
+// The first one also holds for samples before it.
+const TimePiece& SampleClock::piece_of(std::int64_t index) const {
     const auto after =
-        std::upper_bound(pieces_.begin(), pieces_.end(), index,
-                         [](std::int64_t i, const Piece& piece) { return i < piece.first; });
-    return on(*std::prev(after), index);
+        std::upper_bound(pieces_.begin() + 1, pieces_.end(), index,
+                         [](std::int64_t i, const TimePiece& piece) { return i < piece.first; });
+    return *std::prev(after);
+}
+
+UtcTime SampleClock::published(std::int64_t index) const {
+    if (pieces_.empty()) return target(index);
+    if (is_given_) return on(piece_of(index), index);
+    if (index < pieces_.front().first)
+        return pieces_.front().time - period_.of(pieces_.front().first - index);
+    if (index >= fixed_until_)
+        return on(pieces_.back(), fixed_until_) + period_.of(index - fixed_until_);
+    return on(piece_of(index), index);
 }
 
 std::optional<SampleTime> SampleClock::time_of(std::int64_t index) const {
-    if (pieces_.empty()) return std::nullopt;
+    if (is_given_) {
+        const Nanoseconds uncertainty = piece_of(index).uncertainty;
+        return SampleTime{published(index), uncertainty,
+                          uncertainty <= kLocked ? TimingState::locked : TimingState::coarse,
+                          is_given_synchronised_};
+    }
+    if (!line_ || mapping_.is_empty()) return std::nullopt;
     const UtcTime utc = published(index);
-    const RawTime raw = line(index);
-    const Nanoseconds host{reading_->max_error_us * 1000};
+    const auto age = abs(period_.of(index - line_->index));
     const Nanoseconds uncertainty =
-        kUnknownLatency + 2 * ppm(duration(last_ - touched_), kRateError_ppm) +
-        ppm(std::chrono::abs(duration(index - last_)), kRateError_ppm) +
-        ppm(std::chrono::abs(raw - reading_->raw), kHostRateError_ppm) +
-        (reading_->is_synchronised ? host : std::max(host, kUnsynchronisedError)) +
-        std::chrono::abs(utc - target(index));
-    return SampleTime{utc, uncertainty, state()};
+        line_->uncertainty +
+        from_seconds(line_->rate_uncertainty * std::chrono::duration<double>(age).count()) +
+        abs(utc - target(index)) + mapping_.error_at(line_at(index));
+    return SampleTime{utc, uncertainty, state(), mapping_.is_synchronised()};
 }
 
 std::optional<std::int64_t> SampleClock::index_at(UtcTime utc) const {
     if (pieces_.empty()) return std::nullopt;
-    const std::int64_t oldest = std::max(first_, pieces_.front().first);
-    if (utc < published(oldest) || utc > published(last_)) return std::nullopt;
+    const std::int64_t oldest = std::max(*first_, pieces_.front().first);
+    if (utc < published(oldest) || utc > published(*last_)) return std::nullopt;
     std::int64_t low = oldest;
-    std::int64_t high = last_;
+    std::int64_t high = *last_;
     while (low < high) {
         const std::int64_t middle = low + (high - low) / 2;
         if (published(middle) < utc)
@@ -124,12 +169,13 @@ std::optional<std::int64_t> SampleClock::index_at(UtcTime utc) const {
 }
 
 TimingState SampleClock::state() const noexcept {
-    return start_ && duration(last_ - first_) >= kUnlocked ? TimingState::coarse
-                                                           : TimingState::unlocked;
+    if (!last_ || period_.of(*last_ - *first_) < kUnlocked) return TimingState::unlocked;
+    if (mapping_.is_held()) return TimingState::holdover;
+    return line_ && line_->uncertainty <= kLocked ? TimingState::locked : TimingState::coarse;
 }
 
 Nanoseconds SampleClock::uncertainty() const {
-    const auto time = time_of(last_);
+    const auto time = last_ ? time_of(*last_) : std::nullopt;
     return time ? time->uncertainty : Nanoseconds(0);
 }
 

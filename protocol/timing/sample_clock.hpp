@@ -1,27 +1,40 @@
 #pragma once
 /// @file
 /// Sample index -> UTC with uncertainty.  No threads, no system calls, no clock is read here.
-///
-/// A frame arrives late by a constant (filter, conversion, wire time) plus a delay that is never
-/// negative, so the truth lies on the lower edge of the arrivals.  This first version lays a line
-/// of the nominal rate through the earliest arrivals; its uncertainty says so.
 
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <vector>
 
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
+#include "protocol/timing/arrival_edge.hpp"
 #include "protocol/timing/clock_reading.hpp"
+#include "protocol/timing/sample_period.hpp"
+#include "protocol/timing/utc_mapping.hpp"
 
 namespace a351::timing {
 
+/// unlocked: less than 60 s of data.  holdover: the host's clock lost its synchronisation, or
+/// jumped and is not believed yet.  locked: the line is known to 3 ms (a timer of 16 ms in step with
+/// the sensor allows no better).  coarse: none of these.
 enum class TimingState { unlocked, coarse, locked, holdover };
 
 struct SampleTime {
     UtcTime utc;                 ///< Instant the sample stands for, group delay removed.
     Nanoseconds uncertainty{0};  ///< 95 %: model and host clock together.
     TimingState state = TimingState::unlocked;
+    bool is_host_synchronised = false;  ///< By its own account, and it did not jump lately.
+};
+
+/// Times from sample `first` on: `step` per second of data, until the next piece.
+struct TimePiece {
+    std::int64_t first = 0;
+    UtcTime time;
+    Nanoseconds step{0};
+    Nanoseconds uncertainty{0};
+    bool is_break = false;  ///< The times jump.
 };
 
 struct SampleClockOptions {
@@ -29,37 +42,43 @@ struct SampleClockOptions {
     Nanoseconds fixed_delay{0};  ///< Sample instant -> last byte of its frame on the wire.
 };
 
-/// The line, in host time:
-///
-///     raw(k) = k / rate + min over frames j of (arrival_j - j / rate + r (k - j) / rate)
-///
-/// with r = 110 ppm, the most by which the device's and the host's rates are taken to differ: an
-/// old arrival counts less and less, so the line follows both oscillators.  The latest clock
-/// reading carries it to UTC.
+/// The line in host time is that of ArrivalEdge, UtcMapping carries it to UTC.
 ///
 /// Published times are a function of what was observed before, never of who asked when: the line
-/// is fixed a second of data at a time, when the first frame of that second is observed, at
-/// nominal rate plus at most 0.2 ms towards the line above.  So they never jump, and a replay of
-/// the same observations gives the same times.
+/// is fixed a second of data at a time, when the first frame of that second is observed, at the
+/// line's rate plus at most 0.2 ms towards the line.  So they never jump, and a replay of the same
+/// observations gives the same times.  They do jump where the mapping follows a step of the host's
+/// clock, or the host slept, if that is more than 5 ms: a break, which begins with a sample.
+///
+/// Nothing is fixed before 2 s of data are complete; times asked for until then are provisional.
 ///
 /// Uncertainty of a sample, as of now, for recent samples:
 ///
-///     16 ms + 2 r x (time since the line was last touched by an arrival) + r x |age of the sample|
-///     + 100 ppm x |sample - clock reading| + host clock + |published - line|
+///     line + uncertainty of its rate x |age of the sample| + |published - line| + host clock
 ///
-/// 16 ms: the least delay is not known, up to the latency timer of an FTDI adapter as delivered
-/// (FTDI AN232B-04, section 3.3).  Host clock: the kernel's maximum error; at least 1 s while it is
-/// not synchronised.  Holds while every stretch has an arrival with less delay than 16 ms.
+/// A host that sleeps stops its raw clock but not the sensor: what boottime gained on the raw clock
+/// between two readings is added to all raw times after.
 class SampleClock {
 public:
     explicit SampleClock(SampleClockOptions options);
 
-    /// Readings come in the order of time, about one a second.
+    /// About one a second, and the first one after a sleep before any arrival after it.  One that
+    /// is not later than the one before says nothing new.
     void observe_clock(const ClockReading& reading);
 
     /// @param arrival  host time of the last byte of the frame, wire time of later bytes of the
     ///                 same read already subtracted.  Indices rise, from 0.
     void observe(std::int64_t index, RawTime arrival);
+
+    /// The sensor restarted: indices begin anew.  What is known of the host's clock is kept, and
+    /// the rate of the sensor.
+    void restart_index();
+
+    /// From now to restart_index() the times are these, of a host that was synchronised or not.
+    void use(const std::vector<TimePiece>& times, bool is_host_synchronised);
+
+    /// The raw clock as if the host had never slept.
+    [[nodiscard]] RawTime awake(RawTime raw) const noexcept { return raw + slept_; }
 
     /// The time of a sample.  Fixed for samples up to the last one observed; later ones, and ones
     /// older than the 24 h of data that are remembered, are extrapolated at nominal rate.
@@ -70,36 +89,37 @@ public:
     /// time is still remembered, or after the last one observed.
     [[nodiscard]] std::optional<std::int64_t> index_at(UtcTime utc) const;
 
+    /// The newest sample before which the published times jump.
+    [[nodiscard]] std::optional<std::int64_t> last_break() const noexcept { return last_break_; }
+
     [[nodiscard]] TimingState state() const noexcept;
 
     /// Of the last sample observed; 0 before there is one.
     [[nodiscard]] Nanoseconds uncertainty() const;
 
 private:
-    /// Published times from sample `first` on: `step` per second of data.
-    struct Piece {
-        std::int64_t first = 0;
-        UtcTime time;
-        Nanoseconds step{0};
-    };
-
     void fix_until(std::int64_t index);
-    [[nodiscard]] RawTime line(std::int64_t index) const;
+    void fix_second();
+    [[nodiscard]] RawTime line_at(std::int64_t index) const;
     [[nodiscard]] UtcTime target(std::int64_t index) const;
     [[nodiscard]] UtcTime published(std::int64_t index) const;
-    [[nodiscard]] UtcTime on(const Piece& piece, std::int64_t index) const;
-    [[nodiscard]] Nanoseconds duration(std::int64_t samples) const;
+    [[nodiscard]] const TimePiece& piece_of(std::int64_t index) const;
+    [[nodiscard]] UtcTime on(const TimePiece& piece, std::int64_t index) const;
 
     SampleClockOptions options_;
-    std::int64_t samples_per_step_;
-    Nanoseconds nominal_step_;
+    SamplePeriod period_;
+    UtcMapping mapping_;
+    ArrivalEdge edge_;
+    std::optional<EdgeLine> line_;
     std::optional<ClockReading> reading_;
-    std::optional<RawTime> start_;  // arrival - index / rate on the line at touched_
-    std::int64_t touched_ = 0;      // index of the arrival that lies on the line
-    std::int64_t first_ = 0;
-    std::int64_t last_ = 0;
-    std::deque<Piece> pieces_;
+    Nanoseconds slept_{0};
+    std::optional<std::int64_t> first_, last_;
+    std::deque<TimePiece> pieces_;
+    bool is_given_ = false;         // times: the pieces are not ours
     std::int64_t fixed_until_ = 0;  // first sample whose time is not fixed
+    bool may_jump_ = false;
+    bool is_given_synchronised_ = false;
+    std::optional<std::int64_t> last_break_;
 };
 
 }  // namespace a351::timing

@@ -19,16 +19,21 @@ struct World {
     int rate_hz = 50;
     bool is_synchronised = true;
     std::int64_t max_error_us = 500;
+    Nanoseconds host_off{0};        ///< The host's clock is fast by this.
+    Nanoseconds slept{0};           ///< The raw clock stood still for this.
+    Nanoseconds slept_too_long{0};  ///< What the host takes this for is too much by that.
     SampleClock clock{{Hertz(50.0), kGroupDelay}};
 
     [[nodiscard]] UtcTime truth(std::int64_t k) const {
         return kNoon + from_seconds(static_cast<double>(k) / rate_hz * (1.0 - device_ppm * 1e-6));
     }
     [[nodiscard]] RawTime raw(UtcTime utc) const {
-        return RawTime(1000s) + from_seconds(seconds_between(kNoon, utc) * (1.0 + raw_ppm * 1e-6));
+        return RawTime(1000s) - slept +
+               from_seconds(seconds_between(kNoon, utc) * (1.0 + raw_ppm * 1e-6));
     }
     void read_clock(UtcTime utc) {
-        clock.observe_clock({raw(utc), 0s, utc, is_synchronised, max_error_us, 0});
+        const Nanoseconds boottime = raw(utc).time_since_epoch() + slept + slept_too_long;
+        clock.observe_clock({raw(utc), boottime, utc + host_off, is_synchronised, max_error_us, 0});
     }
     void frame(std::int64_t k, Nanoseconds late) {
         const UtcTime due = truth(k) + kGroupDelay;
@@ -56,11 +61,12 @@ private:
 
 }  // namespace
 
-TEST_CASE("arrivals without noise give exact times", "[timing][sample_clock]") {
+TEST_CASE("arrivals without noise give times to 0.1 ms", "[timing][sample_clock]") {
     World world;
     for (std::int64_t k = 0; k < 20'000; ++k) world.frame(k, 0s);
     for (std::int64_t k = 0; k < 20'000; k += 7)
-        REQUIRE(world.clock.time_of(k)->utc == world.truth(k));
+        REQUIRE(std::chrono::abs(world.clock.time_of(k)->utc - world.truth(k)) <
+                Nanoseconds(100us));
 }
 
 TEST_CASE("the line follows the rates of both oscillators", "[timing][sample_clock]") {
@@ -69,13 +75,15 @@ TEST_CASE("the line follows the rates of both oscillators", "[timing][sample_clo
             World world;
             world.device_ppm = device_ppm;
             world.raw_ppm = raw_ppm;
-            double worst_s = 0.0;
+            double worst_s = 0.0, worst_late_s = 0.0;
             for (std::int64_t k = 0; k < 180'000; ++k) {
                 world.frame(k, 0s);
                 const double error_s = seconds_between(world.truth(k), world.clock.time_of(k)->utc);
                 worst_s = std::max(worst_s, std::abs(error_s));
+                if (k > 3000) worst_late_s = std::max(worst_late_s, std::abs(error_s));
             }
-            CHECK(worst_s < 0.3e-3);  // one second at 110 ppm, and the pull lags by another
+            CHECK(worst_s < 0.6e-3);  // 110 ppm for some seconds
+            CHECK(worst_late_s < 0.1e-3);
         }
     }
 }
@@ -96,14 +104,17 @@ TEST_CASE("an earlier arrival pulls the published line by at most 0.2 ms per sec
           "[timing][sample_clock]") {
     World world;
     for (std::int64_t k = 0; k < 500; ++k) world.frame(k, 50ms);
-    for (std::int64_t k = 500; k < 20'000; ++k) world.frame(k, 0s);
-    for (std::int64_t k = 0; k + 50 < 20'000; ++k) {
+    for (std::int64_t k = 500; k < 60'000; ++k) world.frame(k, 0s);
+    for (std::int64_t k = 0; k + 50 < 60'000; ++k) {
         const auto second = world.clock.time_of(k + 50)->utc - world.clock.time_of(k)->utc;
-        REQUIRE(std::chrono::abs(second - Nanoseconds(1s)) <= Nanoseconds(200us));
+        REQUIRE(std::chrono::abs(second - Nanoseconds(1s)) <= Nanoseconds(310us));  // + 110 ppm
     }
-    CHECK(world.clock.time_of(499)->utc == world.truth(499) + 50ms);
-    CHECK(world.clock.time_of(19'999)->utc == world.truth(19'999));
-    CHECK(world.clock.time_of(600)->uncertainty >= Nanoseconds(48ms));  // still that far off
+    const auto error = [&](std::int64_t k) {
+        return std::chrono::abs(world.clock.time_of(k)->utc - world.truth(k));
+    };
+    CHECK(error(499) > Nanoseconds(45ms));
+    CHECK(error(59'999) < Nanoseconds(100us));
+    CHECK(world.clock.time_of(600)->uncertainty >= error(600));
 }
 
 TEST_CASE("a published time never changes and does not depend on who asks when",
@@ -119,7 +130,8 @@ TEST_CASE("a published time never changes and does not depend on who asks when",
         (void)asked.clock.index_at(asked.truth(k));
     }
     for (std::int64_t k = 0; k < 30'000; ++k) {
-        REQUIRE(quiet.clock.time_of(k)->utc == when_new[static_cast<std::size_t>(k)]);
+        REQUIRE(quiet.clock.time_of(k)->utc == asked.clock.time_of(k)->utc);
+        if (k < 100) continue;  // provisional when asked
         REQUIRE(asked.clock.time_of(k)->utc == when_new[static_cast<std::size_t>(k)]);
     }
 }
@@ -143,7 +155,8 @@ TEST_CASE("times older than 24 h of data are forgotten and newer ones kept",
     World world;
     world.raw_ppm = 30.0;
     const std::int64_t day = 24 * 3600 * 50;
-    for (std::int64_t k = 0; k < 2 * day; k += 25) world.frame(k, Nanoseconds(k % 100 * 1000));
+    for (std::int64_t k = 0; k < 2 * day; k += 25)
+        world.frame(k, Nanoseconds(k * 7919 % 1'000'000));
     CHECK_FALSE(world.clock.index_at(world.truth(day - 100'000)));
     CHECK(world.clock.index_at(world.truth(day + 100)));
 }
@@ -167,7 +180,7 @@ TEST_CASE("the stated uncertainty covers the true error behind a 16 ms adapter f
         }
         INFO("seed " << seed << ", worst after 100 s " << worst_s);
         CHECK(outside == 0);
-        CHECK(world.clock.uncertainty() < Nanoseconds(20ms));
+        CHECK(world.clock.uncertainty() < Nanoseconds(4ms));
     }
 }
 
@@ -183,11 +196,89 @@ TEST_CASE("an unsynchronised host is not trusted to a second", "[timing][sample_
     CHECK(worse.clock.uncertainty() >= Nanoseconds(16s));
 }
 
-TEST_CASE("the clock is unlocked for 60 s of data, then coarse", "[timing][sample_clock]") {
+TEST_CASE("the clock is unlocked for 60 s of data, then locked", "[timing][sample_clock]") {
     World world;
     CHECK_FALSE(world.clock.time_of(0));
     for (std::int64_t k = 0; k < 3000; ++k) world.frame(k, 0s);
     CHECK(world.clock.state() == TimingState::unlocked);
     world.frame(3000, 0s);
+    CHECK(world.clock.state() == TimingState::locked);
+}
+
+TEST_CASE("a timer that hides 5 ms leaves the clock coarse", "[timing][sample_clock]") {
+    World world;
+    for (std::int64_t k = 0; k < 10'000; ++k) world.frame(k, k % 4 * 5ms);
     CHECK(world.clock.state() == TimingState::coarse);
+    CHECK(world.clock.uncertainty() > Nanoseconds(3ms));
+}
+
+TEST_CASE("a host that loses its synchronisation is held over", "[timing][sample_clock]") {
+    World world;
+    for (std::int64_t k = 0; k < 5000; ++k) world.frame(k, 0s);
+    const Nanoseconds before = world.clock.uncertainty();
+    world.is_synchronised = false;
+    for (std::int64_t k = 5000; k < 10'000; ++k) world.frame(k, 0s);
+    CHECK(world.clock.state() == TimingState::holdover);
+    CHECK_FALSE(world.clock.time_of(9'999)->is_host_synchronised);
+    CHECK(world.clock.uncertainty() >= before + 9ms);  // 100 s at 100 ppm
+    world.is_synchronised = true;
+    for (std::int64_t k = 10'000; k < 10'200; ++k) world.frame(k, 0s);
+    CHECK(world.clock.state() == TimingState::locked);
+}
+
+TEST_CASE("published times break where a step of the host's clock is followed",
+          "[timing][sample_clock]") {
+    World world;
+    for (std::int64_t k = 0; k < 5000; ++k) world.frame(k, 0s);
+    world.host_off = 1h;
+    for (std::int64_t k = 5000; k < 7900; ++k) {
+        world.frame(k, 0s);
+        REQUIRE(std::chrono::abs(world.clock.time_of(k)->utc - world.truth(k)) < Nanoseconds(1ms));
+    }
+    CHECK(world.clock.state() == TimingState::holdover);
+    CHECK_FALSE(world.clock.last_break());
+    for (std::int64_t k = 7900; k < 9000; ++k) world.frame(k, 0s);
+    REQUIRE(world.clock.last_break());
+    const std::int64_t at = *world.clock.last_break();
+    CHECK(at == 8000);  // after 60 s of agreement
+    const auto error = [&](std::int64_t k) {
+        return std::chrono::abs(world.clock.time_of(k)->utc - world.truth(k));
+    };
+    CHECK(error(at - 1) < Nanoseconds(1ms));
+    CHECK(std::chrono::abs(error(at) - Nanoseconds(1h)) < Nanoseconds(1ms));
+    CHECK(world.clock.state() == TimingState::locked);
+}
+
+TEST_CASE("a sleep of the host is added to its raw clock", "[timing][sample_clock]") {
+    World world;
+    for (std::int64_t k = 0; k < 10'000; ++k) world.frame(k, 0s);
+    // The sensor went on; the host counted 400 ms too much, and a time service mends it later.
+    world.slept = 20min;
+    world.slept_too_long = world.host_off = 400ms;
+    const std::int64_t awake = 10'000 + 20 * 60 * 50;
+    const std::int64_t mended = awake + 30 * 50;
+    const std::int64_t believed = mended + 60 * 50;
+    for (std::int64_t k = awake; k < believed + 5000; ++k) {
+        if (k == mended) world.host_off = 0ms;
+        world.frame(k, 0s);
+        if (k < awake + 100) continue;
+        const auto time = *world.clock.time_of(k);
+        const Nanoseconds error = std::chrono::abs(time.utc - world.truth(k));
+        REQUIRE(error <= time.uncertainty);
+        REQUIRE((error < Nanoseconds(1ms)) == (k >= believed));
+    }
+    CHECK(world.clock.last_break() == believed);
+    CHECK(world.clock.state() == TimingState::locked);
+    CHECK(world.clock.awake(RawTime(0s)).time_since_epoch() == Nanoseconds(20min) + 400ms);
+}
+
+TEST_CASE("a sensor that restarts keeps what is known of the host", "[timing][sample_clock]") {
+    World world;
+    for (std::int64_t k = 0; k < 5000; ++k) world.frame(k, 0s);
+    world.clock.restart_index();
+    CHECK_FALSE(world.clock.time_of(0));
+    CHECK(world.clock.state() == TimingState::unlocked);
+    for (std::int64_t k = 0; k < 200; ++k) world.clock.observe(k, world.raw(world.truth(k + 5000)));
+    CHECK(world.clock.time_of(0)->is_host_synchronised);
+    CHECK(world.clock.time_of(0)->uncertainty < Nanoseconds(10ms));
 }

@@ -1,0 +1,46 @@
+#include "protocol/record/retiming.hpp"
+
+namespace a351::record {
+
+void Retiming::begin_run(const JournalHeader& header, timing::SampleClockOptions options,
+                         timing::SampleClock& clock) {
+    if (!is_second_pass_) {
+        runs_.push_back({header.session, header.boot_id, timing::Hindsight(options), {}});
+        return;
+    }
+    Run& run = runs_.at(next_run_++);
+    const timing::UtcHistory& history = histories_[run.boot_id];
+    if (history.is_empty()) return;
+    clock.use(run.hindsight.times(history), history.is_synchronised());
+    run.hindsight = timing::Hindsight(options);  // no longer needed
+    run.clock = clock;
+}
+
+void Retiming::observe_clock(const timing::ClockReading& reading) {
+    if (!is_second_pass_) histories_[runs_.back().boot_id].observe(reading);
+}
+
+void Retiming::observe(std::int64_t index, RawTime arrival) {
+    if (!is_second_pass_) runs_.back().hindsight.observe(index, arrival);
+}
+
+void Retiming::host_slept() {
+    if (!is_second_pass_) runs_.back().hindsight.host_slept();
+}
+
+void Retiming::begin_second_pass() { is_second_pass_ = true; }
+
+std::optional<UtcTime> Retiming::time_of(const SessionId& session, std::int64_t index,
+                                         UtcTime near) const {
+    std::optional<UtcTime> nearest;
+    for (const Run& run : runs_) {
+        if (run.session != session || !run.clock) continue;
+        const auto time = run.clock->time_of(index);
+        if (!time) continue;
+        if (!nearest || std::chrono::abs(time->utc - near) < std::chrono::abs(*nearest - near))
+            nearest = time->utc;
+    }
+    return nearest;
+}
+
+}  // namespace a351::record

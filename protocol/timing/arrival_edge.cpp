@@ -1,0 +1,97 @@
+#include "protocol/timing/arrival_edge.hpp"
+
+#include <algorithm>
+
+namespace a351::timing {
+namespace {
+
+using std::chrono::seconds;
+
+constexpr std::int64_t kBlock_s = 2;
+constexpr Nanoseconds kWindow = seconds(900);  // 600 to 1200 s differ little; oscillators wander
+
+// Of fewer arrivals in 2 s the largest step says nothing.
+constexpr std::size_t kFewestOfBlock = 20;
+
+constexpr double kKeptRate = 2e-6;
+
+}  // namespace
+
+ArrivalEdge::ArrivalEdge(Hertz rate, Memory memory) : period_(rate), memory_(memory) {}
+
+void ArrivalEdge::observe(std::int64_t index, RawTime arrival) {
+    newest_ = index;
+    const Nanoseconds due = period_.of(index);
+    if (blocks_.empty()) zero_ = arrival - due;
+    const Nanoseconds y = arrival - zero_ - due;
+    const std::int64_t number = index / (kBlock_s * period_.per_second());
+    if (blocks_.empty() || number != blocks_.back().number) {
+        if (!blocks_.empty()) close_block();
+        blocks_.push_back({number, due, y, std::nullopt});
+    } else if (y < blocks_.back().least_y) {
+        blocks_.back().due = due;
+        blocks_.back().least_y = y;
+    }
+    open_block_.push_back(y);
+    if (!is_settled()) line_.reset();
+}
+
+void ArrivalEdge::close_block() {
+    std::sort(open_block_.begin(), open_block_.end());
+    if (open_block_.size() >= kFewestOfBlock) {
+        Nanoseconds largest{0};
+        for (std::size_t i = 1; i < open_block_.size() * 9 / 10; ++i)
+            largest = std::max(largest, open_block_[i] - open_block_[i - 1]);
+        blocks_.back().spacing = largest;
+    }
+    open_block_.clear();
+    line_.reset();
+    if (memory_ == Memory::all) return;
+    const Nanoseconds oldest = period_.of(newest_) - kWindow;
+    blocks_.erase(blocks_.begin(),
+                  std::find_if(blocks_.begin(), blocks_.end(),
+                               [&](const ArrivalBlock& b) { return b.due >= oldest; }));
+}
+
+void ArrivalEdge::restart() {
+    if (is_settled()) {
+        const EdgeLine last = line();
+        const double half = std::max(last.rate_uncertainty, kKeptRate);
+        limits_ = {std::max(last.excess_rate - half, -RateLimits::kLargest),
+                   std::min(last.excess_rate + half, RateLimits::kLargest)};
+    }
+    blocks_.clear();
+    open_block_.clear();
+    line_.reset();
+}
+
+// The newest block may lack its least delayed frame yet.
+std::span<const ArrivalBlock> ArrivalEdge::complete_blocks() const {
+    return std::span(blocks_).first(is_settled() ? blocks_.size() - 1 : blocks_.size());
+}
+
+const EdgeLine& ArrivalEdge::line() {
+    if (!line_) line_ = fit(complete_blocks(), newest_);
+    return *line_;
+}
+
+EdgeLine ArrivalEdge::line_around(std::int64_t index) const {
+    const auto blocks = complete_blocks();
+    const Nanoseconds latest_start = std::max(blocks.back().due - kWindow, blocks.front().due);
+    const Nanoseconds from =
+        std::clamp(period_.of(index) - kWindow / 2, blocks.front().due, latest_start);
+    const auto is_before = [](const ArrivalBlock& block, Nanoseconds due) {
+        return block.due < due;
+    };
+    const auto begin = std::lower_bound(blocks.begin(), blocks.end(), from, is_before);
+    const auto end = std::lower_bound(begin + 1, blocks.end(), from + kWindow, is_before);
+    return fit({begin, end}, index);
+}
+
+EdgeLine ArrivalEdge::fit(std::span<const ArrivalBlock> blocks, std::int64_t index) const {
+    const Nanoseconds due = period_.of(index);
+    const EdgeFit fit = fit_edge(blocks, due, period_.of(1), limits_);
+    return {index, zero_ + due + fit.y, fit.excess_rate, fit.uncertainty, fit.rate_uncertainty};
+}
+
+}  // namespace a351::timing

@@ -1,0 +1,194 @@
+#include "protocol/timing/edge_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace a351::timing {
+namespace {
+
+constexpr double kShortestSpacing_ns = 0.7e6;
+constexpr double kPolling_ns = 1e6;  // frame of a full-speed USB
+constexpr double kShortTimer_ns = 1e6;
+constexpr double kWander_ns = 0.3e6;
+constexpr double kSlack_ns = 0.1e6;  // on top of what the points need
+constexpr double kSeenTimer_ns = 0.5e6;
+constexpr double kPause_ns = 1e6;
+
+// Latency timer of an FTDI adapter as delivered (AN232B-04, section 3.3): before it can be seen.
+constexpr double kUnseenTimer_ns = 16e6;
+
+struct Point {
+    double x, y;  // ns after the newest sample; ns
+};
+
+/// The line y = level at x = 0 with a slope.
+double level_below(const std::vector<Point>& lower_hull, double slope) {
+    double level = std::numeric_limits<double>::infinity();
+    for (const Point& p : lower_hull) level = std::min(level, p.y - slope * p.x);
+    return level;
+}
+
+double level_above(const std::vector<Point>& upper_hull, double slope) {
+    double level = -std::numeric_limits<double>::infinity();
+    for (const Point& p : upper_hull) level = std::max(level, p.y - slope * p.x);
+    return level;
+}
+
+/// Of points by rising x; side 1: lower, -1: upper.
+std::vector<Point> hull(const std::vector<Point>& points, double side) {
+    std::vector<Point> hull;
+    for (const Point& p : points) {
+        while (hull.size() > 1) {
+            const Point& a = hull[hull.size() - 2];
+            const Point& b = hull.back();
+            const double turn = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+            if (side * turn > 0.0) break;
+            hull.pop_back();
+        }
+        hull.push_back(p);
+    }
+    return hull;
+}
+
+// Leaves 1e-5 of the interval: 2e-3 ppm, 2 us in the window.
+constexpr int kSteps = 24;
+
+/// Where a convex function is least: golden section.
+template <class Convex>
+double argmin(Convex f, double from, double to) {
+    constexpr double kGolden = 0.6180339887498949;
+    double left = to - kGolden * (to - from), right = from + kGolden * (to - from);
+    double at_left = f(left), at_right = f(right);
+    for (int i = 0; i < kSteps; ++i) {
+        if (at_left <= at_right) {
+            to = right;
+            right = left;
+            at_right = at_left;
+            left = to - kGolden * (to - from);
+            at_left = f(left);
+        } else {
+            from = left;
+            left = right;
+            at_left = at_right;
+            right = from + kGolden * (to - from);
+            at_right = f(right);
+        }
+    }
+    return at_left <= at_right ? left : right;
+}
+
+/// The last point towards `limit` at which a convex function that is not positive at `inside` is
+/// not.
+template <class Convex>
+double last_not_positive(Convex f, double inside, double limit) {
+    if (f(limit) <= 0.0) return limit;
+    for (int i = 0; i < kSteps; ++i) {
+        const double middle = 0.5 * (inside + limit);
+        (f(middle) <= 0.0 ? inside : limit) = middle;
+    }
+    return inside;
+}
+
+/// Lines between an upper and a lower hull.
+struct Strip {
+    std::vector<Point> lower, upper;
+    double least_slope, largest_slope;
+
+    [[nodiscard]] double depth(double slope) const {
+        return level_above(upper, slope) - level_below(lower, slope);
+    }
+    [[nodiscard]] double flattest() const {
+        return argmin([this](double slope) { return depth(slope); }, least_slope, largest_slope);
+    }
+
+    struct Range {
+        double top, bottom;  // levels
+        double least_slope, largest_slope;
+    };
+    /// Of the lines that lie at most `depth` below any point, which is at least that of flattest().
+    [[nodiscard]] Range lines(double most, double flattest) const {
+        const auto excess = [&](double slope) { return depth(slope) - most; };
+        const double least = last_not_positive(excess, flattest, least_slope);
+        const double largest = last_not_positive(excess, flattest, largest_slope);
+        const auto below = [this](double slope) { return -level_below(lower, slope); };
+        const auto above = [this](double slope) { return level_above(upper, slope); };
+        return {-below(argmin(below, least, largest)), above(argmin(above, least, largest)) - most,
+                least, largest};
+    }
+};
+
+double to_ns(Nanoseconds duration) { return static_cast<double>(duration.count()); }
+
+/// That four blocks in five do not exceed: a busy host fills spacings, it does not widen them.
+std::optional<Nanoseconds> usual_spacing(std::span<const ArrivalBlock> blocks) {
+    std::vector<Nanoseconds> spacings;
+    for (const ArrivalBlock& block : blocks)
+        if (block.spacing) spacings.push_back(*block.spacing);
+    if (spacings.empty()) return std::nullopt;
+    const auto usual = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() * 4 / 5);
+    std::nth_element(spacings.begin(), usual, spacings.end());
+    return *usual;
+}
+
+/// Without the host's pauses, which lie far above the line below all points with the least distance.
+std::vector<Point> without_pauses(const std::vector<Point>& points, const Strip& strip,
+                                  double most_above) {
+    double mean_x = 0.0;
+    for (const Point& p : points) mean_x += p.x;
+    mean_x /= static_cast<double>(points.size());
+    const auto depth_at_mean = [&](double slope) {
+        return -(level_below(strip.lower, slope) + slope * mean_x);
+    };
+    const double slope = argmin(depth_at_mean, strip.least_slope, strip.largest_slope);
+    const double level = level_below(strip.lower, slope);
+    std::vector<Point> kept;
+    kept.reserve(points.size());
+    for (const Point& p : points)
+        if (p.y - level - slope * p.x <= most_above) kept.push_back(p);
+    return kept;
+}
+
+}  // namespace
+
+EdgeFit fit_edge(std::span<const ArrivalBlock> blocks, Nanoseconds at, Nanoseconds sample_period,
+                 RateLimits limits) {
+    std::vector<Point> points;
+    points.reserve(blocks.size());
+    for (const ArrivalBlock& block : blocks)
+        points.push_back({to_ns(block.due - at), to_ns(block.least_y)});
+
+    const auto usual = usual_spacing(blocks);
+    const double spacing = usual ? to_ns(*usual) : 0.0;
+    const bool has_spacing =
+        spacing > kShortestSpacing_ns && spacing < to_ns(sample_period) + kPolling_ns;
+    const double hidden = (has_spacing ? spacing : kShortTimer_ns) + kPolling_ns + kWander_ns;
+
+    Strip strip{hull(points, 1.0), {}, limits.least, limits.largest};
+    strip.upper = hull(without_pauses(points, strip, hidden + kPause_ns), -1.0);
+    const double flattest = strip.flattest();
+    const double needed = strip.depth(flattest) + kSlack_ns;
+    const Strip::Range allowed = strip.lines(std::max(hidden, needed), flattest);
+
+    // Points that scatter show a timer or the polling of a bus, without a spacing.
+    const bool has_short_timer = !has_spacing && needed > kSeenTimer_ns;
+    const double likely_hidden = has_short_timer ? kShortTimer_ns + kPolling_ns : 0.0;
+    const Strip::Range likely =
+        has_spacing ? allowed : strip.lines(std::max(likely_hidden, needed), flattest);
+    const double slope = 0.5 * (likely.least_slope + likely.largest_slope);
+    const double level = has_spacing || has_short_timer ? 0.5 * (likely.top + likely.bottom)
+                                                        : level_below(strip.lower, slope);
+
+    const double busy = std::max(needed - hidden, 0.0);
+    const double uncertainty = std::max(allowed.top - level, level - allowed.bottom) +
+                               2.0 * kSlack_ns + busy + (usual ? 0.0 : kUnseenTimer_ns);
+    EdgeFit fit;
+    fit.y = Nanoseconds(std::llround(level));
+    fit.excess_rate = slope;
+    fit.uncertainty = Nanoseconds(std::llround(uncertainty));
+    fit.rate_uncertainty = 0.5 * (allowed.largest_slope - allowed.least_slope);
+    return fit;
+}
+
+}  // namespace a351::timing

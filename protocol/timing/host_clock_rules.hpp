@@ -1,0 +1,33 @@
+#pragma once
+/// @file
+/// What is held of a host's clocks, live and in hindsight.
+
+#include <chrono>
+
+#include "protocol/core/utc_time.hpp"
+
+namespace a351::timing {
+
+/// Boottime gains this on the raw clock between readings: the host slept.  Slewing makes 0.6 ms of a
+/// second.
+inline constexpr Nanoseconds kShortestSleep = std::chrono::milliseconds(100);
+
+/// A clock that departs by more, beyond what slewing explains, was set.
+inline constexpr Nanoseconds kClockStep = std::chrono::milliseconds(50);
+
+/// Of a clock that was never synchronised, or that only a battery clock carried through a sleep.
+inline constexpr Nanoseconds kUnknownClockError = std::chrono::seconds(1);
+
+/// 500 ppm of the kernel (MAXFREQ) + a crystal.
+inline constexpr std::int64_t kMostSlew_ppm = 600;
+[[nodiscard]] constexpr Nanoseconds most_slewed(Nanoseconds duration) {
+    return duration / 1'000'000 * kMostSlew_ppm;
+}
+
+/// Of a host's crystal without discipline: twice what they are usually specified to.
+inline constexpr double kHostRateError = 100e-6;
+[[nodiscard]] constexpr Nanoseconds host_drift(Nanoseconds duration) {
+    return duration / 1'000'000 * 100;
+}
+
+}  // namespace a351::timing

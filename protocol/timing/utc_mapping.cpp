@@ -1,0 +1,96 @@
+#include "protocol/timing/utc_mapping.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "protocol/timing/host_clock_rules.hpp"
+
+namespace a351::timing {
+namespace {
+
+using std::chrono::abs;
+using std::chrono::microseconds;
+using std::chrono::seconds;
+
+constexpr Nanoseconds kTrustedAfter = seconds(60);
+constexpr Nanoseconds kSlopeOver = seconds(3);  // a reading is good to microseconds
+
+Nanoseconds max_error(const ClockReading& reading) { return microseconds(reading.max_error_us); }
+
+}  // namespace
+
+void UtcMapping::woke_up() { has_slept_ = true; }
+
+std::optional<ClockStep> UtcMapping::observe(const ClockReading& reading) {
+    const Nanoseconds offset = reading.realtime.time_since_epoch() - reading.raw.time_since_epoch();
+    const bool slept = std::exchange(has_slept_, false);
+    if (slept) awake_since_ = reading.raw;
+    if (!last_) {
+        follow(reading, offset);
+        return std::nullopt;
+    }
+    const Nanoseconds departure = offset - offset_at(reading.raw);
+    const Nanoseconds slewed =
+        doubted_ || slept ? Nanoseconds(0) : most_slewed(reading.raw - last_->raw);
+    if (abs(departure) <= kClockStep + slewed) {
+        doubted_.reset();
+        follow(reading, offset);
+        return std::nullopt;
+    }
+    if (!doubted_ || abs(offset - doubted_->offset) > kClockStep) doubted_ = {reading.raw, offset};
+    doubted_->offset = offset;
+    if (!reading.is_synchronised && last_synchronised_) {
+        doubted_->since = reading.raw;
+        return std::nullopt;
+    }
+    const bool is_first =
+        reading.is_synchronised && !last_synchronised_ && !is_just_awake(reading.raw);
+    if (!is_first && reading.raw - doubted_->since < kTrustedAfter) return std::nullopt;
+    doubted_.reset();
+    recent_.clear();
+    follow(reading, offset);
+    return ClockStep{reading.raw, departure};
+}
+
+void UtcMapping::follow(const ClockReading& reading, Nanoseconds offset) {
+    last_ = reading;
+    if (reading.is_synchronised) last_synchronised_ = reading;
+    recent_.push_back({reading.raw, offset});
+    while (recent_.size() > 2 && reading.raw - recent_[1].raw >= kSlopeOver) recent_.pop_front();
+}
+
+Nanoseconds UtcMapping::offset_at(RawTime raw) const {
+    const Pair& last = recent_.back();
+    const Nanoseconds over = last.raw - recent_.front().raw;
+    if (over <= Nanoseconds(0)) return last.offset;
+    const auto slope = static_cast<double>((last.offset - recent_.front().offset).count()) /
+                       static_cast<double>(over.count());
+    constexpr double kMostSlope = 1e-6 * static_cast<double>(kMostSlew_ppm);
+    return last.offset + from_seconds(std::clamp(slope, -kMostSlope, kMostSlope) *
+                                      std::chrono::duration<double>(raw - last.raw).count());
+}
+
+UtcTime UtcMapping::at(RawTime raw) const {
+    return UtcTime(raw.time_since_epoch() + offset_at(raw));
+}
+
+bool UtcMapping::is_just_awake(RawTime raw) const noexcept {
+    return awake_since_ && raw - *awake_since_ < kTrustedAfter;
+}
+
+bool UtcMapping::is_synchronised() const noexcept {
+    return last_ && last_->is_synchronised && !doubted_ && !is_just_awake(last_->raw);
+}
+
+bool UtcMapping::is_held() const noexcept { return last_synchronised_ && !is_synchronised(); }
+
+Nanoseconds UtcMapping::error_at(RawTime raw) const {
+    const auto since = [raw](const ClockReading& reading) {
+        return host_drift(std::max(raw - reading.raw, Nanoseconds(0)));
+    };
+    if (!last_synchronised_ || is_just_awake(last_->raw))
+        return std::max(max_error(*last_), kUnknownClockError) + since(*last_);
+    return max_error(*last_synchronised_) + since(*last_synchronised_);
+}
+
+}  // namespace a351::timing

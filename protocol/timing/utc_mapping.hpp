@@ -1,0 +1,69 @@
+#pragma once
+/// @file
+/// The host's raw clock -> UTC, from readings of both.
+
+#include <deque>
+#include <optional>
+
+#include "protocol/core/utc_time.hpp"
+#include "protocol/timing/clock_reading.hpp"
+
+namespace a351::timing {
+
+/// A jump of the host's clock that the mapping follows from `raw` on.
+struct ClockStep {
+    RawTime raw;
+    Nanoseconds by{0};
+};
+
+/// Follows the readings one by one, so that what a time service slews is followed within seconds,
+/// and doubts those that jump:
+///
+/// A step is a reading that departs from the last one followed by more than 50 ms + 600 ppm of the
+/// time between (a kernel slews at 500 ppm at most).  It is not followed but held against: the mapping
+/// goes on as it was.  When the host has said for 60 s that it is synchronised, and has kept to the
+/// new time, it is.  A host that was never synchronised needs only the 60 s, and is followed at
+/// once when it is synchronised for the first time, unless it woke up within the last minute.
+///
+/// Error: the kernel's maximum error.  Held, or without synchronisation: that of the last
+/// synchronised reading + 100 ppm of the time since (a host's crystal).  Never synchronised, or awake
+/// for less than a minute (only a battery clock counts while a host sleeps): at least 1 s.
+class UtcMapping {
+public:
+    /// In the order of time.  @return  the step that is followed from this reading on.
+    std::optional<ClockStep> observe(const ClockReading& reading);
+
+    /// The host slept until the next reading.
+    void woke_up();
+
+    [[nodiscard]] bool is_empty() const noexcept { return recent_.empty(); }
+    /// There is a reading.
+    [[nodiscard]] UtcTime at(RawTime raw) const;
+    [[nodiscard]] Nanoseconds error_at(RawTime raw) const;
+    /// The host was synchronised and is not any more, or not by our account.
+    [[nodiscard]] bool is_held() const noexcept;
+    /// It says so, no step is doubted, and it was awake for a minute.
+    [[nodiscard]] bool is_synchronised() const noexcept;
+
+private:
+    struct Pair {
+        RawTime raw;
+        Nanoseconds offset{0};  ///< UTC since 1970 - raw.
+    };
+    struct Doubted {
+        RawTime since;
+        Nanoseconds offset{0};
+    };
+    [[nodiscard]] Nanoseconds offset_at(RawTime raw) const;
+    [[nodiscard]] bool is_just_awake(RawTime raw) const noexcept;
+    void follow(const ClockReading& reading, Nanoseconds offset);
+
+    std::deque<Pair> recent_;  ///< The last 3 s, and one before.
+    std::optional<Doubted> doubted_;
+    bool has_slept_ = false;
+    std::optional<RawTime> awake_since_;
+    std::optional<ClockReading> last_;               ///< Followed.
+    std::optional<ClockReading> last_synchronised_;  ///< Followed.
+};
+
+}  // namespace a351::timing

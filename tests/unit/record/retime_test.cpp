@@ -1,0 +1,131 @@
+#include "protocol/record/retime.hpp"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "protocol/core/input_error.hpp"
+#include "protocol/record/event_log.hpp"
+#include "tests/unit/record/data_root.hpp"
+#include "tests/unit/record/failing_files.hpp"
+
+using namespace a351;
+using namespace a351::record;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Ten minutes with late frames and a gap; the host's clock is an hour slow until it is synchronised
+/// at `synchronised`.
+std::vector<JournalChunk> badly_timed_session(std::int64_t synchronised) {
+    const auto reading = [&](Nanoseconds now, std::int64_t k) {
+        timing::ClockReading clock = clock_at(now);
+        clock.boottime = clock.raw.time_since_epoch();
+        clock.is_synchronised = k >= synchronised;
+        if (!clock.is_synchronised) clock.realtime -= 1h;
+        return clock;
+    };
+    JournalStream stream;
+    std::get<JournalHeader>(stream.chunks.front()).clock = reading(0s, 0);
+    std::mt19937_64 random(5);
+    for (std::int64_t k = 0; k < 30'000; ++k) {
+        if (k >= 4'000 && k < 4'003) continue;
+        stream.bytes(frame_of(values_of(k)),
+                     due(k) + Nanoseconds(static_cast<std::int64_t>(random() % 900'000)));
+        if (k % 50 != 49) continue;
+        stream.flush();
+        stream.chunks.emplace_back(reading(due(k) + 1ms, k));
+    }
+    stream.flush();
+    return stream.chunks;
+}
+
+struct Decoded {
+    std::vector<std::int32_t> counts;
+    std::vector<DecodedRecord> records;
+};
+
+Decoded read_vertical(const std::filesystem::path& archive) {
+    Decoded all;
+    for (const auto& day : day_files(archive, {}, "BNZ")) {
+        const auto bytes = test::read_bytes(day);
+        for (std::size_t at = 0; at < bytes.size(); at += kRecordSize) {
+            auto record = *decode_record(std::span(bytes).subspan(at, kRecordSize));
+            all.counts.insert(all.counts.end(), record.samples.begin(), record.samples.end());
+            all.records.push_back(std::move(record));
+        }
+    }
+    return all;
+}
+
+/// Instant of sample k, whose frame is due at due(k).
+UtcTime truth(std::int64_t k) {
+    return kStart + due(k) - (63'875us + 430us + Nanoseconds(520'833));
+}
+
+}  // namespace
+
+TEST_CASE("a re-timed archive has the same samples at the times that were known in the end",
+          "[record][retime]") {
+    DataRoot root;
+    const auto chunks = badly_timed_session(15'000);
+    root.write_journal(chunks);
+    archive_all(root, chunks);
+    Event event;
+    event.type = "start";
+    event.session = std::get<JournalHeader>(chunks.front()).session;
+    event.index = 500;
+    event.utc = truth(500) - 1h;
+    append_event(posix_files(), root.path() / "events", event);
+
+    DataRoot parent;
+    const auto out = parent.path() / "better";
+    const RetimeReport report = retime(posix_files(), root.path(), out);
+    CHECK(report.counters.gaps == 1);
+    CHECK(report.damage.empty());
+
+    const Decoded before = read_vertical(root.archive()), after = read_vertical(out / "archive");
+    CHECK(after.counts == before.counts);
+    CHECK(std::chrono::abs(before.records.front().header.start - truth(0) + 1h) < Nanoseconds(2ms));
+    std::int64_t k = 0;
+    for (const DecodedRecord& record : after.records) {
+        if (k == 4'000) k = 4'003;
+        const Nanoseconds error = record.header.start - truth(k);
+        REQUIRE(std::chrono::abs(error) < Nanoseconds(500us));
+        REQUIRE_FALSE(record.header.is_time_questionable);
+        k += static_cast<std::int64_t>(record.samples.size());
+    }
+    CHECK(k == 30'000);
+    const auto events = read_events(out / "events").events;
+    REQUIRE(events.size() == 1);
+    CHECK(std::chrono::abs(events[0].utc - truth(500)) < Nanoseconds(500us));
+    CHECK(events[0].index == 500);
+}
+
+TEST_CASE("re-timing is all or nothing", "[record][retime]") {
+    DataRoot root, parent;
+    const auto out = parent.path() / "better";
+    CHECK_THROWS_AS(retime(posix_files(), root.path(), out), InputError);
+    CHECK_FALSE(std::filesystem::exists(out));
+    root.write_journal(badly_timed_session(0));
+    CHECK_THROWS_AS(retime(posix_files(), root.path(), root.path()), InputError);
+    for (int n = 1; n < 12; ++n) {
+        test::FailingFiles files(n);
+        CHECK_THROWS_AS(retime(files, root.path(), out), std::system_error);
+        CHECK(std::filesystem::is_empty(parent.path()));
+    }
+    CHECK(retime(posix_files(), root.path(), out).records > 0);
+    CHECK(retime(posix_files(), root.path(), parent.path() / "again").records > 0);
+    const auto first = read_vertical(out / "archive");
+    CHECK(first.counts == read_vertical(parent.path() / "again" / "archive").counts);
+}
+
+TEST_CASE("a damaged segment is re-timed as far as it is good", "[record][retime]") {
+    DataRoot root, parent;
+    root.write_journal(badly_timed_session(0));
+    const auto segment = journal_segments(root.journal()).front();
+    std::filesystem::resize_file(segment, std::filesystem::file_size(segment) - 1000);
+    const RetimeReport report = retime(posix_files(), root.path(), parent.path() / "better");
+    REQUIRE(report.damage.size() == 1);
+    CHECK(report.damage[0].file == segment);
+    CHECK(report.records > 0);
+}

@@ -1,0 +1,142 @@
+#include "protocol/timing/utc_mapping.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace a351;
+using namespace a351::timing;
+using namespace std::chrono_literals;
+
+namespace {
+
+const UtcTime kNoon = *parse_rfc3339("2026-03-01T12:00:00Z");
+
+/// A host whose clock can be set: one reading a second.
+struct Host {
+    UtcMapping mapping;
+    Nanoseconds now{0};     ///< True time since noon.
+    double offset_s = 0.0;  ///< The clock is fast by this.
+    double slew_ppm = 0.0;
+    bool is_synchronised = true;
+    std::int64_t max_error_us = 1000;
+    std::optional<ClockStep> followed;
+
+    [[nodiscard]] RawTime raw() const { return RawTime(500s + now); }
+    [[nodiscard]] UtcTime clock() const { return kNoon + now + from_seconds(offset_s); }
+
+    void run(int seconds) {
+        for (int i = 0; i < seconds; ++i) {
+            now += 1s;
+            offset_s += 1e-6 * slew_ppm;
+            const auto step = mapping.observe(
+                {raw(), raw().time_since_epoch(), clock(), is_synchronised, max_error_us, 0});
+            if (step) followed = step;
+        }
+    }
+    /// Of the mapping against true time, ms.
+    [[nodiscard]] double error_ms() const {
+        return 1e3 * seconds_between(kNoon + now, mapping.at(raw()));
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a slew of 500 ppm is followed to 1 ms", "[timing][utc_mapping]") {
+    Host host;
+    host.run(10);
+    for (const double slew_ppm : {500.0, 0.0, -500.0, 0.0}) {
+        host.slew_ppm = slew_ppm;
+        for (int i = 0; i < 100; ++i) {
+            const UtcTime ahead = host.mapping.at(host.raw() + 1500ms);
+            host.run(1);
+            CHECK(host.mapping.at(host.raw()) == host.clock());
+            CHECK(std::chrono::abs(ahead - (host.clock() + 500ms)) < Nanoseconds(1ms));
+        }
+    }
+    CHECK_FALSE(host.followed);
+}
+
+TEST_CASE("a step of a host that was synchronised is doubted, then followed",
+          "[timing][utc_mapping]") {
+    for (const double step_s : {3600.0, -3600.0, 0.06}) {
+        Host host;
+        host.run(100);
+        host.offset_s = step_s;
+        host.is_synchronised = false;  // as clock_settime leaves it
+        host.run(300);
+        CHECK(std::abs(host.error_ms()) < 1e-3);
+        CHECK(host.mapping.is_held());
+        CHECK_FALSE(host.mapping.is_synchronised());
+        CHECK(host.mapping.error_at(host.raw()) >= Nanoseconds(1ms + 30ms));
+        host.is_synchronised = true;
+        host.run(59);
+        CHECK_FALSE(host.followed);
+        host.run(2);
+        REQUIRE(host.followed);
+        CHECK(host.followed->by == from_seconds(step_s));
+        CHECK(std::abs(host.error_ms() - 1e3 * step_s) < 1e-3);
+        CHECK(host.mapping.is_synchronised());
+    }
+}
+
+TEST_CASE("a clock that is set back to what it was changes nothing", "[timing][utc_mapping]") {
+    Host host;
+    host.run(100);
+    host.offset_s = 5.0;
+    host.run(40);
+    CHECK(host.mapping.is_held());
+    host.offset_s = 0.0;
+    host.run(200);
+    CHECK_FALSE(host.followed);
+    CHECK_FALSE(host.mapping.is_held());
+}
+
+TEST_CASE("a clock that keeps jumping is not followed", "[timing][utc_mapping]") {
+    Host host;
+    host.run(100);
+    for (int i = 0; i < 10; ++i) {
+        host.offset_s += 1.0;
+        host.run(50);
+    }
+    CHECK_FALSE(host.followed);
+    CHECK(std::abs(host.error_ms()) < 1e-3);
+}
+
+TEST_CASE("the first synchronisation is followed at once", "[timing][utc_mapping]") {
+    Host host;
+    host.is_synchronised = false;
+    host.offset_s = -1.7e9;  // 1970
+    host.run(30);
+    CHECK(host.mapping.error_at(host.raw()) >= Nanoseconds(1s));
+    CHECK_FALSE(host.mapping.is_held());
+    host.offset_s = 0.0;
+    host.is_synchronised = true;
+    host.run(1);
+    REQUIRE(host.followed);
+    CHECK(std::abs(host.error_ms()) < 1e-3);
+    CHECK(host.mapping.error_at(host.raw()) < Nanoseconds(2ms));
+}
+
+TEST_CASE("a clock that nobody synchronises is followed after a minute", "[timing][utc_mapping]") {
+    Host host;
+    host.is_synchronised = false;
+    host.run(30);
+    host.offset_s = 100.0;
+    host.run(60);
+    CHECK_FALSE(host.followed);
+    host.run(1);
+    CHECK(host.followed);
+}
+
+TEST_CASE("a step within a minute of waking up is doubted", "[timing][utc_mapping]") {
+    Host host;
+    host.is_synchronised = false;
+    host.run(30);
+    host.mapping.woke_up();
+    host.run(1);
+    host.offset_s = 100.0;
+    host.is_synchronised = true;
+    host.run(50);
+    CHECK_FALSE(host.followed);
+    host.run(20);
+    CHECK(host.followed);
+}
