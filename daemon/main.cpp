@@ -129,7 +129,10 @@ sigset_t block_signals() {
 ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log,
                const sigset_t& signals, StatusLog& status_log) {
     ReadQueue reads;
-    Store store(record::posix_files(), {.root = config.storage.root, .station = station_of(config)},
+    Store store(record::posix_files(),
+                {.root = config.storage.root,
+                 .station = station_of(config),
+                 .keeper = {.keep_days = config.storage.journal_keep_days}},
                 clock, reads);
     log_recovery(log, store.recovery());
     SensorLink link({.address = config.sensor.address,

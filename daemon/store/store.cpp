@@ -18,7 +18,9 @@ Store::Store(record::FileLayer& files, StoreOptions options, const HostClock& cl
       archive_(files, options_.root / "archive", options_.station.codes, clock, chunks_, progress_,
                {.post = [this](record::JournalChunk chunk) { journal_.post(std::move(chunk)); },
                 .session_began = [this](const record::JournalHeader& header) { describe(header); }},
-               options_.retry_interval) {}
+               options_.retry_interval),
+      keeper_(files, options_.root / "journal", options_.keeper,
+              [this] { return journal_.covered_below(); }) {}
 
 Store::~Store() { stop(); }
 
@@ -26,6 +28,7 @@ void Store::start() {
     is_running_ = true;
     archive_.start();
     journal_.start();
+    keeper_.start();
 }
 
 bool Store::stop() {
@@ -80,6 +83,12 @@ void Store::fill(Status& status) {
     status.more_counters["archive_records"] = archive.records;
     status.more_counters["archive_records_waiting"] = archive.records_waiting;
     status.more_counters["archive_waits"] = journal.archive_waits;
+    const JournalKeeper::Status keeper = keeper_.status();
+    status.more_counters["journal_segments_compressed"] = keeper.compressed;
+    status.more_counters["journal_segments_removed"] = keeper.removed;
+    status.more_counters["journal_keeper_faults"] = keeper.faults;
+    if (keeper.faults > 0)
+        complain(status, Status::Level::warning, "journal, closed segments: " + keeper.trouble);
     if (journal.is_faulty) complain(status, Status::Level::fault, "journal: " + journal.trouble);
     if (archive.is_faulty) complain(status, Status::Level::fault, "archive: " + archive.trouble);
 

@@ -14,6 +14,7 @@
 #include "daemon/store/archive_thread.hpp"
 #include "daemon/store/chunk_queue.hpp"
 #include "daemon/store/data_root.hpp"
+#include "daemon/store/journal_keeper.hpp"
 #include "daemon/store/journal_thread.hpp"
 #include "daemon/store/progress.hpp"
 #include "daemon/survey/recorder.hpp"
@@ -31,6 +32,7 @@ struct StoreOptions {
     record::StationDescription station = {};
     /// Between tries when journal or archive could not be written.
     std::chrono::milliseconds retry_interval{10'000};
+    JournalKeeper::Options keeper = {};
     /// How long an event waits for its turn.
     std::chrono::milliseconds commit_patience{10'000};
 };
@@ -69,6 +71,7 @@ private:
     ChunkQueue chunks_;
     JournalThread journal_;
     ArchiveThread archive_;
+    JournalKeeper keeper_;
     bool is_running_ = false;
 };
 

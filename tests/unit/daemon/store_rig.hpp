@@ -109,7 +109,8 @@ struct Rig {
         return options;
     }
 
-    void begin_session(std::uint8_t id = 42, const char* profile = "A351") {
+    void begin_session(std::uint8_t id = 42, const char* profile = "A351",
+                       std::chrono::days ago = std::chrono::days(0)) {
         record::JournalHeader header;
         header.session.bytes[0] = id;
         header.boot_id = clock.boot_id();
@@ -121,6 +122,8 @@ struct Rig {
         header.burst_ctrl = wire::BurstLayout::recommended().burst_ctrl();
         header.baud = 460800;
         header.clock = clock.read();
+        header.clock.realtime -= ago;
+        header.clock.is_synchronised = true;
         REQUIRE(reads.push_session(header, header.clock.raw));
     }
 
