@@ -15,6 +15,7 @@ struct Replay {
     std::vector<std::filesystem::path> segments;
     UtcTime earliest = UtcTime::max();  // by the clock of their headers
     StationCodes codes;                 // of the last
+    std::optional<MarkChunk> mark;      // the newest
 };
 
 std::optional<JournalHeader> header_of(JournalReader& reader) {
@@ -23,30 +24,38 @@ std::optional<JournalHeader> header_of(JournalReader& reader) {
     return header ? std::optional(*header) : std::nullopt;
 }
 
-std::optional<SessionId> newest_marked_session(JournalReader& reader) {
-    std::optional<SessionId> session;
-    while (const auto chunk = reader.next())
-        if (const auto* mark = std::get_if<MarkChunk>(&*chunk)) session = mark->session;
-    return session;
+std::optional<MarkChunk> newest_mark(JournalReader& reader) {
+    std::optional<MarkChunk> newest;
+    while (auto chunk = reader.next())
+        if (auto* mark = std::get_if<MarkChunk>(&*chunk)) newest = std::move(*mark);
+    return newest;
+}
+
+/// Begin of the newest sample of a channel that survived whatever happened.
+UtcTime synced_until(const Replay& replay, const std::string& channel) {
+    if (replay.mark) {
+        for (const ChannelMark& mark : replay.mark->channels)
+            if (mark.channel == channel) return mark.utc;
+    }
+    return UtcTime::min();
 }
 
 Replay plan_replay(const std::filesystem::path& journal) {
     Replay replay;
-    std::optional<SessionId> oldest;
     bool has_reached_oldest = false;
     const auto segments = journal_segments(journal);
     for (auto segment = segments.rbegin(); segment != segments.rend(); ++segment) {
         JournalReader reader(*segment);
         const auto header = header_of(reader);
         if (!header) continue;  // nothing in it can be read
-        if (has_reached_oldest && header->session != *oldest) break;
+        if (has_reached_oldest && header->session != replay.mark->session) break;
         if (replay.segments.empty()) replay.codes = header->codes;
         // What stands under other codes was recovered at the start that brought the new ones.
         if (header->codes != replay.codes) break;
         replay.segments.push_back(*segment);
         replay.earliest = std::min(replay.earliest, header->clock.realtime);
-        if (!oldest) oldest = newest_marked_session(reader);
-        has_reached_oldest = oldest && header->session == *oldest;
+        if (!replay.mark) replay.mark = newest_mark(reader);
+        has_reached_oldest = replay.mark && header->session == replay.mark->session;
     }
     std::reverse(replay.segments.begin(), replay.segments.end());
     return replay;
@@ -65,7 +74,8 @@ RecoveryReport recover(FileLayer& files, const std::filesystem::path& data_root)
     for (const auto& channel : channels_in(archive, replay.codes)) {
         const auto day_file = newest_day_file(archive, replay.codes, channel);
         if (!day_file) continue;
-        if (const auto tail = repair_tail(files, *day_file)) report.archive.push_back(*tail);
+        const auto tail = repair_tail(files, *day_file, synced_until(replay, channel));
+        if (tail) report.archive.push_back(*tail);
     }
 
     ArchiveWriter writer(files, archive, replay.codes);

@@ -96,12 +96,37 @@ std::optional<fs::path> newest_day_file(const fs::path& archive, const StationCo
     return files.back();
 }
 
-std::optional<TornTail> repair_tail(FileLayer& files, const fs::path& day_file) {
-    const std::uint64_t size = fs::file_size(day_file);
-    std::uint64_t whole = size / kRecordSize * kRecordSize;
+namespace {
+
+/// Where the records end that can be kept: whole ones, as far as the end of the file ...
+std::uint64_t end_of_whole_records(const fs::path& day_file) {
+    std::uint64_t whole = fs::file_size(day_file) / kRecordSize * kRecordSize;
     while (whole > 0 && !decode_record(read_bytes(day_file, whole - kRecordSize, kRecordSize))) {
         whole -= kRecordSize;
     }
+    return whole;
+}
+
+/// ... or up to the first that a power cut spoilt, behind those that were synced.
+std::uint64_t end_of_good_records(const fs::path& day_file, UtcTime synced_until) {
+    const auto bytes = read_bytes(day_file);
+    std::uint64_t good = 0;
+    std::optional<std::uint64_t> spoilt;
+    for (; good + kRecordSize <= bytes.size(); good += kRecordSize) {
+        const auto record = decode_record(std::span(bytes).subspan(good, kRecordSize));
+        if (!record && !spoilt) spoilt = good;
+        if (record && record->header.start <= synced_until) spoilt.reset();
+    }
+    return spoilt.value_or(good);
+}
+
+}  // namespace
+
+std::optional<TornTail> repair_tail(FileLayer& files, const fs::path& day_file,
+                                    std::optional<UtcTime> synced_until) {
+    const std::uint64_t size = fs::file_size(day_file);
+    const std::uint64_t whole = synced_until ? end_of_good_records(day_file, *synced_until)
+                                             : end_of_whole_records(day_file);
     if (whole == size && size > 0) return std::nullopt;
     TornTail tail{day_file, whole, size - whole};
     if (tail.byte_count > 0) {

@@ -45,8 +45,12 @@ struct TornTail {
 };
 
 /// Cuts what follows the last whole record into `DAYFILE.OFFSET.torn` beside the archive's day file,
-/// and removes a file that becomes or is empty.  @return what was cut, if anything.
-std::optional<TornTail> repair_tail(FileLayer& files, const std::filesystem::path& day_file);
+/// and removes a file that becomes or is empty.
+/// @param synced_until  after a power cut: behind the records that begin until then any page may be
+///                      missing, so the first that is no record is cut too, with all behind it.
+/// @return what was cut, if anything.
+std::optional<TornTail> repair_tail(FileLayer& files, const std::filesystem::path& day_file,
+                                    std::optional<UtcTime> synced_until = std::nullopt);
 
 /// Appends records to day files, keeping one file open per channel.  The first record of a day file
 /// comes into being with it; a torn tail is cut before the first append; the day before is synced

@@ -1,0 +1,49 @@
+#include "tests/unit/daemon/forgetful_files.hpp"
+#include "tests/unit/daemon/store_rig.hpp"
+
+using namespace a351;
+using namespace a351::daemon;
+
+TEST_CASE_METHOD(Rig, "after a power cut every journaled sample is archived once",
+                 "[daemon][store][power_cut]") {
+    constexpr int kCuts = 100;
+    test::ForgetfulFiles forgetful;
+    std::mt19937_64 random(11);
+    Store store(forgetful, options(), clock, reads);
+    store.start();
+    begin_session();
+    std::size_t lost = 0, mended = 0, torn = 0;
+    for (int cut = 0; cut < kCuts; ++cut) {
+        feed(static_cast<int>(random() % 1000));
+        std::this_thread::sleep_for(std::chrono::milliseconds(random() % 40));
+        const auto found = directory.path() / ("found-" + std::to_string(cut));
+        const auto journaled = status_of(store).journaled;
+        forgetful.cut(root, found, random);
+        StoreOptions again = options();
+        again.root = found;
+        std::uint64_t added = 0;
+        {
+            const Store recovered(record::posix_files(), again, clock, reads);
+            added = recovered.recovery().records_added;
+            mended += recovered.recovery().archive.size();
+            torn += recovered.recovery().journal ? 1U : 0U;
+        }
+        INFO("cut " << cut << ", journaled " << journaled.value_or(-1) << ", added " << added);
+        const auto counts = archived_counts(found, "BNZ");
+        const auto size = static_cast<int>(counts.size());
+        REQUIRE(counts == expected_counts(size));
+        REQUIRE(samples_in_records(found, "BNZ") == counts.size());
+        REQUIRE(size > journaled.value_or(-1));
+        lost += static_cast<std::size_t>(fed - size);
+        const Store twice(record::posix_files(), again, clock, reads);
+        CHECK(twice.recovery().records_added == 0);
+        std::filesystem::remove_all(found);
+    }
+    std::printf(
+        "power cuts: %d; samples fed that were not journaled yet and lost: %zu; journals "
+        "torn: %zu, day files mended: %zu\n",
+        kCuts, lost, torn, mended);
+    CHECK(mended > 0);
+    CHECK(torn > 0);
+    CHECK(store.stop());
+}
