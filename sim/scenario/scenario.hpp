@@ -94,6 +94,7 @@ struct ClockParameters {
     double error_ppm = 0.0;
     double wander_ppm_per_sqrt_h = 0.0;     ///< Random walk.
     double temperature_ppm_per_degc = 0.0;  ///< Per degC above the temperature error's reference.
+    double declared_rate_hz = 0.0;          ///< What `survey` writes into its records; 0: none.
 };
 
 struct SlowNoiseParameters {

@@ -167,6 +167,7 @@ void read_clock(Section s, ClockParameters& p) {
     s.number("error_ppm", p.error_ppm, -1e4, 1e4);
     s.number("wander_ppm_per_sqrt_h", p.wander_ppm_per_sqrt_h, 0.0, 100.0);
     s.number("temperature_ppm_per_degc", p.temperature_ppm_per_degc, -100.0, 100.0);
+    s.number("declared_rate_hz", p.declared_rate_hz, 0.0, 51.0);
     s.done();
 }
 

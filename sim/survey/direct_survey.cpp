@@ -15,6 +15,7 @@
 #include "protocol/record/station_xml.hpp"
 #include "protocol/wire/commands.hpp"
 #include "sim/device/device_stream.hpp"
+#include "sim/line/transport.hpp"
 #include "sim/noise/random.hpp"
 #include "sim/scenario/survey_plan.hpp"
 #include "sim/signal/signal_source.hpp"
@@ -80,6 +81,8 @@ record::JournalHeader journal_header(const Scenario& scenario, const wire::Devic
     header.filter = kFilterName;
     header.burst_ctrl = wire::BurstLayout::recommended().burst_ctrl();
     header.baud = kBaud;
+    if (scenario.clock.declared_rate_hz > 0.0)
+        header.declared_rate_hz = scenario.clock.declared_rate_hz;
     header.clock = clock_at(scenario, scenario.start());
     return header;
 }
@@ -140,17 +143,24 @@ std::vector<record::Event> planned_events(const std::vector<PlannedSetUp>& plan,
     return events;
 }
 
-/// The daemon's end of a line without delay: frames are gathered until a chunk is taken.  Each of
-/// the events, in time order, is put on the first sample at or after it.
+/// The daemon's end of the scenario's line: frames are gathered until a chunk is taken.  Each of the
+/// events, in time order, is put on the first sample at or after it.
 class Collected final : public LineSink {
 public:
-    Collected(TruthWriter& truth, const Scenario& scenario, std::vector<record::Event> events)
-        : truth_(truth), scenario_(scenario), events_(std::move(events)) {}
+    Collected(TruthWriter& truth, const Scenario& scenario, std::uint64_t seed,
+              std::vector<record::Event> events)
+        : truth_(truth),
+          scenario_(scenario),
+          transport_(scenario.line, seed, scenario.start()),
+          events_(std::move(events)) {}
 
     void send(std::span<const std::byte> bytes, UtcTime leaves, const TruthRecord* frame) override {
         chunk_.bytes.insert(chunk_.bytes.end(), bytes.begin(), bytes.end());
+        transport_.carry(bytes.size(), leaves);
+        const UtcTime arrives = transport_.shown_at(bytes.size());
+        transport_.take(bytes.size());
         chunk_.reads.push_back(
-            {static_cast<std::uint32_t>(chunk_.bytes.size()), raw_at(scenario_, leaves)});
+            {static_cast<std::uint32_t>(chunk_.bytes.size()), raw_at(scenario_, arrives)});
         if (frame == nullptr) return;
         truth_.append(*frame);
         for (; next_event_ < events_.size() && events_[next_event_].utc <= frame->utc;
@@ -172,6 +182,7 @@ public:
 private:
     TruthWriter& truth_;
     const Scenario& scenario_;
+    Transport transport_;
     record::RxChunk chunk_;
     std::vector<record::Event> events_;
     std::size_t next_event_ = 0;
@@ -228,7 +239,7 @@ DirectSurvey write_day(const Scenario& scenario, const wire::DeviceProfile& prof
     const record::JournalHeader header = journal_header(scenario, profile, identity, seed);
     TruthWriter truth(root / "truth.bin");
     Collected collected(
-        truth, scenario,
+        truth, scenario, seed,
         planned_events(by_true_time(scenario, source.plan(), seed), header.session));
     DeviceStream stream(source, machine);
 

@@ -1,0 +1,66 @@
+"""Three days of a sensor 20 ppm fast behind a 16 ms adapter: one trace in readers, and times as they are stated."""
+
+from programs import BIN, IS_SANITIZED, TOOLS, Scratch, demand, run
+
+SCENARIO = """base = "quiet"
+name = "three-days"
+[schedule]
+start_utc = "2017-07-15T18:00:00Z"
+duration_h = HOURS
+[clock]
+error_ppm = 20.0
+declared_rate_hz = 50.001
+[line]
+latency_timer_ms = 16.0
+latency_timer_ppm = 30.0
+usb_poll_ms = 1.0
+jitter_ms = 0.3
+stall_per_h = 1.0
+[[site]]
+name = "here"
+longitude_deg = 140.0
+latitude_deg = 36.0
+altitude_m = 0.0
+gravity_mgal = 979900.0
+[[ambient]]
+at_h = 0.0
+degc = 25.0
+"""
+
+
+def fields(line):
+    return dict(part.split("=", 1) for part in line.split())
+
+
+def joined(root, channel):
+    result = fields(run(TOOLS / "mseed-traces", root / "archive", channel).stdout)
+    print(root.name, result)
+    return result
+
+
+def survey(scratch, hours):
+    """A day's root and the same re-timed."""
+    root, better = scratch / f"live-{hours}", scratch / f"re-timed-{hours}"
+    (scratch / "three-days.toml").write_text(SCENARIO.replace("HOURS", f"{hours}.0"))
+    run(BIN / "a351-sim", "survey", "--scenario", scratch / "three-days.toml", "--seed", 5, "--out", root)
+    print(run(BIN / "a351-correct", "retime", root, "--out", better).stdout.strip())
+    return root, better
+
+
+with Scratch() as scratch:
+    hours = 6 if IS_SANITIZED else 72
+    for root in survey(scratch, hours):
+        for channel in ("BNZ", "BN1", "BN2", "BK1"):
+            found = joined(root, channel)
+            demand(f"{root.name}: {channel}: the days are one trace", found["traces"] == "1")
+            demand(f"{root.name}: {channel}: no sample is lost in merging",
+                   found["samples"] == found["recorded"] and int(found["samples"]) > 0.9999 * hours * 3600 * 50)
+            demand(f"{root.name}: {channel}: it ends where its start and rate put it, within 10 ms",
+                   abs(float(found["end_error_s"])) < 0.010)
+
+    live, better = survey(scratch, 3)
+    for root, limit_ms in ((live, 4.5), (better, 1.0)):
+        result = run(TOOLS / "compare-truth", root / "archive", live / "truth.bin").stdout
+        worst_ms = max(1e3 * float(fields(line)["largest_time_error_s"]) for line in result.splitlines())
+        demand(f"{root.name}: the sample that is off most is off by {worst_ms:.3f} ms, at most {limit_ms}",
+               worst_ms < limit_ms)
