@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <random>
+#include <utility>
 
 #include "daemon/source/handshake_driver.hpp"
 #include "protocol/wire/burst_decoder.hpp"
@@ -29,6 +30,27 @@ constexpr milliseconds kSilence{50};
 constexpr seconds kLongestDrain{1};
 constexpr std::array kHandshakeBackOff{seconds(1), seconds(2), seconds(5), seconds(10),
                                        seconds(30)};
+
+/// Whether the counter keeps to a step that is not that of the rate asked for.
+class StepWatch {
+public:
+    explicit StepWatch(std::uint16_t expected) : expected_(expected) {}
+
+    [[nodiscard]] bool is_altered(std::uint16_t count) {
+        const auto step = static_cast<std::uint16_t>(count - std::exchange(last_count_, count));
+        const bool goes_on = step == std::exchange(last_step_, step) && step != expected_;
+        times_ = goes_on ? times_ + 1 : 0;
+        return times_ >= kStepsToBelieve;
+    }
+
+private:
+    // Losses and stuck counters of some frames are no other rate.
+    static constexpr int kStepsToBelieve = 20;
+
+    std::uint16_t expected_;
+    std::uint16_t last_count_ = 0, last_step_ = 0;
+    int times_ = 0;
+};
 
 record::SessionId random_session() {
     std::random_device source;
@@ -94,7 +116,8 @@ void SensorLink::run() noexcept {
             } else if (begin_sampling()) {
                 const End end = read_stream();
                 if (end == End::gone) lose_port();
-                if (end == End::stalled || end == End::unframed) note_stall(end);
+                if (end == End::stalled || end == End::unframed || end == End::altered)
+                    note_stall(end);
             }
         } catch (const std::exception& error) {
             set_state(LinkStatus::State::waiting, error.what());
@@ -190,9 +213,10 @@ SensorLink::End SensorLink::read_stream() {
     const auto babble = at_least_real(kBabbleIsStall);
 
     std::array<std::byte, ReadQueue::kLargestItem> bytes{};
-    // Only to see that frames come; the archive has its own decoder.
-    wire::BurstDecoder decoder(options_.settings.layout,
-                               options_.profile->count_step(options_.settings.output_rate_hz));
+    // Only to see that frames come, and at what rate; the archive has its own decoder.
+    const auto count_step = options_.profile->count_step(options_.settings.output_rate_hz);
+    wire::BurstDecoder decoder(options_.settings.layout, count_step);
+    StepWatch watch(count_step);
     auto last_byte = steady_clock::now();
     auto last_frame = last_byte;
     has_frames_ = false;
@@ -207,7 +231,10 @@ SensorLink::End SensorLink::read_stream() {
             push(ReadQueue::Kind::rx, time, input);
             last_byte = now;
             while (const auto event = decoder.next(input)) {
-                if (!std::holds_alternative<wire::BurstFrame>(*event)) continue;
+                const auto* frame = std::get_if<wire::BurstFrame>(&*event);
+                if (frame == nullptr) continue;
+                if (options_.settings.layout.has_count() && watch.is_altered(frame->values().count))
+                    return End::altered;
                 last_frame = now;
                 failures_in_a_row_ = 0;
                 has_frames_ = true;
@@ -222,8 +249,9 @@ SensorLink::End SensorLink::read_stream() {
 // A sensor that worked is configured again at once; one that answers but sends nothing of use
 // would otherwise begin session after session.
 void SensorLink::note_stall(End end) {
-    const std::string trouble =
-        end == End::stalled ? "no bytes from the sensor" : "bytes but no frames";
+    const std::string trouble = end == End::stalled    ? "no bytes from the sensor"
+                                : end == End::unframed ? "bytes but no frames"
+                                                       : "the sensor's rate was changed";
     {
         const std::lock_guard lock(mutex_);
         ++status_.stalls;

@@ -1,7 +1,8 @@
 #pragma once
 /// @file
 /// The reader thread: finds the port, brings the sensor into sampling, reads and stamps what
-/// comes, and starts again when the port goes, the sensor falls silent or its bytes are no frames.
+/// comes, and starts again when the port goes, the sensor falls silent, its bytes are no frames or
+/// its counter tells of another rate.
 /// While sampling it allocates nothing, logs nothing and touches no disk.
 
 #include <array>
@@ -66,7 +67,7 @@ public:
     [[nodiscard]] LinkStatus status() const;
 
 private:
-    enum class End { stopped, stalled, unframed, gone };
+    enum class End { stopped, stalled, unframed, altered, gone };
 
     void run() noexcept;
     [[nodiscard]] bool find_port();

@@ -18,9 +18,10 @@ namespace a351 {
 
 class FakeSensor {
 public:
-    std::atomic<bool> is_mute{false};      ///< Neither answers nor sends.
-    std::atomic<bool> is_idle{false};      ///< Answers, but sends no frame.
-    std::atomic<bool> does_babble{false};  ///< Sends bytes that are no frames.
+    std::atomic<bool> is_mute{false};       ///< Neither answers nor sends.
+    std::atomic<bool> is_idle{false};       ///< Answers, but sends no frame.
+    std::atomic<bool> does_babble{false};   ///< Sends bytes that are no frames.
+    std::atomic<int> counts_per_frame{80};  ///< 40: as if somebody had set 100 samples/s.
     std::atomic<std::int32_t> frames_sent{0};
 
     explicit FakeSensor(std::string serial_number = "00000042") {
@@ -75,7 +76,9 @@ private:
             if (!was_sampling) due = Clock::now() + kPeriod;
             if (registers_.is_sampling && !is_idle && Clock::now() >= due) {
                 due += kPeriod;
-                wire::append_frame(wire::BurstLayout::recommended(), values(frames_sent++), output);
+                wire::BurstValues frame = values(frames_sent++);
+                frame.count = static_cast<std::uint16_t>(count_ += counts_per_frame);
+                wire::append_frame(wire::BurstLayout::recommended(), frame, output);
                 if (does_babble) output.assign(24, std::byte{0x55});
             }
             if (!output.empty()) pty_.write(output);
@@ -85,6 +88,7 @@ private:
     Pty pty_;
     mutable std::mutex mutex_;
     wire::ScriptedRegisters registers_;
+    int count_ = 0;
     std::atomic<bool> stop_{false};
     std::thread thread_;
 };

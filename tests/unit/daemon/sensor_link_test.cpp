@@ -126,6 +126,24 @@ TEST_CASE("a sensor whose bytes are no frames is configured again", "[daemon][se
     link.stop();
 }
 
+TEST_CASE("a sensor whose rate was changed is configured again", "[daemon][sensor_link]") {
+    FakeSensor sensor;
+    ReadQueue queue;
+    const HostClock clock;
+    SensorLink link(options_for(sensor.path()), clock, queue);
+    link.start();
+    REQUIRE(eventually([&] { return sensor.frames_sent >= 20; }));
+    sensor.counts_per_frame = 40;
+    REQUIRE(eventually([&] { return link.status().stalls == 1; }));
+    sensor.counts_per_frame = 80;
+    CHECK(eventually([&] { return link.status().sessions == 2; }));
+    const auto sent = sensor.frames_sent.load();
+    REQUIRE(eventually([&] { return sensor.frames_sent >= sent + 60; }));
+    CHECK(link.status().stalls == 1);
+    link.stop();
+    CHECK(Received(queue).sessions.size() == 2);
+}
+
 TEST_CASE("a sensor that answers but never sends begins no session", "[daemon][sensor_link]") {
     FakeSensor sensor;
     sensor.is_idle = true;
