@@ -64,6 +64,7 @@ void ArchiveThread::run() noexcept {
             post_model();
         } catch (const std::exception& error) {
             note_fault(error.what());
+            are_marks_true_ = false;  // No mark may say that it is archived.
             const std::lock_guard lock(mutex_);
             ++status_.chunks_lost;
         }
@@ -144,7 +145,6 @@ void ArchiveThread::write_outbox() {
         if (entry.session != marked_) {  // Marks never mix sessions.
             if (marked_) sync();
             reopen();
-            are_marks_true_ = true;
             marked_ = entry.session;
         }
         writer_->record(entry.channel, entry.record, entry.last_index);

@@ -31,7 +31,9 @@ struct ArchiveStatus {
     std::string trouble;
     std::uint64_t faults = 0;
     std::uint64_t chunks_lost = 0;  ///< Not parsed; the journal holds them.
-    bool is_marking = true;  ///< False once a sync failed: until a new session nothing is marked.
+    /// False once a sync failed or a chunk was lost: nothing is marked until the next start, which
+    /// replays the journal from the last mark.
+    bool is_marking = true;
     std::uint64_t records = 0;
     std::uint64_t records_waiting = 0;
     record::ArchiverCounters counters;

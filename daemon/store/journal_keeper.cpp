@@ -3,8 +3,10 @@
 #include <pthread.h>
 #include <sched.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "protocol/record/journal_compression.hpp"
 #include "protocol/record/journal_reader.hpp"
@@ -14,23 +16,50 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// By a clock that was synchronised.
-std::optional<UtcTime> beginning_of(const fs::path& segment) {
-    record::JournalReader reader(segment);
-    const auto chunk = reader.next();
-    const auto* header = chunk ? std::get_if<record::JournalHeader>(&*chunk) : nullptr;
-    if (header == nullptr || !header->clock.is_synchronised) return std::nullopt;
-    return header->clock.realtime;
+/// The host's idea of its begin, from the name; a hint that costs no reading.
+std::optional<UtcTime> named_time(const fs::path& segment) {
+    const std::string name = segment.filename().string();
+    const std::size_t bar = name.find('_');
+    if (bar == std::string::npos || name.size() < bar + 17) return std::nullopt;
+    std::string text = name.substr(bar + 1, 16);  // 20260301T120000Z
+    for (const std::size_t colon : {13U, 11U}) text.insert(colon, ":");
+    for (const std::size_t dash : {6U, 4U}) text.insert(dash, "-");
+    return parse_rfc3339(text);
+}
+
+struct Segment {
+    fs::path path;
+    record::JournalHeader header;
+};
+
+/// Those that can be read.
+std::vector<Segment> readable_segments(const fs::path& journal) {
+    std::vector<Segment> segments;
+    for (const fs::path& path : record::journal_segments(journal)) {
+        record::JournalReader reader(path);
+        const auto chunk = reader.next();
+        if (const auto* header = chunk ? std::get_if<record::JournalHeader>(&*chunk) : nullptr)
+            segments.push_back({path, *header});
+    }
+    return segments;
+}
+
+/// Session of the newest MARK: those before it are complete in the archive.
+std::optional<record::SessionId> marked_session(const std::vector<Segment>& segments) {
+    for (auto segment = segments.rbegin(); segment != segments.rend(); ++segment) {
+        std::optional<record::SessionId> session;
+        record::JournalReader reader(segment->path);
+        while (const auto chunk = reader.next())
+            if (const auto* mark = std::get_if<record::MarkChunk>(&*chunk)) session = mark->session;
+        if (session) return session;
+    }
+    return std::nullopt;
 }
 
 }  // namespace
 
-JournalKeeper::JournalKeeper(record::FileLayer& files, fs::path journal, Options options,
-                             std::function<std::uint64_t()> covered_below)
-    : files_(files),
-      journal_(std::move(journal)),
-      options_(options),
-      covered_below_(std::move(covered_below)) {}
+JournalKeeper::JournalKeeper(record::FileLayer& files, fs::path journal, Options options)
+    : files_(files), journal_(std::move(journal)), options_(options) {}
 
 JournalKeeper::~JournalKeeper() {
     {
@@ -61,36 +90,57 @@ void JournalKeeper::run() noexcept {
     std::unique_lock lock(mutex_);
     while (!stopped_.wait_for(lock, options_.interval, [this] { return is_stopping_; })) {
         lock.unlock();
-        std::string trouble;
-        try {
-            tidy();
-        } catch (const std::exception& error) {
-            trouble = error.what();
-        }
+        tidy();
         lock.lock();
-        if (trouble.empty()) continue;
-        ++status_.faults;
-        status_.trouble = std::move(trouble);
     }
 }
 
-void JournalKeeper::tidy() {
-    remove_old();
-    compress_closed();
+void JournalKeeper::note_fault(const std::string& trouble) {
+    const std::lock_guard lock(mutex_);
+    ++status_.faults;
+    status_.trouble = trouble;
+}
+
+void JournalKeeper::tidy() noexcept {
+    try {
+        if (options_.keep_days > 0) remove_old();
+        compress_closed();
+    } catch (const std::exception& error) {
+        note_fault(error.what());
+    }
 }
 
 void JournalKeeper::remove_old() {
-    if (options_.keep_days == 0) return;
-    const auto segments = record::journal_segments(journal_);
-    if (segments.size() < 2) return;
-    const auto newest = beginning_of(segments.back());
-    const std::uint64_t covered_below = covered_below_();
-    for (std::size_t i = 0; newest && i + 1 < segments.size(); ++i) {
-        if (record::segment_number(segments[i]).value_or(covered_below) >= covered_below) return;
-        // All of it is older than the beginning of the next one.
-        const auto end = beginning_of(segments[i + 1]);
-        if (!end || *newest - *end < std::chrono::days(options_.keep_days)) return;
-        files_.remove(segments[i]);
+    const auto names = record::journal_segments(journal_);
+    if (names.empty()) return;
+    const auto first = named_time(names.front()), last = named_time(names.back());
+    const auto kept = std::chrono::days(options_.keep_days);
+    if (first && last && *last - *first < kept) return;
+
+    const auto segments = readable_segments(journal_);
+    // Newest first: the begin of what follows, by a synchronised clock, is after the end of all before.
+    std::optional<UtcTime> newest, followed_at;
+    std::size_t old = segments.size();  // Segments before this one are old enough.
+    for (; old > 0; --old) {
+        if (newest && *newest - *followed_at >= kept) break;
+        const timing::ClockReading& clock = segments[old - 1].header.clock;
+        if (!clock.is_synchronised) continue;
+        followed_at = clock.realtime;
+        if (!newest) newest = clock.realtime;
+    }
+    // A session that goes on is kept as a whole.
+    while (old > 0 && old < segments.size() &&
+           segments[old - 1].header.session == segments[old].header.session)
+        --old;
+    if (old == 0) return;
+    const auto marked = marked_session(segments);
+    const auto first_marked = std::find_if(segments.begin(), segments.end(), [&](const Segment& s) {
+        return s.header.session == marked;
+    });
+    old = std::min(old, static_cast<std::size_t>(first_marked - segments.begin()));
+    if (first_marked == segments.end()) return;
+    for (; old > 0 && !is_stopping(); --old) {
+        files_.remove(segments[old - 1].path);
         files_.sync_directory(journal_);
         const std::lock_guard lock(mutex_);
         ++status_.removed;
@@ -103,7 +153,12 @@ void JournalKeeper::compress_closed() {
         if (segments[i].extension() != ".a351j") continue;
         const auto age = fs::file_time_type::clock::now() - fs::last_write_time(segments[i]);
         if (age < options_.compress_after) continue;
-        record::compress_segment(files_, segments[i]);
+        try {
+            record::compress_segment(files_, segments[i]);
+        } catch (const std::exception& error) {
+            note_fault(error.what());
+            continue;
+        }
         const std::lock_guard lock(mutex_);
         ++status_.compressed;
     }

@@ -7,7 +7,6 @@
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -32,17 +31,16 @@ public:
         std::string trouble;  ///< The last fault.
     };
 
-    /// @param covered_below  segments with lower numbers are in the archive, by a MARK that is synced.
-    JournalKeeper(record::FileLayer& files, std::filesystem::path journal, Options options,
-                  std::function<std::uint64_t()> covered_below);
+    JournalKeeper(record::FileLayer& files, std::filesystem::path journal, Options options);
     ~JournalKeeper();
 
     void start();
 
-    /// Removes what is covered and `keep_days` older than the newest segment, by the clocks in their
-    /// headers, both synchronised; then compresses what is old enough.  Never the newest segment.
-    /// @throws std::system_error, std::runtime_error  at the first fault; what was done stays.
-    void tidy();
+    /// Removes sessions that ended `keep_days` before the newest segment began, by headers whose
+    /// clocks were synchronised, and that are wholly in the archive: a later session has a MARK.  A
+    /// session goes from its last segment to its first, so that what is left of it keeps its indices.
+    /// Then compresses what is old enough, but never the newest segment.  Faults are counted.
+    void tidy() noexcept;
 
     [[nodiscard]] Status status() const;
 
@@ -50,12 +48,12 @@ private:
     void run() noexcept;
     void remove_old();
     void compress_closed();
+    void note_fault(const std::string& trouble);
     [[nodiscard]] bool is_stopping() const;
 
     record::FileLayer& files_;
     std::filesystem::path journal_;
     Options options_;
-    std::function<std::uint64_t()> covered_below_;
 
     mutable std::mutex mutex_;
     std::condition_variable stopped_;

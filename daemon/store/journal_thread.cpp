@@ -1,6 +1,5 @@
 #include "daemon/store/journal_thread.hpp"
 
-#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -192,9 +191,6 @@ void JournalThread::retry_unwritten() {
         hand_over(*rotated);  // The archive must see what a reader will see.
     }
     is_dirty_ = true;
-    if (const auto* mark = std::get_if<record::MarkChunk>(&*unwritten_)) unsynced_mark_ = *mark;
-    if (segments_.empty() || segments_.back().segment != writer_.segment())
-        segments_.push_back({writer_.segment(), last_chunk_ + 1});
     hand_over(*std::exchange(unwritten_, std::nullopt));
     const std::lock_guard lock(mutex_);
     status_.is_faulty = false;
@@ -253,19 +249,6 @@ void JournalThread::sync() {
     is_dirty_ = false;
     is_failing_ = false;
     progress_.journal_synced(last_chunk_);
-    if (unsynced_mark_) find_covered();
-}
-
-void JournalThread::find_covered() {
-    const record::MarkChunk mark = *std::exchange(unsynced_mark_, std::nullopt);
-    if (mark.channels.empty()) return;
-    const auto least =
-        std::min_element(mark.channels.begin(), mark.channels.end(),
-                         [](const auto& a, const auto& b) { return a.index < b.index; });
-    progress_.mark_synced(mark.session, least->index);
-    const std::uint64_t marked = progress_.marked_chunk();
-    while (segments_.size() > 1 && segments_[1].first_chunk <= marked + 1) segments_.pop_front();
-    if (marked > 0) covered_below_ = segments_.front().segment;
 }
 
 void JournalThread::note_fault(const std::string& trouble) {

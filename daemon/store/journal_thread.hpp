@@ -65,9 +65,6 @@ public:
 
     [[nodiscard]] JournalStatus status() const;
 
-    /// Segments with lower numbers are in the archive, by a MARK that is synced; 0: none is.
-    [[nodiscard]] std::uint64_t covered_below() const noexcept { return covered_below_; }
-
 private:
     enum class Phase { running, draining, finishing };
     struct Commit {
@@ -82,7 +79,6 @@ private:
     void write(record::JournalChunk chunk);
     void retry_unwritten();
     void hand_over(record::JournalChunk chunk);
-    void find_covered();
     void carry_out_commits();
     void carry_out(Commit& commit);
     void sync();
@@ -104,13 +100,6 @@ private:
     bool is_failing_ = false;                        ///< From a fault to the next good sync.
     std::optional<record::JournalChunk> unwritten_;  ///< What the disk refused.
     std::uint64_t last_chunk_ = 0;
-    struct SegmentStart {
-        std::uint64_t segment = 0;
-        std::uint64_t first_chunk = 0;
-    };
-    std::deque<SegmentStart> segments_;  ///< Not covered, by rising numbers.
-    std::optional<record::MarkChunk> unsynced_mark_;
-    std::atomic<std::uint64_t> covered_below_{0};
     RawTime last_clock_;
     std::chrono::steady_clock::time_point last_clock_real_, last_sync_, last_fault_;
 

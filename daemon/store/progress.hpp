@@ -30,13 +30,7 @@ public:
 
     void archive_synced(const record::SessionId& session, std::int64_t index);
 
-    /// The journal holds, synced, that the archive has all samples of a session up to `index`.
-    void mark_synced(const record::SessionId& session, std::int64_t index);
-
     [[nodiscard]] Indices indices() const;
-
-    /// The last chunk all of whose samples, and those before, are marked so; 0 before the first.
-    [[nodiscard]] std::uint64_t marked_chunk() const;
 
 private:
     struct Parsed {
@@ -47,15 +41,8 @@ private:
 
     mutable std::mutex mutex_;
     Indices indices_;
-    struct Unmarked {
-        record::SessionId session;
-        Parsed parsed;
-    };
     std::deque<Parsed> unsynced_;  ///< Parsed, not known to be synced; ascending.
     std::uint64_t synced_chunk_ = 0;
-    std::deque<Unmarked>
-        unmarked_;  ///< Every kCoarse-th, for an archive may be in trouble for days.
-    std::uint64_t marked_chunk_ = 0;
 };
 
 }  // namespace a351::daemon

@@ -19,8 +19,7 @@ Store::Store(record::FileLayer& files, StoreOptions options, const HostClock& cl
                {.post = [this](record::JournalChunk chunk) { journal_.post(std::move(chunk)); },
                 .session_began = [this](const record::JournalHeader& header) { describe(header); }},
                options_.retry_interval),
-      keeper_(files, options_.root / "journal", options_.keeper,
-              [this] { return journal_.covered_below(); }) {}
+      keeper_(files, options_.root / "journal", options_.keeper) {}
 
 Store::~Store() { stop(); }
 
@@ -98,9 +97,10 @@ void Store::fill(Status& status) {
                      "; the journal holds them");
     }
     if (!archive.is_marking) {
-        complain(status, Status::Level::warning,
-                 "archive: a sync failed, so nothing is called archived until the next session; "
-                 "the journal holds it");
+        complain(
+            status, Status::Level::warning,
+            "archive: a sync failed or a chunk was lost, so nothing more is called archived; the "
+            "journal holds it, and the next start brings it in");
     }
 
     std::error_code error;

@@ -41,9 +41,6 @@ public:
     /// @throws std::system_error  they are kept; the next call writes them again.
     void sync();
 
-    /// Of the newest segment; 0 before the first.
-    [[nodiscard]] std::uint64_t segment() const noexcept { return number_; }
-
     /// Bytes written to all segments since construction.
     [[nodiscard]] std::uint64_t bytes_written() const noexcept { return bytes_written_; }
 

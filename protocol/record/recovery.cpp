@@ -31,13 +31,13 @@ std::optional<MarkChunk> newest_mark(JournalReader& reader) {
     return newest;
 }
 
-/// Begin of the newest sample of a channel that survived whatever happened.
-UtcTime synced_until(const Replay& replay, const std::string& channel) {
-    if (replay.mark) {
-        for (const ChannelMark& mark : replay.mark->channels)
-            if (mark.channel == channel) return mark.utc;
-    }
-    return UtcTime::min();
+/// Instant of the newest sample of a channel that survived whatever happened; std::nullopt when the
+/// mark does not speak of it: what stands there may come from sessions that are not replayed.
+std::optional<UtcTime> synced_until(const Replay& replay, const std::string& channel) {
+    if (!replay.mark) return UtcTime::min();
+    for (const ChannelMark& mark : replay.mark->channels)
+        if (mark.channel == channel) return mark.utc;
+    return std::nullopt;
 }
 
 Replay plan_replay(const std::filesystem::path& journal) {

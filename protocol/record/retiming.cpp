@@ -1,5 +1,7 @@
 #include "protocol/record/retiming.hpp"
 
+#include "protocol/core/input_error.hpp"
+
 namespace a351::record {
 
 void Retiming::begin_run(const JournalHeader& header, timing::SampleClockOptions options,
@@ -8,7 +10,9 @@ void Retiming::begin_run(const JournalHeader& header, timing::SampleClockOptions
         runs_.push_back({header.session, header.boot_id, timing::Hindsight(options), {}});
         return;
     }
-    Run& run = runs_.at(next_run_++);
+    if (next_run_ == runs_.size())
+        throw InputError("the journal grew while it was read; allowed: one that nobody writes");
+    Run& run = runs_[next_run_++];
     const timing::UtcHistory& history = histories_[run.boot_id];
     if (history.is_empty()) return;
     clock.use(run.hindsight.times(history), history.is_synchronised());

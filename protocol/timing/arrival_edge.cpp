@@ -13,7 +13,8 @@ constexpr Nanoseconds kWindow = seconds(900);  // 600 to 1200 s differ little; o
 // Of fewer arrivals in 2 s the largest step says nothing.
 constexpr std::size_t kFewestOfBlock = 20;
 
-constexpr double kKeptRate = 2e-6;
+constexpr double kKeptRate = 10e-6;  // a sensor or host that grew cold meanwhile
+constexpr Nanoseconds kRateKnown = seconds(300);
 
 }  // namespace
 
@@ -90,7 +91,10 @@ EdgeLine ArrivalEdge::line_around(std::int64_t index) const {
 
 EdgeLine ArrivalEdge::fit(std::span<const ArrivalBlock> blocks, std::int64_t index) const {
     const Nanoseconds due = period_.of(index);
-    const EdgeFit fit = fit_edge(blocks, due, period_.of(1), limits_);
+    // What was known of the rate before a restart helps until the arrivals tell it better.
+    const bool knows_rate = blocks.back().due - blocks.front().due >= kRateKnown;
+    const RateLimits limits = knows_rate ? RateLimits{} : limits_;
+    const EdgeFit fit = fit_edge(blocks, due, period_.of(1), limits);
     return {index, zero_ + due + fit.y, fit.excess_rate, fit.uncertainty, fit.rate_uncertainty};
 }
 

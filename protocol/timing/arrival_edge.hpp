@@ -34,7 +34,8 @@ public:
     /// Indices rise.
     void observe(std::int64_t index, RawTime arrival);
 
-    /// Forgets the arrivals; the rate of the line so far is kept to 2 ppm.
+    /// Forgets the arrivals; for the first 300 s after it the rate is taken to be within 10 ppm of
+    /// what it was, or within its uncertainty if that was larger.
     void restart();
 
     [[nodiscard]] bool is_empty() const noexcept { return blocks_.empty(); }

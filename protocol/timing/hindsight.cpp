@@ -16,66 +16,110 @@ constexpr Nanoseconds kBreak = milliseconds(5);
 // A host's crystal at another temperature: some tenths of a ppm per degC.
 constexpr double kHostRateWander = 5e-6;
 
+constexpr Nanoseconds kSetBackWithin = std::chrono::seconds(60);
+
 double ratio(Nanoseconds a, Nanoseconds b) {
     return static_cast<double>(a.count()) / static_cast<double>(b.count());
 }
 
 }  // namespace
 
+void UtcHistory::notice_sleep(const ClockReading& reading) {
+    if (last_) {
+        const Nanoseconds asleep =
+            (reading.boottime - last_->boottime) - (reading.raw - last_->raw);
+        const Nanoseconds before = sleeps_.empty() ? Nanoseconds(0) : sleeps_.back().total;
+        if (asleep > kShortestSleep) sleeps_.push_back({reading.raw, before + asleep});
+    }
+    last_ = reading;
+}
+
+std::size_t UtcHistory::sleeps_before(RawTime raw) const {
+    const auto after = std::upper_bound(sleeps_.begin(), sleeps_.end(), raw,
+                                        [](RawTime t, const Sleep& s) { return t < s.woken; });
+    return static_cast<std::size_t>(after - sleeps_.begin());
+}
+
+RawTime UtcHistory::awake(RawTime raw) const {
+    const std::size_t sleeps = sleeps_before(raw);
+    return sleeps == 0 ? raw : raw + sleeps_[sleeps - 1].total;
+}
+
 void UtcHistory::observe(const ClockReading& reading) {
+    if (last_ && reading.raw <= last_->raw) return;
+    notice_sleep(reading);
     if (is_synchronised_ && !reading.is_synchronised) return;
     if (reading.is_synchronised && !is_synchronised_) {
         pairs_.clear();
         is_synchronised_ = true;
     }
     Pair pair;
-    pair.raw = reading.raw;
-    pair.offset = reading.realtime.time_since_epoch() - reading.raw.time_since_epoch();
-    pair.asleep = reading.boottime - reading.raw.time_since_epoch();
+    pair.awake = awake(reading.raw);
+    pair.offset = reading.realtime.time_since_epoch() - pair.awake.time_since_epoch();
     pair.error = std::chrono::microseconds(reading.max_error_us);
+    pair.sleeps = sleeps_.size();
     if (!is_synchronised_) pair.error = std::max(pair.error, kUnknownClockError);
-    if (!pairs_.empty()) {
-        const Pair& last = pairs_.back();
-        if (pair.raw <= last.raw) return;
-        const bool has_slept = pair.asleep - last.asleep > kShortestSleep;
-        const bool is_step =
-            abs(pair.offset - last.offset) > kClockStep + most_slewed(pair.raw - last.raw);
-        pair.stretch = last.stretch + (has_slept || is_step ? 1 : 0);
-    }
+    if (!pairs_.empty()) join(pair);
     pairs_.push_back(pair);
+}
+
+void UtcHistory::join(Pair& pair) {
+    const auto follows = [&](const Pair& before) {
+        return before.sleeps == pair.sleeps &&
+               abs(pair.offset - before.offset) <=
+                   kClockStep + most_slewed(pair.awake - before.awake);
+    };
+    pair.stretch = pairs_.back().stretch;
+    if (follows(pairs_.back())) return;
+    ++pair.stretch;
+    const auto begin = std::find_if(pairs_.begin(), pairs_.end(), [&](const Pair& p) {
+        return p.stretch == pairs_.back().stretch;
+    });
+    if (begin == pairs_.begin() || pair.awake - begin->awake >= kSetBackWithin) return;
+    if (!follows(*std::prev(begin))) return;
+    pair.stretch = std::prev(begin)->stretch;
+    pairs_.erase(begin, pairs_.end());
 }
 
 // On the line through `pair` and the farther end of its stretch: the longer, the less a time service
 // that is still slewing counts.
-UtcHistory::Point UtcHistory::beyond(std::vector<Pair>::const_iterator pair, RawTime raw) const {
+UtcHistory::Point UtcHistory::beyond(Pairs::const_iterator pair, RawTime awake,
+                                     std::size_t sleeps) const {
     const auto [first, past] =
         std::equal_range(pairs_.begin(), pairs_.end(), *pair,
                          [](const Pair& a, const Pair& b) { return a.stretch < b.stretch; });
     const auto last = std::prev(past);
-    const auto other = pair->raw - first->raw > last->raw - pair->raw ? first : last;
+    const auto other = pair->awake - first->awake > last->awake - pair->awake ? first : last;
     double slope = 0.0, slope_error = kHostRateError;
     if (other != pair) {
-        const Nanoseconds over = other->raw - pair->raw;
+        const Nanoseconds over = other->awake - pair->awake;
         slope = ratio(other->offset - pair->offset, over);
         slope_error = std::min(kHostRateWander + ratio(other->error + pair->error, abs(over)),
                                kHostRateError);
     }
-    const double away_s = std::chrono::duration<double>(raw - pair->raw).count();
-    return {UtcTime(raw.time_since_epoch() + pair->offset + from_seconds(slope * away_s)),
-            pair->error + from_seconds(slope_error * std::abs(away_s)), pair->stretch};
+    const double away_s = std::chrono::duration<double>(awake - pair->awake).count();
+    const Nanoseconds asleep = sleeps == pair->sleeps ? Nanoseconds(0) : kUnknownClockError;
+    return {UtcTime(awake.time_since_epoch() + pair->offset + from_seconds(slope * away_s)),
+            pair->error + from_seconds(slope_error * std::abs(away_s)) + asleep, pair->stretch};
 }
 
 UtcHistory::Point UtcHistory::at(RawTime raw) const {
-    const auto after = std::upper_bound(pairs_.begin(), pairs_.end(), raw,
-                                        [](RawTime t, const Pair& pair) { return t < pair.raw; });
-    if (after == pairs_.begin()) return beyond(after, raw);
+    const RawTime awake = this->awake(raw);
+    const std::size_t sleeps = sleeps_before(raw);
+    const auto after = std::upper_bound(pairs_.begin(), pairs_.end(), awake,
+                                        [](RawTime t, const Pair& p) { return t < p.awake; });
+    if (after == pairs_.begin()) return beyond(after, awake, sleeps);
     const auto before = std::prev(after);
-    if (after == pairs_.end() || after->stretch != before->stretch) return beyond(before, raw);
-    const Nanoseconds since = raw - before->raw, until = after->raw - raw;
-    const double share = ratio(since, after->raw - before->raw);
+    if (after == pairs_.end()) return beyond(before, awake, sleeps);
+    if (after->stretch != before->stretch) {
+        const bool is_woken = before->sleeps != sleeps && after->sleeps == sleeps;
+        return beyond(is_woken ? after : before, awake, sleeps);
+    }
+    const Nanoseconds since = awake - before->awake, until = after->awake - awake;
+    const double share = ratio(since, after->awake - before->awake);
     const double rise_s =
         std::chrono::duration<double>(after->offset - before->offset).count() * share;
-    return {UtcTime(raw.time_since_epoch() + before->offset + from_seconds(rise_s)),
+    return {UtcTime(awake.time_since_epoch() + before->offset + from_seconds(rise_s)),
             std::max(before->error, after->error) + host_drift(std::min(since, until)),
             before->stretch};
 }

@@ -16,9 +16,13 @@ namespace a351::timing {
 /// The host's raw clock -> UTC by straight lines between readings.
 ///
 /// Where any reading says that the host was synchronised only such readings are used: what lies
-/// before the first or after the last is carried on at the rate next to it, and a clock that was
-/// wrong until then is mended.  Readings that differ by more than 50 ms + 600 ppm of the time between
-/// are a step, and so is a sleep of the host: the jump is put at the later one.
+/// before the first or after the last is carried on at the rate of the readings next to it, and a
+/// clock that was wrong until then is mended.  Readings that differ by more than 50 ms + 600 ppm of
+/// the time between are a step; the jump is put at the later one.  A clock that was set and set back
+/// within a minute was not set.
+///
+/// What the host slept, by boottime, is added to its raw clock; a time that a sleep parts from the
+/// reading it rests on is good to 1 s.
 class UtcHistory {
 public:
     /// In the order of time, of one boot of the host.
@@ -36,17 +40,29 @@ public:
     [[nodiscard]] bool is_synchronised() const noexcept { return is_synchronised_; }
 
 private:
+    struct Sleep {
+        RawTime woken;
+        Nanoseconds total{0};  ///< With all before.
+    };
     struct Pair {
-        RawTime raw;
-        Nanoseconds offset{0};  ///< UTC since 1970 - raw.
-        Nanoseconds asleep{0};  ///< Boottime - raw.
+        RawTime awake;          ///< Raw time and what was slept.
+        Nanoseconds offset{0};  ///< UTC since 1970 - awake.
         Nanoseconds error{0};
+        std::size_t sleeps = 0;
         int stretch = 0;
     };
-    [[nodiscard]] Point beyond(std::vector<Pair>::const_iterator pair, RawTime raw) const;
+    using Pairs = std::vector<Pair>;
+
+    void notice_sleep(const ClockReading& reading);
+    [[nodiscard]] std::size_t sleeps_before(RawTime raw) const;
+    [[nodiscard]] RawTime awake(RawTime raw) const;
+    void join(Pair& pair);
+    [[nodiscard]] Point beyond(Pairs::const_iterator pair, RawTime awake, std::size_t sleeps) const;
 
     bool is_synchronised_ = false;
-    std::vector<Pair> pairs_;
+    std::optional<ClockReading> last_;
+    std::vector<Sleep> sleeps_;
+    Pairs pairs_;
 };
 
 /// One run of a sensor: every second of data from the arrivals within 450 s before and after it.

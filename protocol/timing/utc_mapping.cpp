@@ -1,6 +1,7 @@
 #include "protocol/timing/utc_mapping.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "protocol/timing/host_clock_rules.hpp"
@@ -29,7 +30,8 @@ std::optional<ClockStep> UtcMapping::observe(const ClockReading& reading) {
         follow(reading, offset);
         return std::nullopt;
     }
-    const Nanoseconds departure = offset - offset_at(reading.raw);
+    // In its sleep the host's clock and the count of it are one.
+    const Nanoseconds departure = offset - (slept ? recent_.back().offset : offset_at(reading.raw));
     const Nanoseconds slewed =
         doubted_ || slept ? Nanoseconds(0) : most_slewed(reading.raw - last_->raw);
     if (abs(departure) <= kClockStep + slewed) {
@@ -59,15 +61,20 @@ void UtcMapping::follow(const ClockReading& reading, Nanoseconds offset) {
     while (recent_.size() > 2 && reading.raw - recent_[1].raw >= kSlopeOver) recent_.pop_front();
 }
 
-Nanoseconds UtcMapping::offset_at(RawTime raw) const {
+double UtcMapping::slope() const {
     const Pair& last = recent_.back();
     const Nanoseconds over = last.raw - recent_.front().raw;
-    if (over <= Nanoseconds(0)) return last.offset;
+    if (over <= Nanoseconds(0)) return 0.0;
     const auto slope = static_cast<double>((last.offset - recent_.front().offset).count()) /
                        static_cast<double>(over.count());
-    constexpr double kMostSlope = 1e-6 * static_cast<double>(kMostSlew_ppm);
-    return last.offset + from_seconds(std::clamp(slope, -kMostSlope, kMostSlope) *
-                                      std::chrono::duration<double>(raw - last.raw).count());
+    const double most = doubted_ ? kHostRateError : 1e-6 * static_cast<double>(kMostSlew_ppm);
+    return std::clamp(slope, -most, most);
+}
+
+Nanoseconds UtcMapping::offset_at(RawTime raw) const {
+    const Pair& last = recent_.back();
+    return last.offset +
+           from_seconds(slope() * std::chrono::duration<double>(raw - last.raw).count());
 }
 
 UtcTime UtcMapping::at(RawTime raw) const {
@@ -85,12 +92,14 @@ bool UtcMapping::is_synchronised() const noexcept {
 bool UtcMapping::is_held() const noexcept { return last_synchronised_ && !is_synchronised(); }
 
 Nanoseconds UtcMapping::error_at(RawTime raw) const {
-    const auto since = [raw](const ClockReading& reading) {
-        return host_drift(std::max(raw - reading.raw, Nanoseconds(0)));
+    const auto error = [&](const ClockReading& reading, Nanoseconds at_least) {
+        const Nanoseconds since = std::max(raw - reading.raw, Nanoseconds(0));
+        const Nanoseconds carried = std::max(raw - recent_.back().raw, Nanoseconds(0));
+        return std::max(max_error(reading), at_least) + host_drift(since) +
+               from_seconds(std::abs(slope()) * std::chrono::duration<double>(carried).count());
     };
-    if (!last_synchronised_ || is_just_awake(last_->raw))
-        return std::max(max_error(*last_), kUnknownClockError) + since(*last_);
-    return max_error(*last_synchronised_) + since(*last_synchronised_);
+    if (!last_synchronised_ || is_just_awake(last_->raw)) return error(*last_, kUnknownClockError);
+    return error(*last_synchronised_, Nanoseconds(0));
 }
 
 }  // namespace a351::timing

@@ -21,12 +21,13 @@ struct ClockStep {
 ///
 /// A step is a reading that departs from the last one followed by more than 50 ms + 600 ppm of the
 /// time between (a kernel slews at 500 ppm at most).  It is not followed but held against: the mapping
-/// goes on as it was.  When the host has said for 60 s that it is synchronised, and has kept to the
+/// goes on at its rate of the last seconds, at most 100 ppm.  When the host has said for 60 s that it is synchronised, and has kept to the
 /// new time, it is.  A host that was never synchronised needs only the 60 s, and is followed at
 /// once when it is synchronised for the first time, unless it woke up within the last minute.
 ///
 /// Error: the kernel's maximum error.  Held, or without synchronisation: that of the last
-/// synchronised reading + 100 ppm of the time since (a host's crystal).  Never synchronised, or awake
+/// synchronised reading + 100 ppm of the time since (a host's crystal) + the rate that is carried on
+/// since the last reading that was followed.  Never synchronised, or awake
 /// for less than a minute (only a battery clock counts while a host sleeps): at least 1 s.
 class UtcMapping {
 public:
@@ -54,6 +55,7 @@ private:
         RawTime since;
         Nanoseconds offset{0};
     };
+    [[nodiscard]] double slope() const;
     [[nodiscard]] Nanoseconds offset_at(RawTime raw) const;
     [[nodiscard]] bool is_just_awake(RawTime raw) const noexcept;
     void follow(const ClockReading& reading, Nanoseconds offset);

@@ -250,7 +250,8 @@ DirectSurvey write_day(const Scenario& scenario, const wire::DeviceProfile& prof
     journal.begin_segment(header);
     archiver.take(header);
     const auto take = [&](const record::JournalChunk& chunk, UtcTime now) {
-        journal.append(chunk, clock_at(scenario, now));
+        if (const auto rotated = journal.append(chunk, clock_at(scenario, now)))
+            archiver.take(*rotated);
         archiver.take(chunk);
     };
 

@@ -16,21 +16,37 @@ namespace {
 
 constexpr JournalKeeper::Options kEager{.keep_days = 10, .compress_after = 0s, .interval = 10ms};
 
-/// One segment a day.
+/// One segment a day, each a session of its own unless said otherwise; the last has a MARK.
 struct Journal {
     TemporaryDirectory directory;
     std::filesystem::path path = directory.path() / "journal";
 
-    explicit Journal(int days, bool is_synchronised = true) {
+    struct Day {
+        std::uint8_t session = 0;
+        bool is_synchronised = true;
+        bool has_mark = false;
+    };
+    explicit Journal(const std::vector<Day>& days) {
         record::JournalWriter writer(record::posix_files(), path);
-        for (int day = 0; day < days; ++day) {
+        for (std::size_t day = 0; day < days.size(); ++day) {
             record::JournalHeader header;
-            header.clock.realtime = *parse_rfc3339("2026-03-01T12:00:00Z") + std::chrono::days(day);
-            header.clock.is_synchronised = is_synchronised;
+            header.session.bytes[0] = days[day].session;
+            header.clock.realtime =
+                *parse_rfc3339("2026-03-01T12:00:00Z") + std::chrono::days(static_cast<int>(day));
+            header.clock.is_synchronised = days[day].is_synchronised;
             writer.begin_segment(header);
             writer.append(record::EventChunk{std::string(5000, 'x')}, header.clock);
+            if (days[day].has_mark)
+                writer.append(record::MarkChunk{header.session, {{"BNZ", 1, {}}}}, header.clock);
         }
         writer.sync();
+    }
+    [[nodiscard]] static std::vector<Day> sessions(int count) {
+        std::vector<Day> days;
+        for (int i = 1; i <= count; ++i)
+            days.push_back({static_cast<std::uint8_t>(i), true, false});
+        days.back().has_mark = true;
+        return days;
     }
     [[nodiscard]] std::vector<std::uint64_t> numbers(const char* extension) const {
         std::vector<std::uint64_t> numbers;
@@ -46,8 +62,8 @@ using Numbers = std::vector<std::uint64_t>;
 }  // namespace
 
 TEST_CASE("closed segments are compressed, the newest is not", "[daemon][keeper]") {
-    const Journal journal(4);
-    JournalKeeper keeper(record::posix_files(), journal.path, kEager, [] { return 0; });
+    const Journal journal(Journal::sessions(4));
+    JournalKeeper keeper(record::posix_files(), journal.path, kEager);
     keeper.tidy();
     CHECK(journal.numbers(".zst") == Numbers{1, 2, 3});
     CHECK(journal.numbers(".a351j") == Numbers{4});
@@ -57,47 +73,83 @@ TEST_CASE("closed segments are compressed, the newest is not", "[daemon][keeper]
 }
 
 TEST_CASE("what was written lately is not compressed", "[daemon][keeper]") {
-    const Journal journal(4);
-    JournalKeeper keeper(record::posix_files(), journal.path, {}, [] { return 0; });
+    const Journal journal(Journal::sessions(4));
+    JournalKeeper keeper(record::posix_files(), journal.path, {});
     keeper.tidy();
     CHECK(journal.numbers(".zst").empty());
 }
 
-TEST_CASE("segments are removed when they are covered and old, in order", "[daemon][keeper]") {
-    const Journal journal(20);
-    std::uint64_t covered_below = 0;
-    JournalKeeper keeper(record::posix_files(), journal.path, kEager,
-                         [&] { return covered_below; });
+TEST_CASE("sessions go that ended long ago and are in the archive", "[daemon][keeper]") {
+    const Journal journal(Journal::sessions(20));
+    JournalKeeper keeper(record::posix_files(), journal.path, kEager);
     keeper.tidy();
-    CHECK(journal.numbers(".zst").size() == 19);
-    covered_below = 6;
-    keeper.tidy();
-    CHECK(journal.numbers(".zst").front() == 6);
-    covered_below = 20;
-    keeper.tidy();
-    CHECK(journal.numbers(".zst").front() == 10);  // 9 ended 10 days before 20 began
-    CHECK(keeper.status().removed == 9);
+    CHECK(keeper.status().removed == 9);  // 9 ended 10 days before 20 began
+    CHECK(journal.numbers(".zst").front() == 10);
     CHECK(journal.numbers(".a351j") == Numbers{20});
+    keeper.tidy();
+    CHECK(keeper.status().removed == 9);
 }
 
-TEST_CASE("nothing is removed by clocks that nobody set, nor when all is to be kept",
-          "[daemon][keeper]") {
-    const Journal journal(20, false);
-    JournalKeeper keeper(record::posix_files(), journal.path, kEager, [] { return 20; });
+TEST_CASE("what no later session's mark covers stays", "[daemon][keeper]") {
+    auto days = Journal::sessions(20);
+    days[19].has_mark = false;
+    const auto removed_of = [&] {
+        const Journal journal(days);
+        JournalKeeper keeper(record::posix_files(), journal.path, kEager);
+        keeper.tidy();
+        return keeper.status().removed;
+    };
+    CHECK(removed_of() == 0);
+    days[4].has_mark = true;
+    CHECK(removed_of() == 4);
+}
+
+TEST_CASE("a session that goes on is kept as a whole", "[daemon][keeper]") {
+    auto days = Journal::sessions(20);
+    for (std::size_t i = 5; i < 15; ++i) days[i].session = 77;
+    const Journal journal(days);
+    JournalKeeper keeper(record::posix_files(), journal.path, kEager);
     keeper.tidy();
-    CHECK(keeper.status().removed == 0);
-    const Journal kept(20);
-    JournalKeeper::Options for_ever = kEager;
-    for_ever.keep_days = 0;
-    JournalKeeper other(record::posix_files(), kept.path, for_ever, [] { return 20; });
+    CHECK(keeper.status().removed == 5);
+    for (std::size_t i = 5; i < 20; ++i) days[i].session = 77;
+    const Journal longer(days);
+    JournalKeeper other(record::posix_files(), longer.path, kEager);
+    other.tidy();
+    CHECK(other.status().removed == 5);
+}
+
+TEST_CASE("clocks that nobody set say nothing of age", "[daemon][keeper]") {
+    auto days = Journal::sessions(20);
+    days[3].is_synchronised = false;
+    const Journal journal(days);
+    JournalKeeper keeper(record::posix_files(), journal.path, kEager);
+    keeper.tidy();
+    CHECK(keeper.status().removed == 9);
+    for (auto& day : days) day.is_synchronised = false;
+    const Journal never(days);
+    JournalKeeper other(record::posix_files(), never.path, kEager);
     other.tidy();
     CHECK(other.status().removed == 0);
+    const Journal kept(Journal::sessions(20));
+    JournalKeeper::Options for_ever = kEager;
+    for_ever.keep_days = 0;
+    JournalKeeper third(record::posix_files(), kept.path, for_ever);
+    third.tidy();
+    CHECK(third.status().removed == 0);
+}
+
+TEST_CASE("a segment without a header stops nothing", "[daemon][keeper]") {
+    const Journal journal(Journal::sessions(20));
+    std::filesystem::resize_file(record::journal_segments(journal.path)[4], 10);
+    JournalKeeper keeper(record::posix_files(), journal.path, kEager);
+    keeper.tidy();
+    CHECK(keeper.status().removed == 8);
 }
 
 TEST_CASE("a fault of the disk is counted, and the keeper goes on", "[daemon][keeper]") {
-    const Journal journal(4);
+    const Journal journal(Journal::sessions(4));
     test::FailingFiles files(1);
-    JournalKeeper keeper(files, journal.path, kEager, [] { return 0; });
+    JournalKeeper keeper(files, journal.path, kEager);
     keeper.start();
     CHECK(eventually([&] { return keeper.status().compressed == 3; }));
     CHECK(keeper.status().faults == 1);

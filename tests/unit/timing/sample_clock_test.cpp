@@ -19,8 +19,10 @@ struct World {
     int rate_hz = 50;
     bool is_synchronised = true;
     std::int64_t max_error_us = 500;
-    Nanoseconds host_off{0};        ///< The host's clock is fast by this.
-    Nanoseconds slept{0};           ///< The raw clock stood still for this.
+    Nanoseconds host_off{0};           ///< The host's clock is fast by this.
+    Nanoseconds slept{0};              ///< The raw clock stood still for this.
+    UtcTime bend_at = UtcTime::max();  ///< From here on the raw clock runs at another rate.
+    double bend_ppm = 0.0;
     Nanoseconds slept_too_long{0};  ///< What the host takes this for is too much by that.
     SampleClock clock{{Hertz(50.0), kGroupDelay}};
 
@@ -28,7 +30,10 @@ struct World {
         return kNoon + from_seconds(static_cast<double>(k) / rate_hz * (1.0 - device_ppm * 1e-6));
     }
     [[nodiscard]] RawTime raw(UtcTime utc) const {
-        return RawTime(1000s) - slept +
+        const Nanoseconds bent = utc > bend_at
+                                     ? from_seconds(seconds_between(bend_at, utc) * bend_ppm * 1e-6)
+                                     : Nanoseconds(0);
+        return RawTime(1000s) - slept + bent +
                from_seconds(seconds_between(kNoon, utc) * (1.0 + raw_ppm * 1e-6));
     }
     void read_clock(UtcTime utc) {
@@ -270,6 +275,22 @@ TEST_CASE("a sleep of the host is added to its raw clock", "[timing][sample_cloc
     CHECK(world.clock.last_break() == believed);
     CHECK(world.clock.state() == TimingState::locked);
     CHECK(world.clock.awake(RawTime(0s)).time_since_epoch() == Nanoseconds(20min) + 400ms);
+}
+
+TEST_CASE("after a sleep the rate may be another", "[timing][sample_clock]") {
+    World world;
+    for (std::int64_t k = 0; k < 180'000; ++k) world.frame(k, 0s);
+    world.slept = 20min;
+    const std::int64_t awake = 180'000 + 20 * 60 * 50;
+    const UtcTime then = world.truth(awake);
+    world.bend_at = then;
+    world.bend_ppm = 10.0;
+    for (std::int64_t k = awake; k < awake + 60'000; ++k) {
+        world.frame(k, 0s);
+        if (k < awake + 20'000) continue;
+        const auto time = *world.clock.time_of(k);
+        REQUIRE(std::chrono::abs(time.utc - world.truth(k)) <= time.uncertainty);
+    }
 }
 
 TEST_CASE("a sensor that restarts keeps what is known of the host", "[timing][sample_clock]") {

@@ -90,6 +90,26 @@ TEST_CASE("a clock that is set back to what it was changes nothing", "[timing][u
     CHECK_FALSE(host.mapping.is_held());
 }
 
+TEST_CASE("a step while the clock was slewed stays doubted, and the error says how long",
+          "[timing][utc_mapping]") {
+    Host host;
+    host.run(10);
+    host.slew_ppm = 500.0;
+    host.run(10);
+    host.slew_ppm = 0.0;
+    host.offset_s += 1.0;
+    host.is_synchronised = false;
+    const double before_ms = host.error_ms();
+    for (int minute = 0; minute < 60; ++minute) {
+        host.run(60);
+        REQUIRE(host.mapping.is_held());
+        const auto stated_ms =
+            1e3 * std::chrono::duration<double>(host.mapping.error_at(host.raw())).count();
+        REQUIRE(std::abs(host.error_ms() - before_ms) < stated_ms);
+        REQUIRE(host.error_ms() < 500.0);
+    }
+}
+
 TEST_CASE("a clock that keeps jumping is not followed", "[timing][utc_mapping]") {
     Host host;
     host.run(100);

@@ -1,0 +1,96 @@
+#include "protocol/timing/hindsight.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace a351;
+using namespace a351::timing;
+using namespace std::chrono_literals;
+
+namespace {
+
+const UtcTime kNoon = *parse_rfc3339("2026-03-01T12:00:00Z");
+
+/// A host in true time, with readings each second while it is awake.
+struct Host {
+    UtcHistory history;
+    Nanoseconds now{0}, slept{0};
+    bool is_synchronised = true;
+    Nanoseconds clock_off{0};
+
+    [[nodiscard]] RawTime raw() const { return RawTime(500s + now - slept); }
+    void run(int seconds) {
+        for (int i = 0; i < seconds; ++i) {
+            now += 1s;
+            history.observe({raw(), raw().time_since_epoch() + slept, kNoon + now + clock_off,
+                             is_synchronised, 1000, 0});
+        }
+    }
+    void sleep(Nanoseconds length) {
+        now += length;
+        slept += length;
+    }
+    /// Of the history, for an instant of this host given by its raw and true time.
+    [[nodiscard]] Nanoseconds error(RawTime at, Nanoseconds truth) const {
+        return history.at(at).utc - (kNoon + truth);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("in hindsight a sleep is bridged, whether the host is synchronised after it or not",
+          "[timing][hindsight]") {
+    for (const bool is_mended : {true, false}) {
+        Host host;
+        host.run(100);
+        host.sleep(1h);
+        host.is_synchronised = false;
+        host.run(30);
+        const RawTime woken = host.raw();
+        const Nanoseconds truth = host.now;
+        host.run(30);
+        host.is_synchronised = is_mended;
+        host.run(100);
+        CHECK(std::chrono::abs(host.error(woken, truth)) < Nanoseconds(1ms));
+        CHECK((host.history.at(woken).error < Nanoseconds(10ms)) == is_mended);
+        CHECK(std::chrono::abs(host.error(RawTime(550s), 50s)) < Nanoseconds(1ms));
+    }
+}
+
+TEST_CASE("what lies before a sleep of a host that is synchronised only after it is right to 1 s",
+          "[timing][hindsight]") {
+    Host host;
+    host.is_synchronised = false;
+    host.clock_off = -5h;
+    host.run(100);
+    host.sleep(1h);
+    host.run(10);
+    host.is_synchronised = true;
+    host.clock_off = 0h;
+    host.run(100);
+    CHECK(std::chrono::abs(host.error(RawTime(550s), 50s)) < Nanoseconds(1ms));
+    CHECK(host.history.at(RawTime(550s)).error >= Nanoseconds(1s));
+}
+
+TEST_CASE("in hindsight a clock that was set and set back was not set", "[timing][hindsight]") {
+    Host host;
+    host.run(100);
+    host.clock_off = 5s;
+    host.run(40);
+    const RawTime wrong = host.raw();
+    const Nanoseconds truth = host.now;
+    host.clock_off = 0s;
+    host.run(100);
+    CHECK(std::chrono::abs(host.error(wrong, truth)) < Nanoseconds(1ms));
+    CHECK(host.history.at(wrong).stretch == host.history.at(host.raw()).stretch);
+}
+
+TEST_CASE("in hindsight a step that stays is at its reading", "[timing][hindsight]") {
+    Host host;
+    host.run(100);
+    const RawTime before = host.raw();
+    host.clock_off = 5s;
+    host.run(100);
+    CHECK(host.history.at(before).stretch + 1 == host.history.at(host.raw()).stretch);
+    CHECK(std::chrono::abs(host.error(before + 500ms, 100s + 500ms)) < Nanoseconds(1ms));
+    CHECK(std::chrono::abs(host.error(host.raw(), host.now) - 5s) < Nanoseconds(1ms));
+}
