@@ -14,7 +14,7 @@ using namespace a351::timing;
 
 namespace {
 
-#ifdef A351_IS_SANITIZED
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr std::uint64_t kSeeds = 3;
 constexpr int kHours = 1;
 #else
