@@ -35,8 +35,7 @@ void add_retime_command(CLI::App& program) {
         "retime",
         "Writes the archive of a data root anew from its journal, with the times that are known "
         "when all is over: arrivals on both sides of every sample, and the host's clock between "
-        "the "
-        "readings at which it was synchronised.");
+        "the readings at which it was synchronised.");
     const auto options = std::make_shared<RetimeOptions>();
     command.add_option("root", options->root, "Data root with a journal")->required();
     command.add_option("--out", options->out, "Data root to be made: archive, events, metadata")

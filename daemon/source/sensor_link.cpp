@@ -115,8 +115,9 @@ void SensorLink::run() noexcept {
                 wait(kPortRetry);
             } else if (begin_sampling()) {
                 const End end = read_stream();
-                if (end == End::gone) lose_port();
-                if (end == End::stalled || end == End::unframed || end == End::altered)
+                if (end == End::gone)
+                    lose_port();
+                else if (end != End::stopped)
                     note_stall(end);
             }
         } catch (const std::exception& error) {

@@ -16,17 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The host's idea of its begin, from the name; a hint that costs no reading.
-std::optional<UtcTime> named_time(const fs::path& segment) {
-    const std::string name = segment.filename().string();
-    const std::size_t bar = name.find('_');
-    if (bar == std::string::npos || name.size() < bar + 17) return std::nullopt;
-    std::string text = name.substr(bar + 1, 16);  // 20260301T120000Z
-    for (const std::size_t colon : {13U, 11U}) text.insert(colon, ":");
-    for (const std::size_t dash : {6U, 4U}) text.insert(dash, "-");
-    return parse_rfc3339(text);
-}
-
 struct Segment {
     fs::path path;
     record::JournalHeader header;
@@ -35,24 +24,15 @@ struct Segment {
 /// Those that can be read.
 std::vector<Segment> readable_segments(const fs::path& journal) {
     std::vector<Segment> segments;
-    for (const fs::path& path : record::journal_segments(journal)) {
-        record::JournalReader reader(path);
-        const auto chunk = reader.next();
-        if (const auto* header = chunk ? std::get_if<record::JournalHeader>(&*chunk) : nullptr)
-            segments.push_back({path, *header});
-    }
+    for (const fs::path& path : record::journal_segments(journal))
+        if (const auto header = record::segment_header(path)) segments.push_back({path, *header});
     return segments;
 }
 
 /// Session of the newest MARK: those before it are complete in the archive.
 std::optional<record::SessionId> marked_session(const std::vector<Segment>& segments) {
-    for (auto segment = segments.rbegin(); segment != segments.rend(); ++segment) {
-        std::optional<record::SessionId> session;
-        record::JournalReader reader(segment->path);
-        while (const auto chunk = reader.next())
-            if (const auto* mark = std::get_if<record::MarkChunk>(&*chunk)) session = mark->session;
-        if (session) return session;
-    }
+    for (auto segment = segments.rbegin(); segment != segments.rend(); ++segment)
+        if (const auto mark = record::newest_mark(segment->path)) return mark->session;
     return std::nullopt;
 }
 
@@ -113,7 +93,8 @@ void JournalKeeper::tidy() noexcept {
 void JournalKeeper::remove_old() {
     const auto names = record::journal_segments(journal_);
     if (names.empty()) return;
-    const auto first = named_time(names.front()), last = named_time(names.back());
+    const auto first = record::segment_time(names.front()),
+               last = record::segment_time(names.back());
     const auto kept = std::chrono::days(options_.keep_days);
     if (first && last && *last - *first < kept) return;
 

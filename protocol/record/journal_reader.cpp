@@ -102,6 +102,31 @@ std::optional<JournalChunk> JournalSequence::next() {
     }
 }
 
+std::optional<JournalHeader> segment_header(const std::filesystem::path& segment) {
+    JournalReader reader(segment);
+    const auto chunk = reader.next();
+    const auto* header = chunk ? std::get_if<JournalHeader>(&*chunk) : nullptr;
+    return header ? std::optional(*header) : std::nullopt;
+}
+
+std::optional<MarkChunk> newest_mark(const std::filesystem::path& segment) {
+    std::optional<MarkChunk> newest;
+    JournalReader reader(segment);
+    while (auto chunk = reader.next())
+        if (auto* mark = std::get_if<MarkChunk>(&*chunk)) newest = std::move(*mark);
+    return newest;
+}
+
+std::optional<UtcTime> segment_time(const std::filesystem::path& file) {
+    const std::string name = file.filename().string();
+    const auto bar = name.find('_');
+    if (bar == std::string::npos || name.size() < bar + 17) return std::nullopt;
+    std::string text = name.substr(bar + 1, 16);  // 20260301T120000Z
+    for (const std::size_t colon : {13U, 11U}) text.insert(colon, ":");
+    for (const std::size_t dash : {6U, 4U}) text.insert(dash, "-");
+    return parse_rfc3339(text);
+}
+
 std::optional<std::uint64_t> segment_number(const std::filesystem::path& file) {
     const std::string name = file.filename().string();
     const auto bar = name.find('_');

@@ -73,6 +73,15 @@ private:
     std::vector<JournalDamage> damage_;
 };
 
+/// What heads a segment; std::nullopt when nothing in it can be read.
+[[nodiscard]] std::optional<JournalHeader> segment_header(const std::filesystem::path& segment);
+
+/// The newest MARK of a segment, if there is one.
+[[nodiscard]] std::optional<MarkChunk> newest_mark(const std::filesystem::path& segment);
+
+/// When the host thought a segment began, from its name: a hint that costs no reading.
+[[nodiscard]] std::optional<UtcTime> segment_time(const std::filesystem::path& file);
+
 /// The counter in the name of a segment, whatever was appended to the name; std::nullopt for others.
 [[nodiscard]] std::optional<std::uint64_t> segment_number(const std::filesystem::path& file);
 

@@ -18,19 +18,6 @@ struct Replay {
     std::optional<MarkChunk> mark;      // the newest
 };
 
-std::optional<JournalHeader> header_of(JournalReader& reader) {
-    const auto chunk = reader.next();
-    const auto* header = chunk ? std::get_if<JournalHeader>(&*chunk) : nullptr;
-    return header ? std::optional(*header) : std::nullopt;
-}
-
-std::optional<MarkChunk> newest_mark(JournalReader& reader) {
-    std::optional<MarkChunk> newest;
-    while (auto chunk = reader.next())
-        if (auto* mark = std::get_if<MarkChunk>(&*chunk)) newest = std::move(*mark);
-    return newest;
-}
-
 /// Instant of the newest sample of a channel that survived whatever happened; std::nullopt when the
 /// mark does not speak of it: what stands there may come from sessions that are not replayed.
 std::optional<UtcTime> synced_until(const Replay& replay, const std::string& channel) {
@@ -45,8 +32,7 @@ Replay plan_replay(const std::filesystem::path& journal) {
     bool has_reached_oldest = false;
     const auto segments = journal_segments(journal);
     for (auto segment = segments.rbegin(); segment != segments.rend(); ++segment) {
-        JournalReader reader(*segment);
-        const auto header = header_of(reader);
+        const auto header = segment_header(*segment);
         if (!header) continue;  // nothing in it can be read
         if (has_reached_oldest && header->session != replay.mark->session) break;
         if (replay.segments.empty()) replay.codes = header->codes;
@@ -54,7 +40,7 @@ Replay plan_replay(const std::filesystem::path& journal) {
         if (header->codes != replay.codes) break;
         replay.segments.push_back(*segment);
         replay.earliest = std::min(replay.earliest, header->clock.realtime);
-        if (!replay.mark) replay.mark = newest_mark(reader);
+        if (!replay.mark) replay.mark = newest_mark(*segment);
         has_reached_oldest = replay.mark && header->session == replay.mark->session;
     }
     std::reverse(replay.segments.begin(), replay.segments.end());

@@ -92,7 +92,8 @@ void write_events(FileLayer& files, const fs::path& root, const fs::path& out,
 
 }  // namespace
 
-RetimeReport retime(FileLayer& files, const fs::path& root, const fs::path& out) {
+RetimeReport retime(FileLayer& files, const fs::path& root, const fs::path& out_as_given) {
+    const fs::path out = out_as_given.has_filename() ? out_as_given : out_as_given.parent_path();
     const Segments segments = journal_segments(root / "journal");
     if (segments.empty())
         throw InputError(root.string() + ": no journal; allowed: the data root of a daemon");
@@ -117,6 +118,7 @@ RetimeReport retime(FileLayer& files, const fs::path& root, const fs::path& out)
             fs::copy(root / "metadata", partial / "metadata", fs::copy_options::recursive);
         }
         files.rename(partial, out);
+        files.sync_directory(fs::absolute(out).parent_path());
     } catch (...) {
         std::error_code ignored;
         fs::remove_all(partial, ignored);

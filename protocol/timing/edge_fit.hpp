@@ -40,17 +40,18 @@ struct EdgeFit {
 ///     y = arrival - index / rate
 ///
 /// and, while the host is not busy, no deeper below its lowest points than the delay that no frame
-/// escapes.  Of every 2 s of data the least y is kept, for 900 s.  The true line L is taken to obey
+/// escapes.  Of every 2 s of data the least y counts.  The true line L is taken to obey
 ///
 ///     y - D <= L <= y   at every point that is kept,   slope of L within limits
 ///
-/// and L is estimated as the middle of what these leave; half their distance
-/// is the uncertainty.  Both limits are found exactly enough from the two convex hulls.
+/// and L is estimated as the middle of what these leave; half their distance is the uncertainty.
+/// Both limits are found from the two convex hulls, to 2 us.
 ///
 /// D.  An adapter that delivers every T delays frames of period P by values spaced by the common
 /// divisor of T and P (16 and 20 ms: 4 ms), whose phase moves only with the drift between the two
 /// oscillators; up to one spacing can stay hidden for hours.  The spacing is seen within each 2 s:
-/// D = its usual value + 1 ms for the polling of a full-speed bus + 0.3 ms for the wander of the rates.
+/// D = its usual value + 1 ms for the polling of a full-speed bus + 0.3 ms for the wander of the
+/// rates.
 /// Without a spacing D is what the points need; the uncertainty then still allows for 1 ms of timer
 /// and 1 ms of polling, which nothing would show if they kept step with the sensor.
 ///
@@ -58,7 +59,7 @@ struct EdgeFit {
 ///
 /// Accuracy (clock_days_test, 50 Hz, seeds that were not looked at before; of all errors 99 %): 16 ms
 /// timer, after 10 min, 0.47 ms, in step with the sensor 2.1 ms; 1 ms timer 0.26 ms.  The test asks
-/// for 1.0, 3.84 and 0.3 ms, and that the stated uncertainty covers 95 %.
+/// for 1.0, 2.5 and 0.3 ms, and that the stated uncertainty covers 95 %.
 ///
 /// Source: E. Olson, "A passive solution to the sensor synchronization problem", IROS 2010 (the
 /// bound from one side).  The bound from the other side is ours.

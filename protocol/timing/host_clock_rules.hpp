@@ -25,9 +25,10 @@ inline constexpr std::int64_t kMostSlew_ppm = 600;
 }
 
 /// Of a host's crystal without discipline: twice what they are usually specified to.
-inline constexpr double kHostRateError = 100e-6;
+inline constexpr std::int64_t kHostRateError_ppm = 100;
+inline constexpr double kHostRateError = 1e-6 * kHostRateError_ppm;
 [[nodiscard]] constexpr Nanoseconds host_drift(Nanoseconds duration) {
-    return duration / 1'000'000 * 100;
+    return duration / 1'000'000 * kHostRateError_ppm;
 }
 
 }  // namespace a351::timing

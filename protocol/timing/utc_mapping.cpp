@@ -22,7 +22,7 @@ Nanoseconds max_error(const ClockReading& reading) { return microseconds(reading
 
 void UtcMapping::woke_up() { has_slept_ = true; }
 
-std::optional<ClockStep> UtcMapping::observe(const ClockReading& reading) {
+std::optional<Nanoseconds> UtcMapping::observe(const ClockReading& reading) {
     const Nanoseconds offset = reading.realtime.time_since_epoch() - reading.raw.time_since_epoch();
     const bool slept = std::exchange(has_slept_, false);
     if (slept) awake_since_ = reading.raw;
@@ -51,7 +51,7 @@ std::optional<ClockStep> UtcMapping::observe(const ClockReading& reading) {
     doubted_.reset();
     recent_.clear();
     follow(reading, offset);
-    return ClockStep{reading.raw, departure};
+    return departure;
 }
 
 void UtcMapping::follow(const ClockReading& reading, Nanoseconds offset) {

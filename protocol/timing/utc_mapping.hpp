@@ -10,29 +10,25 @@
 
 namespace a351::timing {
 
-/// A jump of the host's clock that the mapping follows from `raw` on.
-struct ClockStep {
-    RawTime raw;
-    Nanoseconds by{0};
-};
-
 /// Follows the readings one by one, so that what a time service slews is followed within seconds,
 /// and doubts those that jump:
 ///
 /// A step is a reading that departs from the last one followed by more than 50 ms + 600 ppm of the
-/// time between (a kernel slews at 500 ppm at most).  It is not followed but held against: the mapping
-/// goes on at its rate of the last seconds, at most 100 ppm.  When the host has said for 60 s that it is synchronised, and has kept to the
-/// new time, it is.  A host that was never synchronised needs only the 60 s, and is followed at
-/// once when it is synchronised for the first time, unless it woke up within the last minute.
+/// time between (a kernel slews at 500 ppm at most).  It is doubted: the mapping goes on at its rate
+/// of the last seconds, at most 100 ppm.  When the host has said for 60 s that it is synchronised,
+/// and has kept to the new time, that is followed.  A host that was never synchronised needs only
+/// the 60 s, and is followed at once when it is synchronised for the first time, unless it woke up
+/// within the last minute.
 ///
 /// Error: the kernel's maximum error.  Held, or without synchronisation: that of the last
 /// synchronised reading + 100 ppm of the time since (a host's crystal) + the rate that is carried on
-/// since the last reading that was followed.  Never synchronised, or awake
-/// for less than a minute (only a battery clock counts while a host sleeps): at least 1 s.
+/// since the last reading that was followed.  Never synchronised, or awake for less than a minute
+/// (only a battery clock counts while a host sleeps): at least 1 s.
 class UtcMapping {
 public:
-    /// In the order of time.  @return  the step that is followed from this reading on.
-    std::optional<ClockStep> observe(const ClockReading& reading);
+    /// In the order of time.  @return  by how much the clock was set, if that is followed from this
+    /// reading on; positive: ahead.
+    std::optional<Nanoseconds> observe(const ClockReading& reading);
 
     /// The host slept until the next reading.
     void woke_up();

@@ -114,7 +114,7 @@ TEST_CASE("re-timing is all or nothing", "[record][retime]") {
         CHECK(std::filesystem::is_empty(parent.path()));
     }
     CHECK(retime(posix_files(), root.path(), out).records > 0);
-    CHECK(retime(posix_files(), root.path(), parent.path() / "again").records > 0);
+    CHECK(retime(posix_files(), root.path(), parent.path() / "again/").records > 0);
     const auto first = read_vertical(out / "archive");
     CHECK(first.counts == read_vertical(parent.path() / "again" / "archive").counts);
 }

@@ -18,7 +18,7 @@ struct Host {
     double slew_ppm = 0.0;
     bool is_synchronised = true;
     std::int64_t max_error_us = 1000;
-    std::optional<ClockStep> followed;
+    std::optional<Nanoseconds> followed;
 
     [[nodiscard]] RawTime raw() const { return RawTime(500s + now); }
     [[nodiscard]] UtcTime clock() const { return kNoon + now + from_seconds(offset_s); }
@@ -72,7 +72,7 @@ TEST_CASE("a step of a host that was synchronised is doubted, then followed",
         CHECK_FALSE(host.followed);
         host.run(2);
         REQUIRE(host.followed);
-        CHECK(host.followed->by == from_seconds(step_s));
+        CHECK(*host.followed == from_seconds(step_s));
         CHECK(std::abs(host.error_ms() - 1e3 * step_s) < 1e-3);
         CHECK(host.mapping.is_synchronised());
     }
