@@ -109,6 +109,10 @@ void log_recovery(spdlog::logger& log, const record::RecoveryReport& report) {
     }
     log.info("recovery: {} records added, {} confirmed", report.records_added,
              report.records_confirmed);
+    if (report.chunks_lost > 0) {
+        log.error("recovery: {} chunks of the journal could not be understood",
+                  report.chunks_lost);
+    }
     if (report.records_conflicting > 0) {
         log.error("recovery: {} records of the archive disagree with the journal",
                   report.records_conflicting);
@@ -132,15 +136,16 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
     Store store(record::posix_files(),
                 {.root = config.storage.root,
                  .station = station_of(config),
-                 .keeper = {.keep_days = config.storage.journal_keep_days}},
+                 .keeper = {.keep_days = config.storage.journal_keep_days},
+                 .recovered = [&](const auto& report) { log_recovery(log, report); }},
                 clock, reads);
-    log_recovery(log, store.recovery());
     SensorLink link({.address = config.sensor.address,
                      .baud = config.sensor.baud,
                      .profile = config.sensor.profile,
                      .settings = config.sensor.settings,
                      .expected_serial_number = config.sensor.serial_number,
-                     .header = header_of(config, clock)},
+                     .header = header_of(config, clock),
+                     .known = store.known_stream()},
                     clock, reads);
     const std::filesystem::path events = config.storage.root / "events";
     Occupations occupations(store, config.survey.sites, record::read_events(events).events);

@@ -38,6 +38,7 @@ struct Status {
     std::string profile, product_id, serial_number, filter;
     int output_rate_hz = 0;
     bool is_profile_verified = false;
+    bool is_device_assumed = false;  ///< Its stream was adopted: it could not be asked.
 
     std::array<StandardGravity, 3> acceleration{};
     DegC temperature;

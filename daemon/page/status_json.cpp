@@ -109,6 +109,7 @@ json to_json(const Status& status, const Occupations& occupations, Nanoseconds s
               {"profile_verified", status.is_profile_verified},
               {"product_id", status.product_id},
               {"serial_number", status.serial_number},
+              {"assumed", status.is_device_assumed},
               {"filter", status.filter},
               {"output_rate_hz", status.output_rate_hz}}},
             {"disk",

@@ -31,13 +31,14 @@ bool receive(Port& port, const wire::Receive& step, std::vector<std::byte>& answ
     return true;
 }
 
-bool drain(Port& port, const wire::DrainUntilSilent& step) {
+bool drain(Port& port, const wire::DrainUntilSilent& step, std::size_t& passed_over) {
     const auto end = steady_clock::now() + step.limit;
     std::array<std::byte, 4096> discarded{};
     while (steady_clock::now() < end) {
         const auto came = port.read(discarded, std::min(step.quiet, time_left(end)));
         if (!came) return false;
         if (*came == 0) break;
+        passed_over += *came;
     }
     return true;
 }
@@ -59,7 +60,7 @@ HandshakeRun run_handshake(wire::Handshake& handshake, Port& port, const HostClo
         } else if (const auto* wanted = std::get_if<wire::Receive>(&step)) {
             is_there = receive(port, *wanted, answer);
         } else if (const auto* silence = std::get_if<wire::DrainUntilSilent>(&step)) {
-            is_there = drain(port, *silence);
+            is_there = drain(port, *silence, run.bytes_passed_over);
         } else if (auto* sampling = std::get_if<wire::Sampling>(&step)) {
             run.outcome = std::move(sampling->identity);
             return run;

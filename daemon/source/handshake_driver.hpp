@@ -17,6 +17,7 @@ struct PortGone {};
 struct HandshakeRun {
     std::variant<wire::DeviceIdentity, wire::HandshakeFailure, PortGone> outcome;
     std::vector<record::TxChunk> sent;  ///< In order, for the journal.
+    std::size_t bytes_passed_over = 0;  ///< That came, but were no answer.
 };
 
 /// Does on the port what the handshake says until it ends, one way or another.

@@ -52,6 +52,18 @@ private:
     int times_ = 0;
 };
 
+/// The configured rate, then the others that carry the frames.
+std::vector<int> bauds_of(const LinkOptions& options) {
+    std::vector<int> bauds{options.baud};
+    const auto frame_bits = static_cast<int>(10 * options.settings.layout.frame_size());  // 8N1
+    for (const auto& coded : options.profile->baud_rates) {
+        if (coded.value != options.baud &&
+            coded.value >= frame_bits * options.settings.output_rate_hz)
+            bauds.push_back(coded.value);
+    }
+    return bauds;
+}
+
 record::SessionId random_session() {
     std::random_device source;
     record::SessionId id;
@@ -78,13 +90,23 @@ const char* to_text(LinkStatus::State state) noexcept {
 }
 
 SensorLink::SensorLink(LinkOptions options, const HostClock& clock, ReadQueue& queue)
-    : options_(std::move(options)), clock_(clock), queue_(queue) {}
+    : options_(std::move(options)),
+      clock_(clock),
+      queue_(queue),
+      bauds_(bauds_of(options_)),
+      known_(options_.known) {
+    options_.header.port = options_.address.to_text();
+    status_.baud = status_.configured_baud = options_.baud;
+    if (!known_) return;
+    const auto last = std::find(bauds_.begin(), bauds_.end(), known_->header.baud);
+    if (last != bauds_.end()) std::rotate(bauds_.begin(), last, bauds_.end());
+}
 
 SensorLink::~SensorLink() { stop(); }
 
 void SensorLink::start() {
     try {
-        port_ = open_port(options_.address, options_.baud);
+        open();
     } catch (const PortError& error) {
         if (error.kind() == PortError::Kind::locked) throw;
     }
@@ -113,7 +135,7 @@ void SensorLink::run() noexcept {
         try {
             if (!find_port()) {
                 wait(kPortRetry);
-            } else if (begin_sampling()) {
+            } else if (adopt() || begin_sampling()) {
                 const End end = read_stream();
                 if (end == End::gone)
                     lose_port();
@@ -130,47 +152,103 @@ void SensorLink::run() noexcept {
     set_state(LinkStatus::State::stopped, "stopped");
 }
 
+void SensorLink::open() {
+    port_ = open_port(options_.address, bauds_.front());
+    is_port_new_ = true;
+}
+
 bool SensorLink::find_port() {
     try {
-        if (!port_) port_ = open_port(options_.address, options_.baud);
+        if (!port_) open();
     } catch (const PortError& error) {
         set_state(LinkStatus::State::searching, error.what());
         return false;
     }
     const std::lock_guard lock(mutex_);
     status_.port = port_->description();
+    status_.baud = bauds_.front();
     return true;
 }
 
+// A stream that goes on after an outage, of the port or of this program, is not touched: its
+// counter tells what the outage cost.
+bool SensorLink::adopt() {
+    if (!std::exchange(is_port_new_, false) || !known_) return false;
+    record::JournalHeader expected = options_.header;
+    expected.baud = bauds_.front();
+    const record::JournalHeader& last = known_->header;
+    const bool is_expected_device = options_.expected_serial_number.empty() ||
+                                    options_.expected_serial_number == last.serial_number;
+    if (!is_same_stream(last, expected) || last.port != expected.port || !is_expected_device)
+        return false;
+    set_state(LinkStatus::State::handshake, "listening for a stream that goes on");
+    const Listening listening = listen_for(*known_, *port_, clock_, stop_);
+    if (listening.outcome == Listening::Outcome::port_gone) lose_port();
+    if (listening.outcome != Listening::Outcome::goes_on) return false;
+    continue_session(listening.reads);
+    return true;
+}
+
+void SensorLink::continue_session(const std::vector<Heard>& reads) {
+    begun_ = Begun{options_.header, {}};
+    record::JournalHeader& header = begun_->header;
+    const record::JournalHeader& last = known_->header;
+    header.session = last.session;
+    header.product_id = last.product_id;
+    header.serial_number = last.serial_number;
+    header.firmware = last.firmware;
+    header.is_device_assumed = true;
+    header.baud = bauds_.front();
+    header.clock = clock_.read();
+    {
+        const std::lock_guard lock(mutex_);
+        status_.device = {.product_id = last.product_id,
+                          .serial_number = last.serial_number,
+                          .firmware = last.firmware,
+                          .has_expected_product_id =
+                              last.product_id.starts_with(options_.profile->product_id_prefix)};
+        status_.is_device_assumed = true;
+        ++status_.adoptions;
+    }
+    begin_session();
+    for (const Heard& read : reads) push(ReadQueue::Kind::rx, read.time, read.bytes);
+}
+
 bool SensorLink::begin_sampling() {
+    if (!port_) return false;
     set_state(LinkStatus::State::handshake, "configuring the sensor");
-    wire::Handshake handshake(*options_.profile, options_.settings);
+    wire::Handshake handshake(*options_.profile, options_.settings,
+                              options_.expected_serial_number);
     HandshakeRun run = run_handshake(handshake, *port_, clock_, stop_);
     if (stop_) return false;
     if (std::holds_alternative<PortGone>(run.outcome)) {
         lose_port();
         return false;
     }
-    std::string trouble;
-    if (const auto* failure = std::get_if<wire::HandshakeFailure>(&run.outcome)) {
-        trouble = failure->reason;
-    } else {
-        const auto& device = std::get<wire::DeviceIdentity>(run.outcome);
-        const std::string& expected = options_.expected_serial_number;
-        if (expected.empty() || device.serial_number == expected) {
-            take_up(device, std::move(run.sent));
-            return true;
-        }
-        trouble =
-            "another instrument: serial number " + device.serial_number + ", expected " + expected;
-        stop_sensor();
+    if (const auto* const device = std::get_if<wire::DeviceIdentity>(&run.outcome)) {
+        bauds_tried_ = 0;
+        take_up(*device, std::move(run.sent));
+        return true;
     }
+    const auto& failure = std::get<wire::HandshakeFailure>(run.outcome);
     {
         const std::lock_guard lock(mutex_);
         ++status_.handshake_failures;
     }
+    if (failure.is_unanswered && try_next_baud()) return false;
+    bauds_tried_ = 0;
+    std::string trouble = failure.reason;
+    if (failure.is_unanswered && run.bytes_passed_over > 0)
+        trouble += "; bytes come, but nothing that can be understood at any baud rate";
     back_off(trouble);
     return false;
+}
+
+/// @return false when every one has been tried; then the first one is in force again.
+bool SensorLink::try_next_baud() {
+    std::rotate(bauds_.begin(), bauds_.begin() + 1, bauds_.end());
+    port_.reset();  // Opened anew by find_port().
+    return ++bauds_tried_ < bauds_.size();
 }
 
 void SensorLink::take_up(const wire::DeviceIdentity& device, std::vector<record::TxChunk> sent) {
@@ -180,9 +258,11 @@ void SensorLink::take_up(const wire::DeviceIdentity& device, std::vector<record:
     header.product_id = device.product_id;
     header.serial_number = device.serial_number;
     header.firmware = device.firmware;
+    header.baud = bauds_.front();
     header.clock = clock_.read();
     const std::lock_guard lock(mutex_);
     status_.device = device;
+    status_.is_device_assumed = false;
 }
 
 void SensorLink::back_off(const std::string& trouble) {
@@ -192,6 +272,9 @@ void SensorLink::back_off(const std::string& trouble) {
 }
 
 void SensorLink::begin_session() {
+    const bool is_new = !known_ || known_->header.session != begun_->header.session;
+    // The counter of a device that was just configured starts at 0.
+    if (is_new) known_ = record::StreamEnd{begun_->header, 0, begun_->header.clock.raw};
     while (!queue_.push_session(begun_->header, begun_->header.clock.raw) && !stop_) hold_up();
     is_held_up_ = false;
     for (const record::TxChunk& chunk : begun_->sent) {
@@ -202,7 +285,7 @@ void SensorLink::begin_session() {
     const std::lock_guard lock(mutex_);
     status_.state = LinkStatus::State::sampling;
     status_.trouble.clear();
-    ++status_.sessions;
+    if (is_new) ++status_.sessions;
 }
 
 SensorLink::End SensorLink::read_stream() {
@@ -236,6 +319,8 @@ SensorLink::End SensorLink::read_stream() {
                 if (frame == nullptr) continue;
                 if (options_.settings.layout.has_count() && watch.is_altered(frame->values().count))
                     return End::altered;
+                known_->count = frame->values().count;
+                known_->arrival = time;
                 last_frame = now;
                 failures_in_a_row_ = 0;
                 has_frames_ = true;

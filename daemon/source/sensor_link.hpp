@@ -1,8 +1,8 @@
 #pragma once
 /// @file
-/// The reader thread: finds the port, brings the sensor into sampling, reads and stamps what
-/// comes, and starts again when the port goes, the sensor falls silent, its bytes are no frames or
-/// its counter tells of another rate.
+/// The reader thread: finds the port, adopts the stream that goes on there or brings the sensor into
+/// sampling, reads and stamps what comes, and starts again when the port goes, the sensor falls
+/// silent, its bytes are no frames or its counter tells of another rate.
 /// While sampling it allocates nothing, logs nothing and touches no disk.
 
 #include <array>
@@ -16,10 +16,12 @@
 #include <thread>
 #include <vector>
 
+#include "daemon/source/adoption.hpp"
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/port.hpp"
 #include "daemon/source/read_queue.hpp"
 #include "protocol/record/journal.hpp"
+#include "protocol/record/stream_end.hpp"
 #include "protocol/wire/device_profile.hpp"
 #include "protocol/wire/handshake.hpp"
 
@@ -33,15 +35,21 @@ struct LinkOptions {
     std::string expected_serial_number = {};  ///< Empty: any.
     /// What each session's header says, save for session, device and clock.
     record::JournalHeader header = {};
+    /// Where the stream stood that the journal knows: it is adopted if it goes on.
+    std::optional<record::StreamEnd> known = {};
 };
 
 struct LinkStatus {
     enum class State { searching, handshake, sampling, waiting, stopped };
     State state = State::searching;
-    std::string trouble;                         ///< Why it is not sampling; empty when it is.
-    std::string port;                            ///< Its description while open.
-    std::optional<wire::DeviceIdentity> device;  ///< The last one that answered.
-    std::uint64_t sessions = 0;
+    std::string trouble;  ///< Why it is not sampling; empty when it is.
+    std::string port;     ///< Its description while open.
+    int baud = 0;         ///< In force.
+    int configured_baud = 0;
+    std::optional<wire::DeviceIdentity> device;  ///< The last one that answered, or
+    bool is_device_assumed = false;              ///< that of the stream that was adopted.
+    std::uint64_t sessions = 0;                  ///< Begun; those adopted do not count.
+    std::uint64_t adoptions = 0;
     std::uint64_t stalls = 0;
     std::uint64_t ports_lost = 0;
     std::uint64_t handshake_failures = 0;
@@ -70,8 +78,12 @@ private:
     enum class End { stopped, stalled, unframed, altered, gone };
 
     void run() noexcept;
+    void open();
     [[nodiscard]] bool find_port();
+    [[nodiscard]] bool adopt();
+    void continue_session(const std::vector<Heard>& reads);
     [[nodiscard]] bool begin_sampling();
+    [[nodiscard]] bool try_next_baud();
     [[nodiscard]] End read_stream();
     void note_stall(End end);
     void take_up(const wire::DeviceIdentity& device, std::vector<record::TxChunk> sent);
@@ -88,6 +100,9 @@ private:
     const HostClock& clock_;
     ReadQueue& queue_;
     std::unique_ptr<Port> port_;
+    bool is_port_new_ = false;  ///< Opened, and not listened to.
+    std::vector<int> bauds_;    ///< To be tried, the first is in force.
+    std::size_t bauds_tried_ = 0;
     std::size_t failures_in_a_row_ = 0;
     bool has_frames_ = false;  ///< Since sampling began.
     /// A session that was commanded; it begins with its first byte.
@@ -96,6 +111,7 @@ private:
         std::vector<record::TxChunk> sent;
     };
     std::optional<Begun> begun_;
+    std::optional<record::StreamEnd> known_;
 
     std::atomic<bool> stop_{false};
     std::atomic<std::uint64_t> queue_full_{0};

@@ -21,7 +21,8 @@ constexpr std::size_t kSessionsRemembered = 16;  // Each with 24 h of times, som
 
 ArchiveThread::ArchiveThread(record::FileLayer& files, std::filesystem::path archive,
                              record::StationCodes codes, const HostClock& clock, ChunkQueue& chunks,
-                             Progress& progress, Hooks hooks, milliseconds retry_interval)
+                             Progress& progress, Hooks hooks, milliseconds retry_interval,
+                             const record::Replay& replay)
     : files_(files),
       archive_(std::move(archive)),
       codes_(std::move(codes)),
@@ -30,8 +31,10 @@ ArchiveThread::ArchiveThread(record::FileLayer& files, std::filesystem::path arc
       progress_(progress),
       hooks_(std::move(hooks)),
       retry_interval_(retry_interval),
-      writer_(std::make_unique<record::ArchiveWriter>(files_, archive_, codes_)),
-      archiver_(outbox_) {}
+      replay_(replay),
+      archiver_(std::make_unique<record::Archiver>(outbox_)) {
+    status_.is_replaying = true;
+}
 
 ArchiveThread::~ArchiveThread() {
     if (!thread_.joinable()) return;
@@ -58,6 +61,11 @@ bool ArchiveThread::join() {
 }
 
 void ArchiveThread::run() noexcept {
+    if (!recover()) {
+        while (chunks_.pop()) {  // The journal has them; it must not wait for us.
+        }
+        return;
+    }
     while (const auto numbered = chunks_.pop()) {
         try {
             take(*numbered);
@@ -72,7 +80,7 @@ void ArchiveThread::run() noexcept {
     }
     {
         const std::lock_guard lock(mutex_);
-        archiver_.close_records();
+        archiver_->close_records();
     }
     if (!put_away(true)) put_away(true);
 }
@@ -81,24 +89,28 @@ void ArchiveThread::take(const NumberedChunk& numbered) {
     const auto* const header = std::get_if<record::JournalHeader>(&numbered.chunk);
     const std::lock_guard lock(mutex_);
     if (header != nullptr) begin_session(*header);
-    archiver_.take(numbered.chunk);
+    archiver_->take(numbered.chunk);
     if (header != nullptr) outbox_.session = header->session;
-    status_.counters = archiver_.counters();
+    status_.counters = archiver_->counters();
     status_.last_sample = outbox_.last_sample;
     status_.records_waiting = outbox_.entries.size();
     if (outbox_.session) {
-        progress_.parsed(numbered.number, *outbox_.session, archiver_.last_index());
+        progress_.parsed(numbered.number, *outbox_.session, archiver_->last_index());
     }
 }
 
 /// A segment's header: of the running session again, or of a new one.
 void ArchiveThread::begin_session(const record::JournalHeader& header) {
     undescribed_ = header;
-    if (outbox_.session == header.session) return;
-    outbox_.last_sample.reset();
-    const auto last_index = archiver_.last_index();
-    if (!last_index || !outbox_.session) return;
-    ended_.push_back({*outbox_.session, *archiver_.clock(), *last_index});
+    if (session_ != header.session) outbox_.last_sample.reset();
+    note_session(header.session);
+}
+
+void ArchiveThread::note_session(const record::SessionId& session) {
+    const auto ended = std::exchange(session_, session);
+    const auto last_index = archiver_->last_index();
+    if (!ended || ended == session || !last_index) return;
+    ended_.push_back({*ended, *archiver_->clock(), *last_index});
     if (ended_.size() > kSessionsRemembered) ended_.pop_front();
 }
 
@@ -144,7 +156,7 @@ void ArchiveThread::write_outbox() {
         const Outbox::Entry& entry = entries.front();
         if (entry.session != marked_) {  // Marks never mix sessions.
             if (marked_) sync();
-            reopen();
+            writer_->begin_session();
             marked_ = entry.session;
         }
         writer_->record(entry.channel, entry.record, entry.last_index);
@@ -181,8 +193,8 @@ void ArchiveThread::post_model() {
     std::optional<record::ModelChunk> model;
     {
         const std::lock_guard lock(mutex_);
-        const auto index = archiver_.last_index();
-        const auto* const sample_clock = archiver_.clock();
+        const auto index = archiver_->last_index();
+        const auto* const sample_clock = archiver_->clock();
         if (!index || sample_clock == nullptr) return;
         const auto time = sample_clock->time_of(*index);
         if (time) model = record::ModelChunk{*index, *time};
@@ -207,18 +219,19 @@ void ArchiveThread::reopen() {
             record::repair_tail(files_, *file);
         }
     }
-    writer_ = std::make_unique<record::ArchiveWriter>(files_, archive_, codes_);
+    writer_->reopen();
 }
 
 std::optional<Instant> ArchiveThread::latest() {
     const std::lock_guard lock(mutex_);
+    if (status_.is_replaying) return std::nullopt;
     const auto instant = [](const record::SessionId& session, const timing::SampleClock& clock,
                             std::int64_t index) -> std::optional<Instant> {
         const auto time = clock.time_of(index);
         return time ? std::optional(Instant{session, index, time->utc}) : std::nullopt;
     };
-    if (const auto index = archiver_.last_index(); index && outbox_.session) {
-        return instant(*outbox_.session, *archiver_.clock(), *index);
+    if (const auto index = archiver_->last_index(); index && session_) {
+        return instant(*session_, *archiver_->clock(), *index);
     }
     if (ended_.empty()) return std::nullopt;
     return instant(ended_.back().session, ended_.back().clock, ended_.back().last_index);
@@ -226,6 +239,7 @@ std::optional<Instant> ArchiveThread::latest() {
 
 std::optional<Instant> ArchiveThread::at(UtcTime utc) {
     const std::lock_guard lock(mutex_);
+    if (status_.is_replaying) return std::nullopt;
     const auto find = [utc](const record::SessionId& session,
                             const timing::SampleClock& clock) -> std::optional<Instant> {
         const auto index = clock.index_at(utc);
@@ -235,16 +249,16 @@ std::optional<Instant> ArchiveThread::at(UtcTime utc) {
     for (const Ended& one : ended_) {
         if (const auto instant = find(one.session, one.clock)) return instant;
     }
-    const timing::SampleClock* const clock = archiver_.clock();
-    if (clock == nullptr || !outbox_.session) return std::nullopt;
-    return find(*outbox_.session, *clock);
+    const timing::SampleClock* const clock = archiver_->clock();
+    if (clock == nullptr || !session_) return std::nullopt;
+    return find(*session_, *clock);
 }
 
 ArchiveStatus ArchiveThread::status() {
     const std::lock_guard lock(mutex_);
     ArchiveStatus status = status_;
     status.is_marking = are_marks_true_;
-    if (const timing::SampleClock* const sample_clock = archiver_.clock()) {
+    if (const timing::SampleClock* const sample_clock = archiver_->clock()) {
         status.timing_state = sample_clock->state();
         status.timing_uncertainty = sample_clock->uncertainty();
     }

@@ -1,6 +1,7 @@
 #pragma once
 /// @file
-/// The archive thread: journal chunks -> samples, times, miniSEED records.  While the archive
+/// The archive thread: journal chunks -> samples, times, miniSEED records.  First those that the
+/// last run left in the journal, so that acquisition need not wait for them.  While the archive
 /// cannot be written, records wait in memory, tried now and then, and the journal goes on: 64 MiB
 /// here, 18 h at 50 Hz, then what ChunkQueue holds; from then on the journal waits.
 
@@ -23,6 +24,7 @@
 #include "protocol/record/archive_writer.hpp"
 #include "protocol/record/archiver.hpp"
 #include "protocol/record/file_layer.hpp"
+#include "protocol/record/recovery.hpp"
 
 namespace a351::daemon {
 
@@ -34,6 +36,7 @@ struct ArchiveStatus {
     /// False once a sync failed or a chunk was lost: nothing is marked until the next start, which
     /// replays the journal from the last mark.
     bool is_marking = true;
+    bool is_replaying = false;  ///< The journal of the last run is being brought in.
     std::uint64_t records = 0;
     std::uint64_t records_waiting = 0;
     record::ArchiverCounters counters;
@@ -49,17 +52,21 @@ public:
         std::function<void(record::JournalChunk)> post;
         /// A session begins: time to describe the instrument.  May throw std::system_error.
         std::function<void(const record::JournalHeader&)> session_began;
+        /// The archive is up to the journal of the last run.
+        std::function<void(const record::RecoveryReport&)> recovered;
     };
 
     /// All referred to must outlive this.
     ArchiveThread(record::FileLayer& files, std::filesystem::path archive,
                   record::StationCodes codes, const HostClock& clock, ChunkQueue& chunks,
-                  Progress& progress, Hooks hooks, std::chrono::milliseconds retry_interval);
+                  Progress& progress, Hooks hooks, std::chrono::milliseconds retry_interval,
+                  const record::Replay& replay);
     ~ArchiveThread();
 
     void start();
 
-    /// From now on nothing is waited for: a fault at the end is retried once.
+    /// From now on nothing is waited for: a fault at the end is retried once, a replay is left to the
+    /// next start.
     void hurry();
 
     /// Waits until the queue was closed and everything is in the archive, synced and marked.
@@ -86,8 +93,13 @@ private:
             entries.push_back({session, channel, record, last_index});
         }
         void sample(const record::Sample& sample) override { last_sample = sample; }
+        [[nodiscard]] std::optional<std::size_t> samples_held(const std::string& channel,
+                                                              UtcTime start) const override {
+            return writer->samples_held(channel, start);
+        }
 
-        std::optional<record::SessionId> session;  ///< Of what comes.
+        const record::ArchiveWriter* writer = nullptr;  ///< Never null while records come.
+        std::optional<record::SessionId> session;       ///< Of what comes.
         std::deque<Entry> entries;
         std::size_t bytes = 0;
         std::optional<record::Sample> last_sample;
@@ -101,8 +113,14 @@ private:
     };
 
     void run() noexcept;
+    [[nodiscard]] bool recover() noexcept;
+    [[nodiscard]] bool replay(record::RecoveryReport& report);
+    [[nodiscard]] bool take_again(const record::JournalChunk& chunk);
     void take(const NumberedChunk& numbered);
+    void open_archive(const record::StationCodes& codes);
+    void write_replayed();
     void begin_session(const record::JournalHeader& header);
+    void note_session(const record::SessionId& session);
     [[nodiscard]] bool may_write();
     bool put_away(bool is_last);
     void write_outbox();
@@ -119,6 +137,7 @@ private:
     Progress& progress_;
     Hooks hooks_;
     std::chrono::milliseconds retry_interval_;
+    const record::Replay& replay_;
 
     using steady_time = std::chrono::steady_clock::time_point;
 
@@ -136,7 +155,8 @@ private:
     std::condition_variable hurried_;
     bool is_hurried_ = false;
     Outbox outbox_;
-    record::Archiver archiver_;
+    std::unique_ptr<record::Archiver> archiver_;
+    std::optional<record::SessionId> session_;  ///< Of archiver_.
     std::deque<Ended> ended_;
     ArchiveStatus status_;
     std::thread thread_;

@@ -31,7 +31,9 @@ void fill(Status& status, const LinkStatus& link) {
         status.product_id = printable(link.device->product_id);
         status.serial_number = printable(link.device->serial_number);
     }
+    status.is_device_assumed = link.is_device_assumed;
     status.more_counters["link_sessions"] = link.sessions;
+    status.more_counters["link_adoptions"] = link.adoptions;
     status.more_counters["link_stalls"] = link.stalls;
     status.more_counters["ports_lost"] = link.ports_lost;
     status.more_counters["handshake_failures"] = link.handshake_failures;
@@ -44,6 +46,11 @@ void fill(Status& status, const LinkStatus& link) {
     } else if (link.device && !link.device->has_expected_product_id) {
         complain(status, Status::Level::warning,
                  "product identifier " + status.product_id + " does not fit the profile");
+    }
+    if (link.baud != link.configured_baud) {
+        complain(status, Status::Level::warning,
+                 "the sensor runs at " + std::to_string(link.baud) + " baud, not at the " +
+                     std::to_string(link.configured_baud) + " of the configuration");
     }
 }
 

@@ -12,14 +12,20 @@ Store::Store(record::FileLayer& files, StoreOptions options, const HostClock& cl
     : files_(files),
       options_(std::move(options)),
       lock_(files, options_.root),
-      recovery_(record::recover(files, options_.root)),
+      keeper_(files, options_.root / "journal", options_.keeper),
+      replay_(record::begin_recovery(files, options_.root / "journal")),
+      known_stream_(record::stream_end(replay_.segments)),
       profile_(wire::find_profile(options_.station.profile)),
       journal_(files, options_.root, clock, reads, chunks_, progress_, options_.retry_interval),
       archive_(files, options_.root / "archive", options_.station.codes, clock, chunks_, progress_,
                {.post = [this](record::JournalChunk chunk) { journal_.post(std::move(chunk)); },
-                .session_began = [this](const record::JournalHeader& header) { describe(header); }},
-               options_.retry_interval),
-      keeper_(files, options_.root / "journal", options_.keeper) {}
+                .session_began = [this](const record::JournalHeader& header) { describe(header); },
+                .recovered =
+                    [this](const record::RecoveryReport& report) {
+                        options_.recovered(report);
+                        keeper_.start();  // It renames what the replay reads.
+                    }},
+               options_.retry_interval, replay_) {}
 
 Store::~Store() { stop(); }
 
@@ -27,7 +33,6 @@ void Store::start() {
     is_running_ = true;
     archive_.start();
     journal_.start();
-    keeper_.start();
 }
 
 bool Store::stop() {
@@ -74,6 +79,10 @@ void Store::fill(Status& status) {
         status.temperature = profile_->temperature(values.temperature);
     }
 
+    if (archive.is_replaying) {
+        complain(status, Status::Level::warning,
+                 "archive: the last run's journal is being brought in");
+    }
     const JournalStatus journal = journal_.status();
     status.more_counters["journal_bytes"] = journal.bytes_written;
     status.more_counters["journal_faults"] = journal.faults;

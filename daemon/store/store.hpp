@@ -22,6 +22,7 @@
 #include "protocol/record/journal.hpp"
 #include "protocol/record/recovery.hpp"
 #include "protocol/record/station_xml.hpp"
+#include "protocol/record/stream_end.hpp"
 #include "protocol/wire/device_profile.hpp"
 
 namespace a351::daemon {
@@ -35,17 +36,23 @@ struct StoreOptions {
     JournalKeeper::Options keeper = {};
     /// How long an event waits for its turn.
     std::chrono::milliseconds commit_patience{10'000};
+    /// Called by another thread when the archive is up to the journal of the last run.
+    std::function<void(const record::RecoveryReport&)> recovered = [](const auto&) {};
 };
 
 class Store : public Recorder {
 public:
-    /// Locks and recovers the data root.  `files`, `clock` and `reads` must outlive this.
+    /// Locks the data root and mends its journal.  `files`, `clock` and `reads` must outlive this.
     /// @throws DataRootLocked, std::system_error
     Store(record::FileLayer& files, StoreOptions options, const HostClock& clock, ReadQueue& reads);
     ~Store() override;
 
-    [[nodiscard]] const record::RecoveryReport& recovery() const noexcept { return recovery_; }
+    /// Where the stream stands that the journal knows.
+    [[nodiscard]] const std::optional<record::StreamEnd>& known_stream() const noexcept {
+        return known_stream_;
+    }
 
+    /// Records from now on; the archive is recovered meanwhile.
     void start();
 
     /// Writes what the reader left in its queue, closes and syncs everything.
@@ -65,13 +72,14 @@ private:
     record::FileLayer& files_;
     StoreOptions options_;
     DataRootLock lock_;
-    record::RecoveryReport recovery_;
+    JournalKeeper keeper_;
+    record::Replay replay_;
+    std::optional<record::StreamEnd> known_stream_;
     const wire::DeviceProfile* profile_;
     Progress progress_;
     ChunkQueue chunks_;
     JournalThread journal_;
     ArchiveThread archive_;
-    JournalKeeper keeper_;
     bool is_running_ = false;
 };
 

@@ -43,7 +43,7 @@ ArchiveWriter::ArchiveWriter(FileLayer& files, std::filesystem::path archive, St
     : files_(files),
       archive_(std::move(archive)),
       codes_(std::move(codes)),
-      sds_(files_, archive_, codes_) {}
+      sds_(std::make_unique<SdsWriter>(files_, archive_, codes_)) {}
 
 ArchiveWriter::Held ArchiveWriter::describe(const DecodedRecord& record) {
     const std::string_view bytes(reinterpret_cast<const char*>(record.samples.data()),
@@ -75,8 +75,13 @@ void ArchiveWriter::load(Channel& channel, const std::filesystem::path& day_file
     }
 }
 
-void ArchiveWriter::end_replay() {
-    for (auto& [name, channel] : channels_) channel.held.clear();
+void ArchiveWriter::begin_session() {
+    for (auto& [name, channel] : channels_) channel.newest.reset();
+}
+
+void ArchiveWriter::reopen() {
+    sds_ = std::make_unique<SdsWriter>(files_, archive_, codes_);
+    for (auto& [name, channel] : channels_) channel.sequence.reset();
 }
 
 std::optional<std::size_t> ArchiveWriter::samples_held(const std::string& channel,
@@ -88,8 +93,12 @@ std::optional<std::size_t> ArchiveWriter::samples_held(const std::string& channe
     return held->second.sample_count;
 }
 
-bool ArchiveWriter::pass_over(const Channel& channel, const PackedRecord& record) {
+bool ArchiveWriter::pass_over(Channel& channel, const PackedRecord& record) {
     if (channel.held.empty()) return false;
+    if (channel.held.rbegin()->second.end <= record.start) {
+        channel.held.clear();
+        return false;
+    }
     const Held made = describe(*decode_record(record.bytes));
     const auto after = channel.held.lower_bound(record.start);
     if (after != channel.held.end() && after->first == record.start) {
@@ -127,7 +136,7 @@ void ArchiveWriter::record(const std::string& name, const PackedRecord& record,
         const int sequence = *channel.sequence % kLargestSequence + 1;
         PackedRecord numbered = record;
         stamp_sequence(numbered, sequence);
-        sds_.append(name, numbered);
+        sds_->append(name, numbered);
         channel.sequence = sequence;
         ++records_written_;
     }
@@ -135,7 +144,7 @@ void ArchiveWriter::record(const std::string& name, const PackedRecord& record,
 }
 
 std::vector<ChannelMark> ArchiveWriter::sync() {
-    sds_.sync();
+    sds_->sync();
     std::vector<ChannelMark> marks;
     for (const auto& [name, channel] : channels_) {
         if (!channel.newest) continue;

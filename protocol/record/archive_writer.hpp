@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,10 +20,16 @@ public:
     ArchiveWriter(FileLayer& files, std::filesystem::path archive, StationCodes codes);
 
     /// From now on nothing is written that the archive already holds: the journal is being
-    /// replayed.  What it holds is synced first, for the writer before may not have done so.
+    /// replayed.  Each channel is past that with its first record behind all that was held.  What is
+    /// held is synced first, for the writer before may not have done so.
     /// @param since  no sample of the replay is older; to be given with a margin.
     void begin_replay(UtcTime since);
-    void end_replay();
+
+    /// What comes is of another session: sync() speaks of nothing older.
+    void begin_session();
+
+    /// After a fault: closes all files, and looks anew at what is there.
+    void reopen();
 
     /// In a replay, a record that the archive holds with the same start and samples is passed over.
     /// So is one that overlaps others: that is a conflict, and the archive is right.
@@ -56,18 +63,18 @@ private:
     struct Channel {
         std::optional<int> sequence;  // of the newest record
         std::optional<Newest> newest;
-        std::map<UtcTime, Held> held;  // by start, during a replay
+        std::map<UtcTime, Held> held;  // by start, until the replay is past it
     };
 
     void load(Channel& channel, const std::filesystem::path& day_file, UtcTime since);
-    [[nodiscard]] bool pass_over(const Channel& channel, const PackedRecord& record);
+    [[nodiscard]] bool pass_over(Channel& channel, const PackedRecord& record);
     [[nodiscard]] int newest_sequence(const std::string& channel) const;
     static Held describe(const DecodedRecord& record);
 
     FileLayer& files_;
     std::filesystem::path archive_;
     StationCodes codes_;
-    SdsWriter sds_;
+    std::unique_ptr<SdsWriter> sds_;
     std::map<std::string, Channel> channels_;
     std::uint64_t records_written_ = 0;
     std::uint64_t records_passed_over_ = 0;

@@ -44,7 +44,8 @@ const wire::DeviceProfile& profile_of(const JournalHeader& header) {
 
 wire::BurstLayout layout_of(const JournalHeader& header) {
     const auto layout = wire::BurstLayout::from_burst_ctrl(header.burst_ctrl);
-    if (!layout || header.baud <= 0 || header.output_rate_hz <= 0) {
+    if (!layout || header.baud <= 0 ||
+        !profile_of(header).has_output_rate(header.output_rate_hz)) {
         throw InputError("journal: impossible settings: burst_ctrl " +
                          std::to_string(header.burst_ctrl) + ", baud " +
                          std::to_string(header.baud) + ", output_rate_hz " +
@@ -112,10 +113,7 @@ public:
     }
 
     [[nodiscard]] bool is_continued_by(const JournalHeader& next) const {
-        return next.session == header_.session && next.boot_id == header_.boot_id &&
-               next.codes == header_.codes && next.profile == header_.profile &&
-               next.output_rate_hz == header_.output_rate_hz && next.filter == header_.filter &&
-               next.burst_ctrl == header_.burst_ctrl && next.baud == header_.baud;
+        return next.session == header_.session && is_same_stream(header_, next);
     }
 
     void continue_with(const JournalHeader& next) {
@@ -327,6 +325,7 @@ void Archiver::take(const JournalChunk& chunk) {
             return;
         }
         if (session_) session_->end();
+        session_.reset();  // Bytes behind a header that is refused belong to nothing.
         session_ = std::make_unique<Session>(*header, sink_, counters_, retiming_);
     } else if (const auto* received = std::get_if<RxChunk>(&chunk)) {
         counters_.bytes += received->bytes.size();

@@ -29,4 +29,11 @@ std::optional<SessionId> SessionId::from_hex(std::string_view text) {
     return id;
 }
 
+bool is_same_stream(const JournalHeader& last, const JournalHeader& next) {
+    return next.boot_id == last.boot_id && next.codes == last.codes &&
+           next.profile == last.profile && next.output_rate_hz == last.output_rate_hz &&
+           next.filter == last.filter && next.burst_ctrl == last.burst_ctrl &&
+           next.baud == last.baud;
+}
+
 }  // namespace a351::record

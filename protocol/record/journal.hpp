@@ -55,6 +55,10 @@ struct JournalHeader {
     std::string product_id;
     std::string serial_number;
     std::uint16_t firmware = 0;
+    /// The stream ran already: the device was not asked, product, serial number and firmware are
+    /// those of the session before.
+    bool is_device_assumed = false;
+    std::string port;  ///< As configured: path or USB identity; empty where there is none.
     int output_rate_hz = 0;
     std::string filter;
     std::uint16_t burst_ctrl = 0;
@@ -64,6 +68,10 @@ struct JournalHeader {
     /// What the first chunks of this segment repeat, because its sync failed there.
     std::optional<RepeatedChunks> repeats;
 };
+
+/// Whether a stream under `next` reads as one under `last`, by the same host clock: only then can it
+/// go on in the session.
+[[nodiscard]] bool is_same_stream(const JournalHeader& last, const JournalHeader& next);
 
 /// One read() of the port: its bytes end at `end` within the chunk.
 struct ReadStamp {

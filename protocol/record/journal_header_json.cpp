@@ -43,6 +43,8 @@ JournalHeader header_from_json(const Json& json) {
     header.product_id = json.at("product_id").get<std::string>();
     header.serial_number = json.at("serial_number").get<std::string>();
     header.firmware = json.at("firmware").get<std::uint16_t>();
+    header.is_device_assumed = json.value("device_assumed", false);
+    header.port = json.value("port", "");
     header.output_rate_hz = json.at("output_rate_hz").get<int>();
     header.filter = json.at("filter").get<std::string>();
     header.burst_ctrl = json.at("burst_ctrl").get<std::uint16_t>();
@@ -77,6 +79,8 @@ std::string header_to_json(const JournalHeader& header) {
                  {"filter", header.filter},
                  {"burst_ctrl", header.burst_ctrl},
                  {"baud", header.baud}};
+    if (header.is_device_assumed) json["device_assumed"] = true;
+    if (!header.port.empty()) json["port"] = header.port;
     if (header.declared_rate_hz) json["declared_rate_hz"] = *header.declared_rate_hz;
     json["clock"] = clock_to_json(header.clock);
     if (header.repeats) {

@@ -166,7 +166,11 @@ std::optional<JournalDamage> repair_newest_segment(FileLayer& files,
     while (reader.next()) {
     }
     const auto& damage = reader.damage();
-    if (!damage) return std::nullopt;
+    if (!damage) {
+        // Its writer may have been killed before its last sync.
+        files.open_append(segments.back())->sync();
+        return std::nullopt;
+    }
     auto side = damage->file;
     side += ".torn";
     if (damage->offset == 0) {

@@ -89,8 +89,8 @@ private:
 [[nodiscard]] std::vector<std::filesystem::path> journal_segments(
     const std::filesystem::path& directory);
 
-/// Cuts a damaged tail of the newest segment into `*.torn` beside it.  A segment without a good
-/// header is renamed so as a whole.
+/// Cuts a damaged tail of the newest segment into `*.torn` beside it, and syncs what is left.  A
+/// segment without a good header is renamed so as a whole.
 std::optional<JournalDamage> repair_newest_segment(FileLayer& files,
                                                    const std::filesystem::path& directory);
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "protocol/record/archive_writer.hpp"
+#include "protocol/core/input_error.hpp"
 
 namespace a351::record {
 namespace {
@@ -10,13 +10,6 @@ namespace {
 // Records may be older than the header's clock by the filter's delay, and the day file is read
 // whole anyway.
 constexpr auto kMargin = std::chrono::hours(1);
-
-struct Replay {
-    std::vector<std::filesystem::path> segments;
-    UtcTime earliest = UtcTime::max();  // by the clock of their headers
-    StationCodes codes;                 // of the last
-    std::optional<MarkChunk> mark;      // the newest
-};
 
 /// Instant of the newest sample of a channel that survived whatever happened; std::nullopt when the
 /// mark does not speak of it: what stands there may come from sessions that are not replayed.
@@ -49,14 +42,19 @@ Replay plan_replay(const std::filesystem::path& journal) {
 
 }  // namespace
 
-RecoveryReport recover(FileLayer& files, const std::filesystem::path& data_root) {
-    const auto journal = data_root / "journal";
-    const auto archive = data_root / "archive";
-    RecoveryReport report;
-    report.journal = repair_newest_segment(files, journal);
-    const Replay replay = plan_replay(journal);
-    if (replay.segments.empty()) return report;
+Replay begin_recovery(FileLayer& files, const std::filesystem::path& journal) {
+    auto cut = repair_newest_segment(files, journal);
+    Replay replay = plan_replay(journal);
+    replay.cut = std::move(cut);
+    return replay;
+}
 
+bool replay_journal(FileLayer& files, const std::filesystem::path& archive, const Replay& replay,
+                    ArchiveWriter& writer, const std::function<bool(const JournalChunk&)>& take,
+                    RecoveryReport& report) {
+    report = {};
+    report.journal = replay.cut;
+    if (replay.segments.empty()) return true;
     for (const auto& channel : channels_in(archive, replay.codes)) {
         const auto day_file = newest_day_file(archive, replay.codes, channel);
         if (!day_file) continue;
@@ -64,20 +62,19 @@ RecoveryReport recover(FileLayer& files, const std::filesystem::path& data_root)
         if (tail) report.archive.push_back(*tail);
     }
 
-    ArchiveWriter writer(files, archive, replay.codes);
     writer.begin_replay(replay.earliest - kMargin);
-    Archiver archiver(writer);
-    JournalSequence journal_chunks(replay.segments);
-    while (const auto chunk = journal_chunks.next()) archiver.take(*chunk);
-    archiver.close_records();
-    writer.end_replay();
-    static_cast<void>(writer.sync());
-
+    JournalSequence chunks(replay.segments);
+    while (const auto chunk = chunks.next()) {
+        try {
+            if (!take(*chunk)) return false;
+        } catch (const InputError&) {
+            ++report.chunks_lost;
+        }
+    }
     report.records_added = writer.records_written();
     report.records_confirmed = writer.records_passed_over();
     report.records_conflicting = writer.replay_conflicts();
-    report.replayed = archiver.counters();
-    return report;
+    return true;
 }
 
 }  // namespace a351::record

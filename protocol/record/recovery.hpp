@@ -1,10 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
-#include "protocol/record/archiver.hpp"
+#include "protocol/record/archive_writer.hpp"
 #include "protocol/record/file_layer.hpp"
 #include "protocol/record/journal_reader.hpp"
 #include "protocol/record/sds.hpp"
@@ -18,21 +19,40 @@ struct RecoveryReport {
     std::uint64_t records_added = 0;        ///< The archive was behind the journal by these.
     std::uint64_t records_confirmed = 0;    ///< Already there, the same samples at the same time.
     std::uint64_t records_conflicting = 0;  ///< Others are there at that time; left as they are.
-    ArchiverCounters replayed;
+    std::uint64_t chunks_lost = 0;          ///< Of the journal, that could not be understood.
 };
 
-/// Makes a data root whole after a crash: cuts torn tails, then replays the journal so that the
-/// archive holds every sample the journal holds, each once, and syncs it.
-///
-/// Replayed is all from the first segment of the session that the newest MARK names: older sessions
-/// were complete in the archive when it was written.  Without a MARK, the whole journal.
+/// What of the journal is brought into the archive at start: all from the first segment of the
+/// session that the newest MARK names, for older sessions were complete in the archive when it was
+/// written.  Without a MARK, the whole journal.
+struct Replay {
+    std::vector<std::filesystem::path> segments;
+    UtcTime earliest = UtcTime::max();  ///< By the clock of their headers.
+    StationCodes codes;                 ///< Of the last one.
+    std::optional<MarkChunk> mark;      ///< The newest.
+    std::optional<JournalDamage> cut;   ///< Torn tail of the newest segment.
+};
+
+/// Cuts a torn tail of the journal, syncs its newest segment, and fixes what is to be replayed:
+/// what is journaled from now on does not belong to it.
+/// @throws std::system_error  a file cannot be read or written.
+[[nodiscard]] Replay begin_recovery(FileLayer& files, const std::filesystem::path& journal);
+
+/// Cuts torn tails of the archive, then gives the replayed chunks to `take`, which archives them
+/// through `writer`, as it must whatever follows.  In the end the archive holds every sample that
+/// these make a record of, once.
 ///
 /// Idempotent: a second run, or one that was killed half-way and started again, ends with the same
-/// bytes.  They are those of an uninterrupted run that closed its records at the end of the
-/// journal, where records were not ended earlier by a shutdown or a recovery before this one.
+/// bytes.  They are those of an uninterrupted run, where records were not ended earlier by a
+/// shutdown before this one.
 ///
-/// @throws std::system_error  a file cannot be read or written.
-/// @throws InputError         a journal header names an unknown profile or impossible settings.
-RecoveryReport recover(FileLayer& files, const std::filesystem::path& data_root);
+/// @param take  false: no more of it.  InputError from it costs the chunk, which is counted.
+/// @return  whether it came to the end; `report` is whole only then.
+/// @throws std::system_error  a file cannot be read or written; to be begun anew with another
+///         writer.
+[[nodiscard]] bool replay_journal(FileLayer& files, const std::filesystem::path& archive,
+                                  const Replay& replay, ArchiveWriter& writer,
+                                  const std::function<bool(const JournalChunk&)>& take,
+                                  RecoveryReport& report);
 
 }  // namespace a351::record

@@ -80,6 +80,11 @@ std::uint16_t DeviceProfile::count_step(int output_rate_hz) const noexcept {
     return static_cast<std::uint16_t>(internal_rate_hz / output_rate_hz);
 }
 
+bool DeviceProfile::has_output_rate(int output_rate_hz) const noexcept {
+    return std::ranges::find(output_rates_hz, output_rate_hz, &Coded::value) !=
+           output_rates_hz.end();
+}
+
 Nanoseconds DeviceProfile::group_delay(const FilterSpec& filter) const noexcept {
     return Nanoseconds((filter.taps - 1) * kNanosecondsPerSecond / (2 * internal_rate_hz));
 }

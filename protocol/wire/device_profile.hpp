@@ -49,6 +49,8 @@ struct DeviceProfile {
     /// COUNT increment between frames: internal rate / output rate.
     [[nodiscard]] std::uint16_t count_step(int output_rate_hz) const noexcept;
 
+    [[nodiscard]] bool has_output_rate(int output_rate_hz) const noexcept;
+
     /// Delay of a linear-phase filter: (taps - 1) / 2 internal samples.
     [[nodiscard]] Nanoseconds group_delay(const FilterSpec& filter) const noexcept;
 

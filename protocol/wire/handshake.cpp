@@ -59,8 +59,11 @@ std::uint16_t rate_code(const DeviceProfile& profile, int output_rate_hz) {
 
 }  // namespace
 
-Handshake::Handshake(const DeviceProfile& profile, SensorSettings settings)
-    : profile_(&profile), settings_(settings) {
+Handshake::Handshake(const DeviceProfile& profile, SensorSettings settings,
+                     std::string serial_number)
+    : profile_(&profile),
+      settings_(settings),
+      expected_serial_number_(std::move(serial_number)) {
     if (profile.filter_coded(settings.filter_code) == nullptr) {
         throw std::invalid_argument("Handshake: profile " + std::string(profile.name) +
                                     " has no filter coded " + hex(settings.filter_code));
@@ -135,7 +138,9 @@ void Handshake::retry(std::string reason) {
     queue_read();
 }
 
-void Handshake::fail(std::string reason) { queue_.push_back(HandshakeFailure{std::move(reason)}); }
+void Handshake::fail(std::string reason) {
+    queue_.push_back(HandshakeFailure{std::move(reason), !has_answered_});
+}
 
 void Handshake::take_answer(std::span<const std::byte> answer) {
     const auto value = parse_answer(*asked_, answer);
@@ -147,6 +152,7 @@ void Handshake::take_answer(std::span<const std::byte> answer) {
         return retry(std::string(asked_->name) + ": expected an answer of 4 bytes, found none in " +
                      std::to_string(kTries) + " tries");
     }
+    has_answered_ = true;
     switch (stage_) {
         case Stage::mode:
             return take_mode(*value);
@@ -208,6 +214,10 @@ void Handshake::take_identity(std::uint16_t value) {
     }
     identity_.has_expected_product_id =
         identity_.product_id.starts_with(profile_->product_id_prefix);
+    if (!expected_serial_number_.empty() && identity_.serial_number != expected_serial_number_) {
+        return fail("another instrument: serial number " + identity_.serial_number + ", expected " +
+                    expected_serial_number_);
+    }
     ask(Stage::id, kId);
 }
 

@@ -51,7 +51,8 @@ struct Sampling {  ///< Done: frames follow.
     DeviceIdentity identity;
 };
 struct HandshakeFailure {
-    std::string reason;  ///< One line naming the register, expected and found.
+    std::string reason;          ///< One line naming the register, expected and found.
+    bool is_unanswered = false;  ///< Nothing that can be understood came at all.
 };
 using HandshakeStep = std::variant<Transmit, Receive, DrainUntilSilent, Sampling, HandshakeFailure>;
 
@@ -60,9 +61,11 @@ using HandshakeStep = std::variant<Transmit, Receive, DrainUntilSilent, Sampling
 /// a valid answer is repeated; flash is never touched, the baud rate never changed.
 class Handshake {
 public:
-    /// @param profile  outlives this object.
+    /// @param profile        outlives this object.
+    /// @param serial_number  the only one accepted: another instrument is not configured; empty: any.
     /// @throws std::invalid_argument  the profile lacks the rate or the filter.
-    Handshake(const DeviceProfile& profile, SensorSettings settings);
+    Handshake(const DeviceProfile& profile, SensorSettings settings,
+              std::string serial_number = {});
 
     /// @param answer  bytes that came for the last Receive, fewer than asked after a time-out;
     ///                empty for every other step.
@@ -99,11 +102,13 @@ private:
 
     const DeviceProfile* profile_;
     SensorSettings settings_;
+    std::string expected_serial_number_;
     std::vector<Target> targets_;
     std::deque<HandshakeStep> queue_;
     Stage stage_ = Stage::mode;
     const Register* asked_ = &kModeCtrl;
     bool is_waiting_for_answer_ = false;
+    bool has_answered_ = false;
     int tries_left_ = 0;
     int polls_left_ = 0;
     int writes_left_ = 0;

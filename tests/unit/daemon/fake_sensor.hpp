@@ -47,6 +47,12 @@ public:
         pty_.close_master();
     }
 
+    /// Without having been asked to: as after an outage of the host.
+    void start_sampling() {
+        const std::lock_guard lock(mutex_);
+        registers_.is_sampling = true;
+    }
+
     [[nodiscard]] bool is_sampling() const {
         const std::lock_guard lock(mutex_);
         return registers_.is_sampling;

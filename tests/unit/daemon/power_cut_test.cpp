@@ -21,22 +21,18 @@ TEST_CASE_METHOD(Rig, "after a power cut every journaled sample is archived once
         forgetful.cut(root, found, random);
         StoreOptions again = options();
         again.root = found;
-        std::uint64_t added = 0;
-        {
-            const Store recovered(record::posix_files(), again, clock, reads);
-            added = recovered.recovery().records_added;
-            mended += recovered.recovery().archive.size();
-            torn += recovered.recovery().journal ? 1U : 0U;
-        }
-        INFO("cut " << cut << ", journaled " << journaled.value_or(-1) << ", added " << added);
+        const auto report = recover(record::posix_files(), again, clock);
+        mended += report.archive.size();
+        torn += report.journal ? 1U : 0U;
+        INFO("cut " << cut << ", journaled " << journaled.value_or(-1) << ", added "
+                    << report.records_added);
         const auto counts = archived_counts(found, "BNZ");
         const auto size = static_cast<int>(counts.size());
         REQUIRE(counts == expected_counts(size));
         REQUIRE(samples_in_records(found, "BNZ") == counts.size());
         REQUIRE(size > journaled.value_or(-1));
         lost += static_cast<std::size_t>(fed - size);
-        const Store twice(record::posix_files(), again, clock, reads);
-        CHECK(twice.recovery().records_added == 0);
+        CHECK(recover(record::posix_files(), again, clock).records_added == 0);
         std::filesystem::remove_all(found);
     }
     std::printf(

@@ -19,7 +19,19 @@ LinkOptions options_for(const std::filesystem::path& path) {
     options.profile = wire::find_profile("A351");
     options.header.profile = "A351";
     options.header.output_rate_hz = 50;
+    options.header.burst_ctrl = options.settings.layout.burst_ctrl();
+    options.header.baud = options.baud;
     return options;
+}
+
+/// As if frame `count` / 80 - 1 of a FakeSensor had been the last one heard, now.
+record::StreamEnd known_stream(const LinkOptions& options, const HostClock& clock,
+                               std::uint16_t count) {
+    record::StreamEnd known{options.header, count, clock.raw()};
+    known.header.session.bytes[0] = 42;
+    known.header.serial_number = "00000042";
+    known.header.port = options.address.to_text();
+    return known;
 }
 
 /// What came through the queue.
@@ -201,4 +213,61 @@ TEST_CASE("a port that another process holds is refused at the start", "[daemon]
     const HostClock clock;
     SensorLink link(options_for(sensor.path()), clock, queue);
     CHECK_THROWS_AS(link.start(), PortError);
+}
+
+TEST_CASE("a stream that goes on where the journal left it is adopted untouched",
+          "[daemon][sensor_link][adoption]") {
+    FakeSensor sensor;
+    ReadQueue queue;
+    const HostClock clock;
+    LinkOptions options = options_for(sensor.path());
+    options.expected_serial_number = "00000042";
+    options.known = known_stream(options, clock, 0);
+    sensor.start_sampling();
+    SensorLink link(options, clock, queue);
+    link.start();
+    REQUIRE(eventually([&] { return sensor.frames_sent >= 30; }));
+    REQUIRE(eventually([&] { return link.status().adoptions == 1; }));
+    CHECK(link.status().sessions == 0);
+    CHECK(link.status().is_device_assumed);
+    CHECK(link.status().device->serial_number == "00000042");
+
+    const Received received(queue);
+    link.stop();
+    REQUIRE(received.sessions.size() == 1);
+    CHECK(received.sessions[0].session == options.known->header.session);
+    CHECK(received.sessions[0].is_device_assumed);
+    CHECK(received.sessions[0].port == sensor.path());
+    CHECK(received.sent.empty());
+    REQUIRE(received.frames().size() > 10);
+    CHECK(received.frames()[0] == FakeSensor::values(0));
+}
+
+TEST_CASE("a stream that may be another one is stopped and configured",
+          "[daemon][sensor_link][adoption]") {
+    FakeSensor sensor;
+    ReadQueue queue;
+    const HostClock clock;
+    LinkOptions options = options_for(sensor.path());
+    options.known = known_stream(options, clock, 0);
+    SECTION("its counter is eight seconds off") { options.known->count = 80 * 400; }
+    SECTION("the port was another one") { options.known->header.port = "elsewhere"; }
+    SECTION("it ran under another filter") { options.known->header.filter = "other"; }
+    SECTION("the host was started anew") { options.known->header.boot_id = "other"; }
+    SECTION("another instrument is wanted") {
+        options.known->header.serial_number = "00000099";
+        options.expected_serial_number = "00000042";
+    }
+    bool is_silent = false;
+    SECTION("it is silent") { is_silent = true; }
+    if (!is_silent) sensor.start_sampling();
+    SensorLink link(options, clock, queue);
+    link.start();
+    REQUIRE(eventually([&] { return link.status().sessions == 1; }));
+    CHECK(link.status().adoptions == 0);
+    link.stop();
+    const Received received(queue);
+    REQUIRE(received.sessions.size() == 1);
+    CHECK_FALSE(received.sent.empty());
+    CHECK_FALSE(received.sessions[0].session == options.known->header.session);
 }

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <future>
 #include <memory>
 #include <system_error>
 #include <vector>
@@ -145,6 +146,19 @@ struct Rig {
         }
     }
 };
+
+/// As a start and a stop of the daemon, with no sensor there.
+inline record::RecoveryReport recover(record::FileLayer& files, StoreOptions options,
+                                      const HostClock& clock) {
+    ReadQueue nothing;
+    std::promise<record::RecoveryReport> recovered;
+    options.recovered = [&](const auto& report) { recovered.set_value(report); };
+    Store store(files, std::move(options), clock, nothing);
+    store.start();
+    auto report = recovered.get_future().get();
+    REQUIRE(store.stop());
+    return report;
+}
 
 struct JournalContent {
     std::vector<std::byte> bytes;

@@ -71,9 +71,8 @@ TEST_CASE_METHOD(Rig, "after a crash the next start completes the archive", "[da
 
     StoreOptions again = options();
     again.root = crashed;
-    Store store(files, again, clock, reads);
-    CHECK(store.recovery().journal.has_value());
-    CHECK(store.recovery().records_added > 0);
+    const auto report = recover(files, again, clock);
+    CHECK(report.journal.has_value());
     CHECK(archived_counts(crashed, "BNZ") == expected_counts(kFrames));
 }
 
@@ -114,8 +113,7 @@ TEST_CASE_METHOD(Rig, "an archive that fails to the end is a failure of stop, no
     }
     CHECK(read_journal(root).bytes == bytes);
     files.does_archive_fail = false;
-    const Store again(files, options(), clock, reads);
-    CHECK(again.recovery().records_added > 0);
+    CHECK(recover(files, options(), clock).records_added > 0);
     CHECK(archived_counts(root, "BNZ") == expected_counts(kFrames));
 }
 

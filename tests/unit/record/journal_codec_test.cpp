@@ -56,7 +56,9 @@ TEST_CASE("each kind of chunk comes back as the same bytes", "[record][journal]"
 }
 
 TEST_CASE("a header comes back field by field", "[record][journal]") {
-    const auto header = test::journal_header();
+    auto header = test::journal_header();
+    header.is_device_assumed = true;
+    header.port = "/dev/serial/by-id/adapter";
     const auto read = parse_header(header_to_json(header));
     REQUIRE(read);
     CHECK(read->session == header.session);
@@ -71,10 +73,15 @@ TEST_CASE("a header comes back field by field", "[record][journal]") {
     CHECK(read->burst_ctrl == header.burst_ctrl);
     CHECK(read->baud == header.baud);
     CHECK(read->declared_rate_hz == header.declared_rate_hz);
+    CHECK(read->is_device_assumed);
+    CHECK(read->port == header.port);
     CHECK(read->clock == header.clock);
     auto uncommissioned = header;
     uncommissioned.declared_rate_hz.reset();
     CHECK_FALSE(parse_header(header_to_json(uncommissioned))->declared_rate_hz);
+    const auto as_asked = parse_header(header_to_json(test::journal_header()));
+    CHECK_FALSE(as_asked->is_device_assumed);
+    CHECK(as_asked->port.empty());
 }
 
 TEST_CASE("a serial number that is no text does not stop the header", "[record][journal]") {

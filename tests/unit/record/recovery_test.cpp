@@ -32,6 +32,31 @@ std::vector<JournalChunk> eventful_session() {
     return stream.chunks;
 }
 
+struct Recovered : RecoveryReport {
+    ArchiverCounters replayed;
+};
+
+/// As the daemon does at start, when no more samples come.
+Recovered recover(FileLayer& files, const std::filesystem::path& root) {
+    Recovered report;
+    const Replay replay = begin_recovery(files, root / "journal");
+    ArchiveWriter writer(files, root / "archive", replay.codes);
+    Archiver archiver(writer);
+    const auto take = [&](const JournalChunk& chunk) {
+        archiver.take(chunk);
+        return true;
+    };
+    const bool is_whole = replay_journal(files, root / "archive", replay, writer, take, report);
+    CHECK(is_whole);
+    archiver.close_records();
+    static_cast<void>(writer.sync());
+    report.records_added = writer.records_written();
+    report.records_confirmed = writer.records_passed_over();
+    report.records_conflicting = writer.replay_conflicts();
+    report.replayed = archiver.counters();
+    return report;
+}
+
 void cut_archive(const DataRoot& root, std::mt19937_64& random, bool with_torn_bytes) {
     for (const auto& channel : channels_in(root.archive(), {})) {
         const auto days = day_files(root.archive(), {}, channel);

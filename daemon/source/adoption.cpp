@@ -1,0 +1,97 @@
+#include "daemon/source/adoption.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "daemon/source/read_queue.hpp"
+#include "protocol/timing/sample_index.hpp"
+#include "protocol/wire/burst_decoder.hpp"
+#include "protocol/wire/device_profile.hpp"
+
+namespace a351::daemon {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr int kFramesInStep = 10;
+// Real time; a host that is busy pauses this long.  Several adapters' and frames' periods.
+constexpr milliseconds kLongestSilence{500};
+constexpr int kSilentFrames = 20;
+// Of instrument time: bytes without frames are another baud rate, or layout.
+constexpr std::chrono::seconds kLongestBabble{3};
+
+/// Whether frames go on from a known one, each in step with the one before.
+class Continuation {
+public:
+    Continuation(const record::StreamEnd& known, std::uint16_t count_step)
+        : known_(known), count_step_(count_step) {}
+
+    void take(std::uint16_t count, RawTime arrival) {
+        const bool is_in_step = static_cast<std::uint16_t>(count - last_count_) == count_step_;
+        frames_in_step_ = is_in_step ? frames_in_step_ + 1 : 1;
+        last_count_ = count;
+        last_arrival_ = arrival;
+    }
+    [[nodiscard]] bool is_certain() const { return frames_in_step_ >= kFramesInStep; }
+
+    [[nodiscard]] bool fits() const {
+        using Kind = timing::Placement::Kind;
+        timing::SampleIndex index(count_step_, Hertz(known_.header.output_rate_hz));
+        static_cast<void>(index.place(known_.count, false, known_.arrival));
+        const Kind kind = index.place(last_count_, false, last_arrival_).kind;
+        return kind == Kind::next || kind == Kind::after_gap;
+    }
+
+private:
+    const record::StreamEnd& known_;
+    std::uint16_t count_step_;
+    int frames_in_step_ = 0;
+    std::uint16_t last_count_ = 0;
+    RawTime last_arrival_;
+};
+
+}  // namespace
+
+Listening listen_for(const record::StreamEnd& known, Port& port, const HostClock& clock,
+                     const std::atomic<bool>& stop) {
+    const record::JournalHeader& header = known.header;
+    const int rate_hz = header.output_rate_hz;
+    const auto step = wire::find_profile(header.profile)->count_step(rate_hz);
+    wire::BurstDecoder decoder(*wire::BurstLayout::from_burst_ctrl(header.burst_ctrl), step);
+    Continuation continuation(known, step);
+
+    const auto real = [&](Nanoseconds span) { return clock.real_span(span); };
+    const auto silence =
+        std::max<Nanoseconds>(kLongestSilence, real(from_seconds(1.0 * kSilentFrames / rate_hz)));
+    const auto babble = silence + std::max<Nanoseconds>(silence, real(kLongestBabble));
+    const auto begin = steady_clock::now();
+    auto last_byte = begin;
+
+    Listening listening;
+    std::array<std::byte, ReadQueue::kLargestItem> bytes{};
+    while (!stop && steady_clock::now() - begin < babble) {
+        const auto came = port.read(bytes, std::chrono::ceil<milliseconds>(kLongestSilence / 10));
+        const RawTime time = clock.raw();
+        if (!came) {
+            listening.outcome = Listening::Outcome::port_gone;
+            break;
+        }
+        if (*came == 0) {
+            if (steady_clock::now() - last_byte > silence) break;
+            continue;
+        }
+        last_byte = steady_clock::now();
+        std::span<const std::byte> input = std::span(bytes).first(*came);
+        listening.reads.push_back({time, {input.begin(), input.end()}});
+        while (const auto event = decoder.next(input))
+            if (const auto* frame = std::get_if<wire::BurstFrame>(&*event))
+                continuation.take(frame->values().count, time);
+        if (!continuation.is_certain()) continue;
+        if (continuation.fits()) listening.outcome = Listening::Outcome::goes_on;
+        break;
+    }
+    return listening;
+}
+
+}  // namespace a351::daemon
