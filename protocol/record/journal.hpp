@@ -110,7 +110,27 @@ struct MarkChunk {
     std::vector<ChannelMark> channels;
 };
 
+/// What became of a poll of the oven's controller.
+enum class OvenOutcome : std::uint8_t {
+    answered = 0,
+    timed_out = 1,   ///< No answer, or not all of one, within the time-out.
+    bad_crc = 2,     ///< Bytes that are no frame.
+    exception = 3,   ///< The controller refuses the read.
+    other_unit = 4,  ///< A whole answer of a unit that was not asked.
+    malformed = 5,   ///< A whole answer of the unit asked, but not to this question.
+    no_port = 6,     ///< The port is absent, held by others, or was lost.
+};
+
+/// One poll of the oven's controller.
+struct OvenChunk {
+    RawTime time;  ///< Right after the answer, or when it was given up.
+    OvenOutcome outcome = OvenOutcome::answered;
+    std::uint8_t decimals = 1;  ///< Of process value and set point.
+    /// In the order of oven::Monitor; empty unless answered; at most 255.
+    std::vector<std::uint16_t> registers;
+};
+
 using JournalChunk = std::variant<JournalHeader, RxChunk, TxChunk, timing::ClockReading, ModelChunk,
-                                  EventChunk, MarkChunk>;
+                                  EventChunk, MarkChunk, OvenChunk>;
 
 }  // namespace a351::record

@@ -85,6 +85,10 @@ bool do_reads_fit(const RxChunk& rx) {
     return end > 0 && end == rx.bytes.size();
 }
 
+bool has_registers_by_outcome(const OvenChunk& poll) {
+    return poll.registers.empty() == (poll.outcome != OvenOutcome::answered);
+}
+
 struct PayloadWriter {
     std::vector<std::byte>& out;
 
@@ -143,6 +147,17 @@ struct PayloadWriter {
             put<std::int64_t>(out, channel.utc.time_since_epoch().count());
         }
         return ChunkType::mark;
+    }
+    ChunkType operator()(const OvenChunk& poll) const {
+        if (!has_registers_by_outcome(poll) || poll.registers.size() > 255) {
+            throw std::invalid_argument("OvenChunk: 1-255 registers if answered, else none");
+        }
+        put<std::int64_t>(out, poll.time.time_since_epoch().count());
+        put<std::uint8_t>(out, static_cast<std::uint8_t>(poll.outcome));
+        put<std::uint8_t>(out, poll.decimals);
+        put<std::uint8_t>(out, static_cast<std::uint8_t>(poll.registers.size()));
+        for (const std::uint16_t word : poll.registers) put<std::uint16_t>(out, word);
+        return ChunkType::oven;
     }
 };
 
@@ -211,6 +226,19 @@ std::optional<JournalChunk> decode_mark(Fields fields) {
     return mark;
 }
 
+std::optional<JournalChunk> decode_oven(Fields fields) {
+    OvenChunk poll;
+    poll.time = RawTime(fields.take_nanoseconds());
+    const auto outcome = fields.take<std::uint8_t>();
+    poll.outcome = static_cast<OvenOutcome>(outcome);
+    poll.decimals = fields.take<std::uint8_t>();
+    poll.registers.resize(fields.take<std::uint8_t>());
+    for (std::uint16_t& word : poll.registers) word = fields.take<std::uint16_t>();
+    if (!fields.is_used_up() || !has_registers_by_outcome(poll)) return std::nullopt;
+    if (outcome > static_cast<std::uint8_t>(OvenOutcome::no_port)) return std::nullopt;
+    return poll;
+}
+
 std::vector<std::byte> encode_fields_before_crc(const ChunkHeader& header) {
     std::vector<std::byte> out;
     put<std::uint32_t>(out, header.length);
@@ -272,7 +300,7 @@ std::uint32_t chunk_crc(const ChunkHeader& header, std::span<const std::byte> pa
 
 bool is_known(std::uint8_t type) noexcept {
     return type >= static_cast<std::uint8_t>(ChunkType::head) &&
-           type <= static_cast<std::uint8_t>(ChunkType::mark);
+           type <= static_cast<std::uint8_t>(ChunkType::oven);
 }
 
 std::optional<JournalChunk> decode_payload(ChunkType type, std::span<const std::byte> payload) {
@@ -294,6 +322,8 @@ std::optional<JournalChunk> decode_payload(ChunkType type, std::span<const std::
             return EventChunk{to_text(payload)};
         case ChunkType::mark:
             return decode_mark(Fields(payload));
+        case ChunkType::oven:
+            return decode_oven(Fields(payload));
     }
     return std::nullopt;
 }

@@ -19,7 +19,7 @@ inline constexpr std::uint32_t kJournalVersion = 1;
 inline constexpr std::size_t kPreambleSize = 12;     ///< Magic and version.
 inline constexpr std::size_t kChunkHeaderSize = 13;  ///< length, type, sequence, CRC-32C.
 
-/// Code of a chunk on disk.  8 is reserved for the oven.
+/// Code of a chunk on disk.
 enum class ChunkType : std::uint8_t {
     head = 1,
     rx = 2,
@@ -28,6 +28,7 @@ enum class ChunkType : std::uint8_t {
     model = 5,
     event = 6,
     mark = 7,
+    oven = 8,
 };
 
 /// The fields before a payload.
@@ -44,7 +45,8 @@ struct ChunkHeader {
 
 /// The whole chunk, header and payload.
 /// @throws std::invalid_argument  the payload exceeds kMostPayloadBytes; the reads of an RxChunk do
-///         not ascend to its last byte; a channel name exceeds 255 characters.
+///         not ascend to its last byte; a channel name exceeds 255 characters; an OvenChunk has
+///         registers without an answer, or more than 255.
 [[nodiscard]] std::vector<std::byte> encode_chunk(const JournalChunk& chunk,
                                                   std::uint32_t sequence);
 

@@ -142,6 +142,41 @@ TEST_CASE("a read count larger than the payload is refused before memory is take
     CHECK_FALSE(decode_payload(ChunkType::rx, payload));
 }
 
+TEST_CASE("a poll of the oven comes back field by field", "[record][journal]") {
+    for (const OvenOutcome outcome :
+         {OvenOutcome::answered, OvenOutcome::timed_out, OvenOutcome::bad_crc,
+          OvenOutcome::exception, OvenOutcome::other_unit, OvenOutcome::malformed,
+          OvenOutcome::no_port}) {
+        OvenChunk poll{RawTime(Nanoseconds(-7)), outcome, 2, {}};
+        if (outcome == OvenOutcome::answered) poll.registers = {0xFF9C, 0x8001, 0x01A9};
+        const auto bytes = encode_chunk(poll, 1);
+        const auto decoded = decode_payload(ChunkType::oven, payload_of(bytes));
+        REQUIRE(decoded);
+        const auto& read = std::get<OvenChunk>(*decoded);
+        CHECK(read.time == poll.time);
+        CHECK(read.outcome == outcome);
+        CHECK(read.decimals == 2);
+        CHECK(read.registers == poll.registers);
+    }
+}
+
+TEST_CASE("a poll of unknown outcome, or with registers nobody answered, is refused",
+          "[record][journal]") {
+    const OvenChunk silent{RawTime(), OvenOutcome::timed_out, 1, {}};
+    const auto bytes = encode_chunk(silent, 1);
+    std::vector<std::byte> payload(bytes.begin() + kChunkHeaderSize, bytes.end());
+    payload[8] = std::byte{7};  // One more than no_port.
+    CHECK_FALSE(decode_payload(ChunkType::oven, payload));
+    payload[8] = std::byte{0};  // Answered, but with nothing.
+    CHECK_FALSE(decode_payload(ChunkType::oven, payload));
+    CHECK_THROWS_AS(encode_chunk(OvenChunk{RawTime(), OvenOutcome::bad_crc, 1, {425}}, 1),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(
+        encode_chunk(
+            OvenChunk{RawTime(), OvenOutcome::answered, 1, std::vector<std::uint16_t>(256)}, 1),
+        std::invalid_argument);
+}
+
 TEST_CASE("a chunk that breaks its promise is not written", "[record][journal]") {
     RxChunk rx = test::rx_chunk("ab", "c");
     rx.reads.back().end = 2;

@@ -61,6 +61,10 @@ namespace a351::test {
     MarkChunk mark{journal_header().session,
                    {{"BNZ", 4500, *parse_rfc3339("2026-03-01T13:01:30Z")},
                     {"LK1", 89, *parse_rfc3339("2026-03-01T13:01:29.5Z")}}};
+    const OvenChunk poll{RawTime(std::chrono::milliseconds(1'102'000)),
+                         OvenOutcome::answered,
+                         1,
+                         {425, 0x0100, 425, 0, 250}};
     return {journal_header(),
             tx,
             clock_reading(1001, "2026-03-01T13:00:01.000000001Z"),
@@ -69,7 +73,8 @@ namespace a351::test {
                      "DEF\r"),
             model,
             EventChunk{R"({"type":"note","utc":"2026-03-01T13:01:00Z","note":"wind"})"},
-            mark};
+            mark,
+            poll};
 }
 
 }  // namespace a351::test
