@@ -120,6 +120,7 @@ enum class OvenOutcome : std::uint8_t {
     malformed = 5,   ///< A whole answer of the unit asked, but not to this question.
     no_port = 6,     ///< The port is absent, held by others, or was lost.
 };
+inline constexpr std::size_t kOvenOutcomeCount = 7;
 
 /// One poll of the oven's controller.
 struct OvenChunk {

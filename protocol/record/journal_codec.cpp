@@ -235,7 +235,7 @@ std::optional<JournalChunk> decode_oven(Fields fields) {
     poll.registers.resize(fields.take<std::uint8_t>());
     for (std::uint16_t& word : poll.registers) word = fields.take<std::uint16_t>();
     if (!fields.is_used_up() || !has_registers_by_outcome(poll)) return std::nullopt;
-    if (outcome > static_cast<std::uint8_t>(OvenOutcome::no_port)) return std::nullopt;
+    if (outcome >= kOvenOutcomeCount) return std::nullopt;
     return poll;
 }
 

@@ -1,0 +1,149 @@
+#include "daemon/source/modbus_line.hpp"
+
+#include <fcntl.h>
+#include <modbus/modbus.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <array>
+#include <boost/crc.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+#include "daemon/source/port.hpp"
+
+namespace a351::daemon {
+namespace {
+
+using record::OvenOutcome;
+
+constexpr std::uint8_t kReadRegisters = 0x03;
+constexpr std::uint8_t kException = 0x80;
+// Unit, function, number of bytes in front; CRC behind.  An exception has as many.
+constexpr std::size_t kFrameOverhead = 5;
+
+using Frame = std::array<std::uint8_t, MODBUS_RTU_MAX_ADU_LENGTH>;
+
+/// CRC of Modbus over Serial Line V1.02, section 2.5.1.2; over a frame and its own it is 0.
+bool is_sealed(const Frame& frame, std::size_t size) {
+    boost::crc_optimal<16, 0x8005, 0xFFFF, 0, true, true> crc;
+    crc.process_bytes(frame.data(), size);
+    return crc.checksum() == 0;
+}
+
+// libmodbus looks at the CRC only if the unit is right: of noise it says that another unit
+// answered.
+ModbusLine::Answer answer_of_others(const Frame& frame) {
+    const std::size_t size = kFrameOverhead + (frame[1] == kReadRegisters ? frame[2] : 0U);
+    if (size > frame.size() || !is_sealed(frame, size)) {
+        return {OvenOutcome::bad_crc, {}, "bytes that are no frame"};
+    }
+    return {OvenOutcome::other_unit, {}, "unit " + std::to_string(frame[0]) + " answered"};
+}
+
+ModbusLine::Answer answer_in(const Frame& frame, std::size_t size, std::size_t count) {
+    if (size == kFrameOverhead && frame[1] == (kReadRegisters | kException)) {
+        return {OvenOutcome::exception, {}, "exception " + std::to_string(frame[2])};
+    }
+    if (frame[1] != kReadRegisters || size != kFrameOverhead + 2 * count || frame[2] != 2 * count) {
+        return {OvenOutcome::malformed, {}, "the answer does not fit the question"};
+    }
+    ModbusLine::Answer answer{OvenOutcome::answered, {}, {}};
+    for (std::size_t i = 0; i < count; ++i) {
+        answer.words.push_back(
+            static_cast<std::uint16_t>(frame.at(3 + 2 * i) << 8 | frame.at(4 + 2 * i)));
+    }
+    return answer;
+}
+
+ModbusLine::Answer failure(int error) {
+    switch (error) {
+        case ETIMEDOUT:
+            return {OvenOutcome::timed_out, {}, "no answer in time"};
+        case EMBBADCRC:
+            return {OvenOutcome::bad_crc, {}, "wrong CRC"};
+        case EMBBADDATA:  // Its length says more than a frame may hold.
+            return {OvenOutcome::bad_crc, {}, "bytes that are no frame"};
+        default:
+            return {OvenOutcome::no_port, {}, std::generic_category().message(error)};
+    }
+}
+
+}  // namespace
+
+struct ModbusLine::Connection {
+    int lock = -1;
+    modbus_t* context = nullptr;
+
+    Connection() = default;
+    Connection(const Connection&) = delete;
+    Connection& operator=(const Connection&) = delete;
+    ~Connection() {
+        if (context != nullptr) {
+            modbus_close(context);
+            modbus_free(context);
+        }
+        if (lock >= 0) close(lock);
+    }
+};
+
+ModbusLine::ModbusLine(const Settings& settings)
+    : unit_(settings.unit), connection_(std::make_unique<Connection>()) {
+    std::error_code error;
+    const auto device = std::filesystem::canonical(settings.port, error);
+    if (error) {
+        throw PortError(PortError::Kind::absent, settings.port.string() + ": " + error.message());
+    }
+    // Manuals give two stop bits without parity; who sends two is understood by who expects one,
+    // and a receiver looks at the first only.
+    const int stop_bits = settings.parity == 'N' ? 2 : 1;
+    description_ = device.string() + ", " + std::to_string(settings.baud) + " baud 8" +
+                   settings.parity + std::to_string(stop_bits);
+
+    // libmodbus opens the path itself; the lock must be held before it changes the settings.
+    connection_->lock = open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    if (connection_->lock < 0) {
+        throw PortError(errno == EBUSY ? PortError::Kind::locked : PortError::Kind::absent,
+                        device.string() + ": " + std::generic_category().message(errno));
+    }
+    if (isatty(connection_->lock) == 0) {
+        throw PortError(PortError::Kind::settings, device.string() + ": not a port");
+    }
+    if (flock(connection_->lock, LOCK_EX | LOCK_NB) != 0) {
+        throw PortError(PortError::Kind::locked, device.string() + ": somebody else holds it");
+    }
+    connection_->context =
+        modbus_new_rtu(device.c_str(), settings.baud, settings.parity, 8, stop_bits);
+    if (connection_->context == nullptr || modbus_connect(connection_->context) != 0) {
+        throw PortError(PortError::Kind::settings,
+                        description_ + ": " + std::generic_category().message(errno));
+    }
+    modbus_set_slave(connection_->context, settings.unit);
+    using std::chrono::microseconds;
+    modbus_set_response_timeout(connection_->context, 0,
+                                static_cast<std::uint32_t>(microseconds(kResponseTimeout).count()));
+    // Without one of its own for each byte the time-out holds for the answer as a whole.
+    modbus_set_byte_timeout(connection_->context, 0, 0);
+}
+
+ModbusLine::~ModbusLine() = default;
+
+ModbusLine::Answer ModbusLine::read(std::uint16_t address, std::size_t count) {
+    modbus_t* const context = connection_->context;
+    const std::array<std::uint8_t, 6> request{static_cast<std::uint8_t>(unit_),
+                                              kReadRegisters,
+                                              static_cast<std::uint8_t>(address >> 8),
+                                              static_cast<std::uint8_t>(address & 0xFF),
+                                              0,
+                                              static_cast<std::uint8_t>(count)};
+    modbus_flush(context);
+    Frame frame{};
+    if (modbus_send_raw_request(context, request.data(), request.size()) < 0) return failure(errno);
+    const int size = modbus_receive_confirmation(context, frame.data());
+    if (size < 0) return failure(errno);
+    if (frame[0] != unit_) return answer_of_others(frame);
+    return answer_in(frame, static_cast<std::size_t>(size), count);
+}
+
+}  // namespace a351::daemon

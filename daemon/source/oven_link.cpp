@@ -1,0 +1,206 @@
+#include "daemon/source/oven_link.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "daemon/source/port.hpp"
+#include "protocol/oven/registers.hpp"
+
+namespace a351::daemon {
+namespace {
+
+using record::OvenOutcome;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using std::chrono::steady_clock;
+
+// At 9600 baud an answer takes some 60 ms.
+constexpr milliseconds kShortestRealInterval{100};
+// H175-E1, section 2: 2 ms at least between an answer and the next request.
+constexpr milliseconds kPause{10};
+constexpr int kPollsUntilStale = 3;
+constexpr int kDecimalTries = 3;
+// Of instrument time.
+constexpr std::array kBackOff{seconds(1), seconds(2), seconds(5), seconds(10), seconds(30)};
+constexpr milliseconds kShortestRealBackOff{50};
+
+OvenLinkStatus::State state_after(OvenOutcome outcome) {
+    switch (outcome) {
+        case OvenOutcome::answered:
+            return OvenLinkStatus::State::answering;
+        case OvenOutcome::no_port:
+            return OvenLinkStatus::State::searching;
+        case OvenOutcome::timed_out:
+            return OvenLinkStatus::State::silent;
+        case OvenOutcome::bad_crc:
+        case OvenOutcome::exception:
+        case OvenOutcome::other_unit:
+        case OvenOutcome::malformed:
+            break;
+    }
+    return OvenLinkStatus::State::disturbed;
+}
+
+}  // namespace
+
+const char* to_text(OvenLinkStatus::State state) noexcept {
+    switch (state) {
+        case OvenLinkStatus::State::searching:
+            return "searching";
+        case OvenLinkStatus::State::silent:
+            return "silent";
+        case OvenLinkStatus::State::disturbed:
+            return "disturbed";
+        case OvenLinkStatus::State::answering:
+            return "answering";
+    }
+    return "";
+}
+
+const char* to_text(OvenOutcome outcome) noexcept {
+    switch (outcome) {
+        case OvenOutcome::answered:
+            return "answered";
+        case OvenOutcome::timed_out:
+            return "timed_out";
+        case OvenOutcome::bad_crc:
+            return "bad_crc";
+        case OvenOutcome::exception:
+            return "exception";
+        case OvenOutcome::other_unit:
+            return "other_unit";
+        case OvenOutcome::malformed:
+            return "malformed";
+        case OvenOutcome::no_port:
+            return "no_port";
+    }
+    return "";
+}
+
+OvenLink::OvenLink(OvenLinkOptions options, const HostClock& clock, Hook hook)
+    : options_(std::move(options)),
+      clock_(clock),
+      hook_(std::move(hook)),
+      real_interval_(
+          std::max<Nanoseconds>(kShortestRealInterval, clock.real_span(options_.poll_interval))),
+      // A poll can last until its time-out, which is of real time.
+      stale_after_(
+          kPollsUntilStale *
+          std::max(options_.poll_interval,
+                   clock.instrument_span(kShortestRealInterval + ModbusLine::kResponseTimeout))),
+      decimals_(options_.decimals) {}
+
+OvenLink::~OvenLink() { stop(); }
+
+void OvenLink::start() {
+    thread_ = std::thread([this] { run(); });
+}
+
+void OvenLink::stop() {
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+    }
+    woken_.notify_all();
+    if (thread_.joinable()) thread_.join();
+}
+
+OvenLinkStatus OvenLink::status() const {
+    const std::lock_guard lock(mutex_);
+    OvenLinkStatus status = status_;
+    const RawTime now = clock_.raw();
+    if (answered_at_) status.age = now - *answered_at_;
+    status.is_stale = is_stale(now);
+    return status;
+}
+
+bool OvenLink::is_stale(RawTime now) const {
+    return !answered_at_ || now - *answered_at_ > stale_after_;
+}
+
+void OvenLink::run() noexcept {
+    while (!stop_) {
+        const auto begun = steady_clock::now();
+        bool is_answered = false;
+        try {
+            is_answered = poll();
+        } catch (const std::exception& error) {
+            const std::lock_guard lock(mutex_);
+            status_.trouble = error.what();
+        }
+        if (is_answered) {
+            failures_in_a_row_ = 0;
+            wait_until(std::max(begun + real_interval_, steady_clock::now() + kPause));
+            continue;
+        }
+        line_.reset();
+        const Nanoseconds back_off = kBackOff[std::min(failures_in_a_row_++, kBackOff.size() - 1)];
+        wait_until(steady_clock::now() +
+                   std::max<Nanoseconds>(kShortestRealBackOff, clock_.real_span(back_off)));
+    }
+    line_.reset();
+}
+
+bool OvenLink::poll() {
+    ModbusLine::Answer answer = read_monitors();
+    record::OvenChunk poll{clock_.raw(), answer.outcome, 0, std::move(answer.words)};
+    const bool is_answered = answer.outcome == OvenOutcome::answered;
+    if (is_answered && !stop_) ask_decimals();
+    poll.decimals = static_cast<std::uint8_t>(decimals_);
+    note(poll, answer.trouble);
+    hook_(std::move(poll));
+    return is_answered;
+}
+
+ModbusLine::Answer OvenLink::read_monitors() {
+    try {
+        if (!line_) {
+            line_ = std::make_unique<ModbusLine>(options_.line);
+            decimal_tries_left_ = kDecimalTries;
+            const std::lock_guard lock(mutex_);
+            status_.port = line_->description();
+        }
+        return line_->read(oven::kFirstMonitor, oven::kMonitorCount);
+    } catch (const PortError& error) {
+        return {OvenOutcome::no_port, {}, error.what()};
+    }
+}
+
+// Only a controller that answers is asked, so that a silent one costs one time-out; what it does
+// not tell costs none of its other values.
+void OvenLink::ask_decimals() {
+    if (decimal_tries_left_ == 0) return;
+    --decimal_tries_left_;
+    std::this_thread::sleep_for(kPause);
+    const ModbusLine::Answer answer = line_->read(oven::kDecimalPoint, 1);
+    if (answer.outcome == OvenOutcome::answered) {
+        decimal_tries_left_ = 0;
+        const bool is_known = answer.words.front() <= oven::kMostDecimals;
+        decimals_ = is_known ? answer.words.front() : options_.decimals;
+    } else if (answer.outcome == OvenOutcome::exception) {  // This model has no such register.
+        decimal_tries_left_ = 0;
+        decimals_ = options_.decimals;
+    }
+}
+
+void OvenLink::note(const record::OvenChunk& poll, const std::string& trouble) {
+    const std::lock_guard lock(mutex_);
+    ++status_.polls.at(static_cast<std::size_t>(poll.outcome));
+    status_.trouble = trouble;
+    if (poll.outcome == OvenOutcome::no_port) status_.port.clear();
+    if (poll.outcome == OvenOutcome::answered) {
+        answered_at_ = poll.time;
+        status_.decimals = poll.decimals;
+        status_.values = oven::controller_values(poll.registers, poll.decimals);
+    } else if (poll.outcome != OvenOutcome::no_port && !is_stale(poll.time)) {
+        return;  // One lost answer is no change of state.
+    }
+    status_.state = state_after(poll.outcome);
+}
+
+void OvenLink::wait_until(steady_clock::time_point instant) {
+    std::unique_lock lock(mutex_);
+    woken_.wait_until(lock, instant, [this] { return stop_.load(); });
+}
+
+}  // namespace a351::daemon

@@ -1,0 +1,96 @@
+#pragma once
+/// @file
+/// The oven's thread: asks the temperature controller for its values at regular intervals, hands
+/// each poll on, and begins anew with the port when one fails.  It only ever reads, and shares
+/// nothing with the sensor's reader.
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "daemon/source/host_clock.hpp"
+#include "daemon/source/modbus_line.hpp"
+#include "protocol/oven/controller_values.hpp"
+#include "protocol/record/journal.hpp"
+
+namespace a351::daemon {
+
+struct OvenLinkOptions {
+    ModbusLine::Settings line = {};
+    /// From poll to poll, of instrument time; but at least 100 ms of real time.
+    Nanoseconds poll_interval = std::chrono::seconds(1);
+    int decimals = 1;  ///< Of a controller that does not tell, 0 ... 3.
+};
+
+struct OvenLinkStatus {
+    enum class State {
+        searching,  ///< The port is not there or cannot be had.
+        silent,     ///< No answer.
+        disturbed,  ///< Something comes, but no answer.
+        answering   ///< Until the last answer is stale.
+    };
+    State state = State::searching;
+    std::string trouble = "not asked yet";         ///< Of the last poll; empty if answered.
+    std::string port;                              ///< Its description while there is one.
+    std::optional<oven::ControllerValues> values;  ///< Of the last answer.
+    int decimals = 1;                              ///< Of process value and set point.
+    std::optional<Nanoseconds> age;                ///< Of the last answer, instrument time.
+    bool is_stale = true;                          ///< Older than three polls, or none.
+    std::array<std::uint64_t, record::kOvenOutcomeCount> polls{};  ///< By outcome.
+};
+
+[[nodiscard]] const char* to_text(OvenLinkStatus::State state) noexcept;
+[[nodiscard]] const char* to_text(record::OvenOutcome outcome) noexcept;
+
+class OvenLink {
+public:
+    using Hook = std::function<void(record::OvenChunk)>;
+
+    /// `clock` must outlive this.
+    /// @param hook  takes each poll, in the oven's thread.
+    OvenLink(OvenLinkOptions options, const HostClock& clock, Hook hook);
+    ~OvenLink();
+
+    void start();
+
+    /// Ends the thread, within ModbusLine::kResponseTimeout.
+    void stop();
+
+    [[nodiscard]] OvenLinkStatus status() const;
+
+private:
+    void run() noexcept;
+    [[nodiscard]] bool poll();
+    [[nodiscard]] ModbusLine::Answer read_monitors();
+    void ask_decimals();
+    void note(const record::OvenChunk& poll, const std::string& trouble);
+    void wait_until(std::chrono::steady_clock::time_point instant);
+    [[nodiscard]] bool is_stale(RawTime now) const;
+
+    OvenLinkOptions options_;
+    const HostClock& clock_;
+    Hook hook_;
+    Nanoseconds real_interval_;
+    Nanoseconds stale_after_;  ///< Of instrument time.
+    std::unique_ptr<ModbusLine> line_;
+    int decimals_;
+    int decimal_tries_left_ = 0;  ///< In this connection; 0 once it is answered or refused.
+    std::size_t failures_in_a_row_ = 0;
+
+    std::atomic<bool> stop_{false};
+    mutable std::mutex mutex_;  ///< Of all below; never held while the port is read.
+    std::condition_variable woken_;
+    OvenLinkStatus status_;
+    std::optional<RawTime> answered_at_;
+    std::thread thread_;
+};
+
+}  // namespace a351::daemon

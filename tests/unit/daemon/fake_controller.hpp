@@ -1,0 +1,124 @@
+#pragma once
+/// @file
+/// A temperature controller on a pseudo-terminal that answers, or fails to, as it is told.
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "sim/oven/modbus_frame.hpp"
+#include "tests/unit/daemon/pty.hpp"
+
+namespace a351 {
+
+class FakeController {
+public:
+    enum class Manner {
+        good,
+        mute,
+        half,           ///< The first half of the answer only.
+        bad_crc,        ///< One bit of the CRC is wrong.
+        refused,        ///< Exception 02.
+        other_unit,     ///< As if from the next unit.
+        babble,         ///< 64 bytes that look like another unit's, but for the CRC.
+        own_babble,     ///< The same, as if from this unit.
+        other_question  ///< Fewer registers than were asked for.
+    };
+    std::atomic<Manner> manner{Manner::good};           ///< For 2000h.
+    std::atomic<Manner> decimals_manner{Manner::good};  ///< For 2410h.
+    std::atomic<std::uint16_t> decimals{1};
+    std::atomic<int> polls{0}, decimal_requests{0};
+    std::atomic<int> other_requests{0};  ///< Other functions, addresses or counts.
+
+    FakeController() : thread_([this] { run(); }) {}
+    ~FakeController() { switch_off(); }
+    FakeController(const FakeController&) = delete;
+    FakeController& operator=(const FakeController&) = delete;
+
+    [[nodiscard]] const std::string& path() const noexcept { return pty_.path(); }
+
+    /// The terminal goes, as with an adapter that is pulled out.
+    void switch_off() {
+        stop_ = true;
+        if (thread_.joinable()) thread_.join();
+        pty_.close_master();
+    }
+
+private:
+    using Bytes = std::vector<std::byte>;
+
+    void run() {
+        Bytes received;
+        while (!stop_) {
+            const auto bytes = pty_.read(std::chrono::milliseconds(2));
+            // Without a host the terminal is always readable.
+            if (bytes.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            received.insert(received.end(), bytes.begin(), bytes.end());
+            if (received.size() < 8) continue;
+            const Bytes answer = answer_to(std::exchange(received, {}));
+            if (!answer.empty()) pty_.write(answer);
+        }
+    }
+
+    Bytes answer_to(const Bytes& request) {
+        if (request == sim::sealed(frame({0x01, 0x03, 0x20, 0x00, 0x00, 0x05}))) {
+            ++polls;
+            return spoil(manner, frame({0x01, 0x03, 0x0A, 0x01, 0xA9, 0x01, 0x00, 0x01, 0xA9, 0x00,
+                                        0x00, 0x00, 0xFA}));
+        }
+        if (request == sim::sealed(frame({0x01, 0x03, 0x24, 0x10, 0x00, 0x01}))) {
+            ++decimal_requests;
+            Bytes answer = frame({0x01, 0x03, 0x02});
+            sim::append_word(answer, decimals);
+            return spoil(decimals_manner, answer);
+        }
+        ++other_requests;
+        return {};
+    }
+
+    static Bytes spoil(Manner how, Bytes answer) {
+        switch (how) {
+            case Manner::good:
+                break;
+            case Manner::mute:
+                return {};
+            case Manner::half:
+                answer.resize(answer.size() / 2);
+                return answer;
+            case Manner::bad_crc:
+                answer = sim::sealed(std::move(answer));
+                answer.back() ^= std::byte{1};
+                return answer;
+            case Manner::refused:
+                answer = frame({0x01, 0x83, 0x02});
+                break;
+            case Manner::other_unit:
+                answer.front() = std::byte{2};
+                break;
+            case Manner::babble:
+                return Bytes(64, std::byte{0x03});
+            case Manner::own_babble:
+                return Bytes(64, std::byte{0x01});
+            case Manner::other_question:
+                answer = frame({0x01, 0x03, 0x04, 0x01, 0xA9, 0x01, 0x00});
+                break;
+        }
+        return sim::sealed(std::move(answer));
+    }
+
+    static Bytes frame(std::initializer_list<int> values) {
+        Bytes bytes;
+        for (const int value : values) bytes.push_back(static_cast<std::byte>(value));
+        return bytes;
+    }
+
+    Pty pty_;
+    std::atomic<bool> stop_{false};
+    std::thread thread_;
+};
+
+}  // namespace a351

@@ -1,0 +1,219 @@
+#include "daemon/source/oven_link.hpp"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <mutex>
+#include <vector>
+
+#include "daemon/source/port.hpp"
+#include "tests/unit/daemon/fake_controller.hpp"
+#include "tests/unit/daemon/fake_sensor.hpp"
+#include "tests/unit/daemon/temporary_directory.hpp"
+
+using namespace a351;
+using namespace a351::daemon;
+using record::OvenChunk;
+using record::OvenOutcome;
+using Manner = FakeController::Manner;
+using State = OvenLinkStatus::State;
+
+namespace {
+
+/// The link to a controller, and what it hands on.
+class Rig {
+public:
+    FakeController controller;
+
+    explicit Rig(std::filesystem::path port = {})
+        : link({.line = {.port = port.empty() ? std::filesystem::path(controller.path()) : port,
+                         .parity = 'N'},
+                .decimals = 1},
+               clock_, [this](OvenChunk poll) {
+                   const std::lock_guard lock(mutex_);
+                   polls_.push_back(std::move(poll));
+               }) {}
+
+    [[nodiscard]] std::vector<OvenChunk> polls() const {
+        const std::lock_guard lock(mutex_);
+        return polls_;
+    }
+    [[nodiscard]] std::uint64_t count(OvenOutcome outcome) const {
+        return link.status().polls.at(static_cast<std::size_t>(outcome));
+    }
+    [[nodiscard]] bool reaches(OvenOutcome outcome, std::uint64_t more = 1) const {
+        const auto before = count(outcome);
+        return eventually([&] { return count(outcome) >= before + more; });
+    }
+
+private:
+    // Fast, so that backing off takes its shortest time.
+    HostClock clock_{ClockScale{1000.0, *parse_rfc3339("2026-03-01T00:00:00Z"), host_realtime()}};
+    mutable std::mutex mutex_;
+    std::vector<OvenChunk> polls_;
+
+public:
+    OvenLink link;  // The last, so that its thread ends first.
+};
+
+}  // namespace
+
+TEST_CASE("a controller is asked for its values again and again, and for nothing else",
+          "[daemon][oven_link]") {
+    Rig rig;
+    CHECK(rig.link.status().is_stale);
+    CHECK_FALSE(rig.link.status().age);
+    rig.link.start();
+    REQUIRE(rig.reaches(OvenOutcome::answered, 3));
+    const auto status = rig.link.status();
+    rig.link.stop();
+
+    CHECK(status.state == State::answering);
+    CHECK(status.trouble.empty());
+    CHECK(status.port == rig.controller.path() + ", 9600 baud 8N2");
+    REQUIRE(status.values);
+    CHECK(status.values->process_value == DegC(42.5));
+    CHECK(status.values->set_point == DegC(42.5));
+    CHECK(status.values->heating == Percent(25.0));
+    CHECK(status.values->status == 0x0100);
+    CHECK(status.age);
+    CHECK_FALSE(status.is_stale);
+
+    const auto polls = rig.polls();
+    CHECK(polls.size() == static_cast<std::size_t>(rig.controller.polls));
+    for (const OvenChunk& poll : polls) {
+        CHECK(poll.outcome == OvenOutcome::answered);
+        CHECK(poll.decimals == 1);
+        CHECK(poll.registers == std::vector<std::uint16_t>{425, 0x0100, 425, 0, 250});
+    }
+    for (std::size_t i = 1; i < polls.size(); ++i) CHECK(polls[i].time > polls[i - 1].time);
+    CHECK(rig.controller.decimal_requests == 1);
+    CHECK(rig.controller.other_requests == 0);
+}
+
+TEST_CASE("each way of not answering has its own counter, and the next answer is taken",
+          "[daemon][oven_link]") {
+    const auto [manner, outcome] =
+        GENERATE(table<Manner, OvenOutcome>({{Manner::mute, OvenOutcome::timed_out},
+                                             {Manner::half, OvenOutcome::timed_out},
+                                             {Manner::bad_crc, OvenOutcome::bad_crc},
+                                             {Manner::babble, OvenOutcome::bad_crc},
+                                             {Manner::own_babble, OvenOutcome::bad_crc},
+                                             {Manner::refused, OvenOutcome::exception},
+                                             {Manner::other_unit, OvenOutcome::other_unit},
+                                             {Manner::other_question, OvenOutcome::malformed}}));
+    CAPTURE(static_cast<int>(manner));
+    Rig rig;
+    rig.link.start();
+    REQUIRE(rig.reaches(OvenOutcome::answered));
+    rig.controller.manner = manner;
+    REQUIRE(rig.reaches(outcome, 2));
+    rig.controller.manner = Manner::good;
+    REQUIRE(rig.reaches(OvenOutcome::answered));
+    CHECK(rig.link.status().state == State::answering);
+    rig.link.stop();
+
+    std::array<std::uint64_t, record::kOvenOutcomeCount> handed_on{};
+    for (const OvenChunk& poll : rig.polls()) {
+        ++handed_on.at(static_cast<std::size_t>(poll.outcome));
+        CHECK(poll.registers.empty() == (poll.outcome != OvenOutcome::answered));
+    }
+    CHECK(handed_on == rig.link.status().polls);
+    CHECK(rig.count(OvenOutcome::answered) + rig.count(outcome) == rig.polls().size());
+    CHECK(rig.controller.other_requests == 0);
+}
+
+TEST_CASE("one lost answer is no change of state, a last answer that has grown old is",
+          "[daemon][oven_link]") {
+    Rig rig;
+    rig.link.start();
+    REQUIRE(rig.reaches(OvenOutcome::answered));
+    rig.controller.manner = Manner::mute;
+    REQUIRE(rig.reaches(OvenOutcome::timed_out));
+    auto status = rig.link.status();
+    CHECK((status.state == State::answering || status.is_stale));
+    CHECK(status.trouble == "no answer in time");
+
+    REQUIRE(eventually([&] { return rig.link.status().state == State::silent; }));
+    status = rig.link.status();
+    CHECK(status.is_stale);
+    REQUIRE(status.values);  // As a last value with its age, which says that it is old.
+    CHECK(status.values->process_value == DegC(42.5));
+}
+
+TEST_CASE("the controller's own decimals come before the configured ones", "[daemon][oven_link]") {
+    Rig rig;
+    rig.controller.decimals = 2;
+    rig.link.start();
+    REQUIRE(rig.reaches(OvenOutcome::answered));
+    CHECK(rig.link.status().decimals == 2);
+    CHECK(rig.link.status().values->process_value == DegC(4.25));
+    CHECK(rig.polls().front().decimals == 2);
+}
+
+TEST_CASE("decimals that are not told, or cannot be, leave the configured ones and every value",
+          "[daemon][oven_link]") {
+    Rig rig;
+    SECTION("no such register") { rig.controller.decimals_manner = Manner::refused; }
+    SECTION("a number that makes no sense") { rig.controller.decimals = 425; }
+    SECTION("silence") { rig.controller.decimals_manner = Manner::mute; }
+    rig.link.start();
+    REQUIRE(rig.reaches(OvenOutcome::answered, 5));
+    rig.link.stop();
+    CHECK(rig.controller.decimal_requests <= 3);
+    CHECK(rig.count(OvenOutcome::answered) == rig.polls().size());
+    for (const OvenChunk& poll : rig.polls()) CHECK(poll.decimals == 1);
+}
+
+TEST_CASE("a controller that comes back under another name is found through its link",
+          "[daemon][oven_link]") {
+    const TemporaryDirectory directory;
+    const auto port = directory.path() / "oven";
+    Rig rig(port);
+    rig.link.start();
+    REQUIRE(rig.reaches(OvenOutcome::no_port));
+    CHECK(rig.link.status().state == State::searching);
+    CHECK(rig.link.status().port.empty());
+
+    std::filesystem::create_symlink(rig.controller.path(), port);
+    REQUIRE(rig.reaches(OvenOutcome::answered));
+    rig.controller.switch_off();
+    REQUIRE(rig.reaches(OvenOutcome::no_port));
+    CHECK(rig.link.status().state == State::searching);
+
+    FakeController other;
+    std::filesystem::remove(port);
+    std::filesystem::create_symlink(other.path(), port);
+    REQUIRE(rig.reaches(OvenOutcome::answered));
+    CHECK(rig.link.status().port.starts_with(other.path() + ","));
+    rig.link.stop();
+}
+
+TEST_CASE("a port is one link's alone", "[daemon][oven_link]") {
+    Rig rig;
+    const auto sensor = open_port({rig.controller.path(), {}}, 460800);
+    rig.link.start();
+    REQUIRE(rig.reaches(OvenOutcome::no_port));
+    CHECK(rig.link.status().trouble == rig.controller.path() + ": somebody else holds it");
+    CHECK(rig.controller.polls == 0);
+    rig.link.stop();
+
+    const FakeController other;
+    const ModbusLine::Settings settings{.port = other.path(), .parity = 'N'};
+    const ModbusLine line(settings);
+    CHECK_THROWS_AS(ModbusLine(settings), PortError);
+    CHECK_THROWS_AS(open_port({other.path(), {}}, 460800), PortError);
+}
+
+TEST_CASE("what came unasked is not taken for the answer", "[daemon][oven_link]") {
+    FakeController controller;
+    ModbusLine line({.port = controller.path(), .parity = 'N'});
+    controller.manner = Manner::babble;  // libmodbus reads eight of its 64 bytes.
+    CHECK(line.read(oven::kFirstMonitor, oven::kMonitorCount).outcome == OvenOutcome::bad_crc);
+    controller.manner = Manner::good;
+    CHECK(line.read(oven::kFirstMonitor, oven::kMonitorCount).words.size() == oven::kMonitorCount);
+}
+
+TEST_CASE("what is no port, or does not take the settings, is refused", "[daemon][oven_link]") {
+    CHECK_THROWS_AS(ModbusLine({.port = "/dev/null"}), PortError);
+    CHECK_THROWS_AS(ModbusLine({.port = "/nonexistent/oven"}), PortError);
+}
