@@ -16,6 +16,7 @@
 #include "daemon/page/server.hpp"
 #include "daemon/page/status.hpp"
 #include "daemon/source/host_clock.hpp"
+#include "daemon/source/oven_link.hpp"
 #include "daemon/source/read_queue.hpp"
 #include "daemon/source/sensor_link.hpp"
 #include "daemon/source/serial_ports.hpp"
@@ -84,7 +85,7 @@ record::StationDescription station_of(const Config& config) {
 }
 
 Status snapshot(const Config& config, const HostClock& clock, const SensorLink& link,
-                Store& store) {
+                const std::optional<OvenLink>& oven, Store& store) {
     Status status;
     status.version = A351_VERSION;
     status.now = clock.now();
@@ -93,6 +94,7 @@ Status snapshot(const Config& config, const HostClock& clock, const SensorLink& 
     status.filter = config.sensor.filter;
     status.output_rate_hz = config.sensor.settings.output_rate_hz;
     fill(status, link.status());
+    if (oven) fill(status, oven->status());
     store.fill(status);
     assess(status);
     return status;
@@ -147,11 +149,16 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
                      .header = header_of(config, clock),
                      .known = store.known_stream()},
                     clock, reads);
+    std::optional<OvenLink> oven;
+    if (config.oven) {
+        oven.emplace(*config.oven, clock,
+                     [&store](record::OvenChunk poll) { store.post(std::move(poll)); });
+    }
     const std::filesystem::path events = config.storage.root / "events";
     Occupations occupations(store, config.survey.sites, record::read_events(events).events);
     Server page(
         {.listen = config.page.listen, .hosts = config.page.hosts, .token = config.page.token},
-        {.status = [&] { return snapshot(config, clock, link, store); },
+        {.status = [&] { return snapshot(config, clock, link, oven, store); },
          .occupations = occupations,
          .sites = config.survey.sites,
          .events = [&] { return record::read_events(events).events; },
@@ -161,17 +168,20 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
 
     store.start();
     link.start();
+    if (oven) oven->start();
     page.start();
 
     constexpr timespec kSecond{1, 0};
     while (true) {
         const int signal = sigtimedwait(&signals, nullptr, &kSecond);
-        status_log.note(snapshot(config, clock, link, store), std::chrono::steady_clock::now());
+        status_log.note(snapshot(config, clock, link, oven, store),
+                        std::chrono::steady_clock::now());
         if (signal == SIGHUP) log.warn("SIGHUP: no key can be reloaded in this version");
         if (signal == SIGINT || signal == SIGTERM) break;
     }
     log.info("stopping");
     page.stop();
+    if (oven) oven->stop();
     link.stop();
     if (store.stop()) return kDone;
     log.error("not everything is on disk");

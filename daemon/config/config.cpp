@@ -143,18 +143,39 @@ SensorConfig read_sensor(TomlTable table, record::StationCodes& codes) {
     return sensor;
 }
 
-/// The keys are checked so that a file stays valid when the oven comes.
-void read_oven(TomlTable table) {
-    if (table.boolean_or("enabled", false)) {
-        table.refuse("enabled", "no oven yet", "false in this version");
+/// Links are followed as far as they lead anywhere now.
+bool is_same_port(const std::filesystem::path& one, const std::filesystem::path& other) {
+    std::error_code error;
+    return std::filesystem::weakly_canonical(one, error) ==
+           std::filesystem::weakly_canonical(other, error);
+}
+
+/// A table that is not enabled is checked all the same.
+std::optional<OvenLinkOptions> read_oven(TomlTable table, const PortAddress& sensor) {
+    // What libmodbus can set and a line of 500 m can carry; the controllers have some of them.
+    constexpr std::array<std::int64_t, 8> kBauds{1200,  2400,  4800,  9600,
+                                                 19200, 38400, 57600, 115200};
+    const bool is_enabled = table.boolean_or("enabled", false);
+    OvenLinkOptions oven;
+    oven.line.port = table.path_or_empty("port");
+    oven.line.baud = static_cast<int>(table.integer_or("baud", 9600, 1200, 115200));
+    if (std::find(kBauds.begin(), kBauds.end(), oven.line.baud) == kBauds.end()) {
+        table.refuse("baud", "not a known value",
+                     joined(kBauds, [](std::int64_t baud) { return std::to_string(baud); }));
     }
-    (void)table.string_or("port", "");
-    (void)table.integer_or("baud", 9600, 1200, 115200);
-    (void)table.choice_or("parity", "E", {"E", "O", "N"});
-    (void)table.integer_or("unit", 1, 1, 247);
-    (void)table.number_or("poll_s", 1.0, 0.1, 3600.0);
-    (void)table.integer_or("decimals", 1, 0, 3);
+    oven.line.parity = table.choice_or("parity", "E", {"E", "O", "N"}).front();
+    // H175-E1, section 1: 1 ... 99; 0 would address all.
+    oven.line.unit = static_cast<int>(table.integer_or("unit", 1, 1, 99));
+    oven.poll_interval = from_seconds(table.number_or("poll_s", 1.0, 0.1, 3600.0));
+    oven.decimals = static_cast<int>(table.integer_or("decimals", 1, 0, oven::kMostDecimals));
+    if (is_enabled && oven.line.port.empty()) {
+        table.refuse("port", "missing", "the controller's serial port");
+    }
+    if (is_enabled && !sensor.path.empty() && is_same_port(oven.line.port, sensor.path)) {
+        table.refuse("port", "the sensor's own", "another port than sensor.port");
+    }
     table.require_all_read();
+    return is_enabled ? std::optional(oven) : std::nullopt;
 }
 
 StorageConfig read_storage(TomlTable table, int output_rate_hz) {
@@ -236,7 +257,7 @@ Config read_config(const std::filesystem::path& file) {
     Config config;
     config.station = read_station(root.table("station"));
     config.sensor = read_sensor(root.table("sensor"), config.station.codes);
-    read_oven(root.table("oven"));
+    config.oven = read_oven(root.table("oven"), config.sensor.address);
     config.storage = read_storage(root.table("storage"), config.sensor.settings.output_rate_hz);
     config.page = read_page(root.table("page"));
     config.survey = read_survey(root.table("survey"));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "daemon/config/listen_address.hpp"
+#include "daemon/source/oven_link.hpp"
 #include "daemon/source/port.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/record/journal.hpp"
@@ -53,6 +54,7 @@ struct SurveyConfig {
 struct Config {
     StationConfig station;
     SensorConfig sensor;
+    std::optional<OvenLinkOptions> oven;  ///< Absent unless enabled.
     StorageConfig storage;
     PageConfig page;
     SurveyConfig survey;

@@ -116,6 +116,21 @@ std::string device(const json& status) {
     return trouble == "-" ? text : text + ": " + trouble;
 }
 
+std::string oven(const json& status) {
+    const std::string state = text_of(at(status, "oven/state"));
+    if (!at(status, "oven/age_s").is_number()) {
+        const auto trouble = text_of(at(status, "oven/trouble"));
+        return trouble == "-" ? state : state + ": " + trouble;
+    }
+    return number_of(at(status, "oven/process_value_degc"), "%.1f degC") + ", set point " +
+           number_of(at(status, "oven/set_point_degc"), "%.1f degC") + ", heating " +
+           number_of(at(status, "oven/heating_percent"), "%.1f %%") +
+           (at(status, "oven/has_input_error") == true ? ", input error" : "") + ", " + state +
+           (at(status, "oven/is_stale") == true
+                ? number_of(at(status, "oven/age_s"), ", %.0f s old")
+                : "");
+}
+
 std::string rate(const json& status) {
     const bool is_verified = at(status, "device/profile_verified") == true;
     return text_of(at(status, "device/output_rate_hz")) + " Hz, filter " +
@@ -169,6 +184,7 @@ std::string status_screen(const json& status, bool is_coloured) {
                    text_of(at(status, "verdict/state")) + (why.empty() ? "" : ": " + joined(why)));
     screen += line("axes", axes(status));
     screen += line("temperature", number_of(at(status, "sample/temperature_degc"), "%.3f degC"));
+    screen += line("oven", oven(status));
     screen += line("last sample", text_of(at(status, "received")) + " at " +
                                       text_of(at(status, "sample/utc")) + ", " +
                                       number_of(at(status, "sample/age_s"), "%.1f s ago"));

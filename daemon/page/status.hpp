@@ -9,10 +9,22 @@
 
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
+#include "protocol/oven/controller_values.hpp"
 #include "protocol/record/archiver.hpp"
 #include "protocol/timing/sample_clock.hpp"
 
 namespace a351::daemon {
+
+/// The oven's controller as last seen.
+struct OvenStatus {
+    std::string state;  ///< searching, silent, disturbed, answering.
+    std::string trouble, port;
+    std::optional<oven::ControllerValues> values;  ///< Of the last answer, however old.
+    int decimals = 1;                              ///< Of process value and set point.
+    std::optional<Nanoseconds> age;                ///< Of the last answer, instrument time.
+    bool is_stale = true;                          ///< Older than three polls, or none.
+    std::map<std::string, std::uint64_t> polls;    ///< By outcome.
+};
 
 /// A snapshot of everything the operator may ask, as `/api/status` publishes it.
 struct Status {
@@ -42,6 +54,7 @@ struct Status {
 
     std::array<StandardGravity, 3> acceleration{};
     DegC temperature;
+    std::optional<OvenStatus> oven;  ///< Absent: not enabled.
 
     record::ArchiverCounters counters;
     std::map<std::string, std::uint64_t> more_counters;  ///< Of link and store, by name.

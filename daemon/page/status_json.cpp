@@ -62,6 +62,26 @@ json sample_of(const Status& status) {
             {"temperature_degc", status.temperature.value()}};
 }
 
+json oven_of(const std::optional<OvenStatus>& oven) {
+    if (!oven) return {{"state", "disabled"}};
+    json object = {{"state", oven->state},       {"trouble", oven->trouble},
+                   {"port", oven->port},         {"decimals", oven->decimals},
+                   {"is_stale", oven->is_stale}, {"polls", oven->polls}};
+    for (const char* key : {"process_value_degc", "set_point_degc", "heating_percent",
+                            "status_word", "has_input_error", "age_s"}) {
+        object[key] = nullptr;
+    }
+    if (oven->age) object["age_s"] = std::chrono::duration<double>(*oven->age).count();
+    if (const auto& values = oven->values) {
+        if (values->process_value) object["process_value_degc"] = values->process_value->value();
+        object["set_point_degc"] = values->set_point.value();
+        object["heating_percent"] = values->heating.value();
+        object["status_word"] = values->status;
+        object["has_input_error"] = oven::has_input_error(values->status);
+    }
+    return object;
+}
+
 json counters_of(const Status& status) {
     const auto& c = status.counters;
     json counters = {{"bytes", c.bytes},
@@ -100,7 +120,7 @@ json to_json(const Status& status, const Occupations& occupations, Nanoseconds s
             {"occupation", running ? to_json(*running, status.now) : json()},
             {"sample", sample_of(status)},
             {"counters", counters_of(status)},
-            {"oven", {{"state", "not present"}}},
+            {"oven", oven_of(status.oven)},
             {"device",
              {{"port", status.port},
               {"state", status.link_state},

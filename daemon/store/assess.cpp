@@ -16,6 +16,19 @@ std::string printable(std::string text) {
     return text;
 }
 
+/// What varies from poll to poll is left out: a reason is told apart from others by its words.
+void assess_oven(Status& status, const OvenStatus& oven) {
+    if (oven.state == "searching") {
+        complain(status, Status::Level::warning, "oven: searching: " + oven.trouble);
+    } else if (oven.is_stale) {
+        complain(status, Status::Level::warning,
+                 "oven: " + (oven.state == "answering" ? "its last answer is old" : oven.state));
+    } else if (oven.values && oven::has_input_error(oven.values->status)) {
+        complain(status, Status::Level::warning,
+                 "oven: input error, its temperature is not to be believed");
+    }
+}
+
 }  // namespace
 
 void complain(Status& status, Status::Level level, std::string reason) {
@@ -54,7 +67,22 @@ void fill(Status& status, const LinkStatus& link) {
     }
 }
 
+void fill(Status& status, const OvenLinkStatus& link) {
+    OvenStatus& oven = status.oven.emplace();
+    oven.state = to_text(link.state);
+    oven.trouble = link.trouble;
+    oven.port = link.port;
+    oven.values = link.values;
+    oven.decimals = link.decimals;
+    oven.age = link.age;
+    oven.is_stale = link.is_stale;
+    for (std::size_t i = 0; i < link.polls.size(); ++i) {
+        oven.polls[to_text(static_cast<record::OvenOutcome>(i))] = link.polls.at(i);
+    }
+}
+
 void assess(Status& status) {
+    if (status.oven) assess_oven(status, *status.oven);
     switch (status.timing_state) {
         case timing::TimingState::unlocked:
             complain(status, Status::Level::warning, "sample times are not known yet");

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "daemon/page/status.hpp"
+#include "daemon/source/oven_link.hpp"
 #include "daemon/source/sensor_link.hpp"
 
 namespace a351::daemon {
@@ -13,7 +14,11 @@ void complain(Status& status, Status::Level level, std::string reason);
 /// Fills in what the link knows.
 void fill(Status& status, const LinkStatus& link);
 
-/// Completes level and reasons of a status that is filled in: no data, no time, no space.
+/// Fills in what the oven's link knows: the oven is part of the status then.
+void fill(Status& status, const OvenLinkStatus& link);
+
+/// Completes level and reasons of a status that is filled in: no data, no time, no space, no
+/// oven.
 void assess(Status& status);
 
 }  // namespace a351::daemon

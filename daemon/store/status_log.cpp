@@ -24,6 +24,11 @@ void StatusLog::note(const Status& status, Instant now) {
                    status.serial_number, status.output_rate_hz, status.filter);
         session_ = status.session;
     }
+    if (status.oven && status.oven->state != oven_state_) {
+        log_->info("oven: {} ({})", status.oven->state,
+                   status.oven->trouble.empty() ? status.oven->port : status.oven->trouble);
+        oven_state_ = status.oven->state;
+    }
     note_reasons(status, now);
     note_counter("gaps", status.counters.gaps, now);
     note_counter("checksum errors", status.counters.checksum_errors, now);
@@ -34,6 +39,10 @@ void StatusLog::note(const Status& status, Instant now) {
     for (const char* name : {"link_stalls", "ports_lost", "journal_faults", "archive_faults"}) {
         const auto found = status.more_counters.find(name);
         if (found != status.more_counters.end()) note_counter(name, found->second, now);
+    }
+    if (!status.oven) return;
+    for (const auto& [outcome, count] : status.oven->polls) {
+        if (outcome != "answered") note_counter("oven polls " + outcome, count, now);
     }
 }
 

@@ -40,6 +40,7 @@ private:
     std::shared_ptr<spdlog::logger> log_;
     std::string session_;
     std::string link_state_;
+    std::string oven_state_;
     std::map<std::string, Trouble> troubles_;
     std::map<std::string, Counter> counters_;
 };

@@ -63,6 +63,9 @@ public:
     [[nodiscard]] std::optional<Instant> at(UtcTime utc) override;
     void commit(const record::Event& event) override;
 
+    /// A poll for the journal; dropped before the sensor's first session, which opens it.
+    void post(record::OvenChunk poll) { journal_.post(std::move(poll)); }
+
     /// Fills in what the store knows.
     void fill(Status& status);
 

@@ -58,3 +58,44 @@ TEST_CASE("each trouble raises the level and is named", "[daemon][assess]") {
     fill(status, link);
     CHECK(status.level == Status::Level::warning);
 }
+
+TEST_CASE("an oven that is not enabled is no trouble; one that does not answer is a warning",
+          "[daemon][assess]") {
+    OvenLinkStatus link;
+    const auto reasons = [&link] {
+        Status status = healthy();
+        fill(status, link);
+        assess(status);
+        CHECK((status.level == Status::Level::warning) == !status.reasons.empty());
+        return status.reasons;
+    };
+    using Reasons = std::vector<std::string>;
+    CHECK(reasons() == Reasons{"oven: searching: not asked yet"});
+
+    link.state = OvenLinkStatus::State::answering;
+    link.is_stale = false;
+    link.values = oven::ControllerValues{DegC(42.5), DegC(42.5), Percent(25.0), 0x0100};
+    CHECK(reasons().empty());
+    link.values->status = oven::kInputError;
+    CHECK(reasons() == Reasons{"oven: input error, its temperature is not to be believed"});
+
+    link.is_stale = true;
+    CHECK(reasons() == Reasons{"oven: its last answer is old"});
+    link.state = OvenLinkStatus::State::silent;
+    link.trouble = "no answer in time";
+    CHECK(reasons() == Reasons{"oven: silent"});
+}
+
+TEST_CASE("the polls of the oven are told by their outcome", "[daemon][assess]") {
+    OvenLinkStatus link;
+    for (std::size_t i = 0; i < link.polls.size(); ++i) link.polls.at(i) = 10 + i;
+    Status status;
+    fill(status, link);
+    CHECK(status.oven->polls == std::map<std::string, std::uint64_t>{{"answered", 10},
+                                                                     {"timed_out", 11},
+                                                                     {"bad_crc", 12},
+                                                                     {"exception", 13},
+                                                                     {"other_unit", 14},
+                                                                     {"malformed", 15},
+                                                                     {"no_port", 16}});
+}

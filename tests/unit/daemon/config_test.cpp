@@ -59,6 +59,7 @@ TEST_CASE_METHOD(Fixture, "the least configuration has the documented defaults",
     CHECK(config.storage.journal_keep_days == 30);
     CHECK_FALSE(config.storage.declared_rate_hz);
     CHECK(to_string(config.page.listen) == "127.0.0.1:8351");
+    CHECK_FALSE(config.oven);
     CHECK(config.survey.sites.empty());
 }
 
@@ -76,13 +77,21 @@ TEST_CASE_METHOD(Fixture, "every key that is documented is accepted and read", "
         "[station]\nnetwork=\"JP\"\nstation=\"TKB\"\nlocation=\"\"\nlatitude=36\nlongitude=140\n"
         "elevation_m=26.5\n[sensor]\nusb=\"0403:6001:A:5\"\nprofile=\"A352AD10\"\nbaud=230400\n"
         "output_rate_hz=100\nfilter=\"k512_fc16\"\nserial_number=\"00000042\"\naxes=\"Z,1,2\"\n"
-        "[oven]\nenabled=false\nport=\"\"\nbaud=9600\nparity=\"N\"\nunit=1\npoll_s=1\ndecimals=1\n"
+        "[oven]\nenabled=true\nport=\"o\"\nbaud=19200\nparity=\"N\"\nunit=7\npoll_s=2.5\ndecimals="
+        "2\n"
         "[storage]\nroot=\"/var/lib/a351\"\ndeclared_rate_hz=100.0005\njournal_keep_days=0\n"
         "[page]\nlisten=\"127.0.0.1:0\"\nhosts=[\"box\"]\ntoken=\"sixteen-or-longer\"\n"
         "[survey]\nsites=\"sites.csv\"\ncalibration=\"\"\n[verdict]\n");
     CHECK(config.station.codes == record::StationCodes{"JP", "TKB", "", {"Z", "1", "2"}});
     CHECK(config.sensor.address.usb == UsbAddress{0x0403, 0x6001, "A:5"});
     CHECK(config.sensor.settings.filter_code == 7);
+    REQUIRE(config.oven);
+    CHECK(config.oven->line.port == directory.path() / "o");
+    CHECK(config.oven->line.baud == 19200);
+    CHECK(config.oven->line.parity == 'N');
+    CHECK(config.oven->line.unit == 7);
+    CHECK(config.oven->poll_interval == std::chrono::milliseconds(2500));
+    CHECK(config.oven->decimals == 2);
     CHECK(config.storage.declared_rate_hz == 100.0005);
     CHECK(config.storage.root == "/var/lib/a351");
     REQUIRE(config.survey.sites.size() == 1);
@@ -122,8 +131,20 @@ TEST_CASE_METHOD(Fixture,
     CHECK(refusal(kStation + kSensor + "axes = \"1,1,Z\"\n" + kStorage) ==
           "a351d.toml:7: sensor.axes = '1,1,Z': not three channel suffixes; allowed: three "
           "different characters A-Z 0-9 for x, y, z, as \"1,2,Z\"");
-    CHECK(refusal(kStation + kSensor + kStorage + "[oven]\nenabled = true\n") ==
-          "a351d.toml:10: oven.enabled = true: no oven yet; allowed: false in this version");
+    const std::string before_oven = kStation + kSensor + kStorage + "[oven]\n";
+    CHECK(refusal(before_oven + "enabled = true\n") ==
+          "a351d.toml:9: oven.port: missing; allowed: the controller's serial port");
+    CHECK(refusal(before_oven + "enabled = true\nport = \"/dev/../dev/ttyUSB0\"\n") ==
+          "a351d.toml:11: oven.port = '/dev/../dev/ttyUSB0': the sensor's own; allowed: another "
+          "port than sensor.port");
+    CHECK(refusal(before_oven + "baud = 14400\n") ==
+          "a351d.toml:10: oven.baud = 14400: not a known value; allowed: 1200, 2400, 4800, 9600, "
+          "19200, 38400, 57600, 115200");
+    CHECK(refusal(before_oven + "parity = \"S\"\n") ==
+          "a351d.toml:10: oven.parity = 'S': not a known value; allowed: E, O, N");
+    CHECK(refusal(before_oven + "unit = 0\n") ==
+          "a351d.toml:10: oven.unit = 0: out of range; allowed: a whole number from 1 to 99");
+    CHECK_THAT(refusal(before_oven + "poll_s = 0\n"), Catch::Contains("oven.poll_s = 0"));
     CHECK(refusal(kStation + kSensor + kStorage + "[survey]\nsites = \"no.csv\"\n") ==
           "a351d.toml:10: survey.sites = 'no.csv': no such file: no.csv; allowed: a CSV of sites, "
           "or \"\"");
@@ -168,4 +189,12 @@ TEST_CASE_METHOD(Fixture, "beyond loopback a token is a must", "[daemon][config]
         CHECK_THAT(refusal(all + "[page]\ntoken = \"" + std::string(weak) + "\"\n"),
                    Catch::Contains("page.token = "));
     }
+}
+
+TEST_CASE_METHOD(Fixture, "a link to the sensor's port is the sensor's port", "[daemon][config]") {
+    std::filesystem::create_symlink("/dev/null", directory.path() / "sensor");
+    std::filesystem::create_symlink("sensor", directory.path() / "oven");
+    CHECK_THAT(refusal(kStation + "[sensor]\nport = \"sensor\"\n" + kStorage +
+                       "[oven]\nenabled = true\nport = \"oven\"\n"),
+               Catch::Contains("oven.port = 'oven': the sensor's own"));
 }

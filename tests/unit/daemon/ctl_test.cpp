@@ -164,6 +164,26 @@ TEST_CASE("the screen shows what is known and a dash for the rest", "[daemon][ct
     CHECK(status_screen(full, true).find("\x1b[1;33mwarning") != std::string::npos);
 }
 
+TEST_CASE("the oven is one line", "[daemon][ctl]") {
+    const auto line_of = [](const char* oven) {
+        const auto screen =
+            status_screen(nlohmann::json{{"oven", nlohmann::json::parse(oven)}}, false);
+        const auto begin = screen.find("\noven  ") + 14;
+        return screen.substr(begin, screen.find('\n', begin) - begin);
+    };
+    CHECK(line_of(R"({"state":"disabled"})") == "disabled");
+    CHECK(line_of(R"({"state":"searching","trouble":"oven: not there","age_s":null})") ==
+          "searching: oven: not there");
+    CHECK(line_of(R"({"state":"answering","process_value_degc":42.5,"set_point_degc":43.0,
+                      "heating_percent":25.0,"has_input_error":false,"age_s":0.4,
+                      "is_stale":false})") ==
+          "42.5 degC, set point 43.0 degC, heating 25.0 %, answering");
+    CHECK(line_of(R"({"state":"silent","process_value_degc":null,"set_point_degc":43.0,
+                      "heating_percent":0.0,"has_input_error":true,"age_s":64.2,
+                      "is_stale":true})") ==
+          "-, set point 43.0 degC, heating 0.0 %, input error, silent, 64 s old");
+}
+
 TEST_CASE("names cannot speak to the terminal", "[daemon][ctl]") {
     CHECK(printable("No.0 \xC3\xA9") == "No.0 \xC3\xA9");
     CHECK(printable("\x1b[2J\x07\n\x7f") == "?[2J???");

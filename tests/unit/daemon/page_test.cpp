@@ -186,6 +186,46 @@ TEST_CASE("every fixed field of the status is there before the first sample", "[
     CHECK(status["verdict"]["reasons"].size() == 1);
 }
 
+TEST_CASE("the status tells of the oven with units, and of a doubtful temperature nothing",
+          "[daemon][page]") {
+    Page page;
+    CHECK(page.ask(get("/api/status"))["oven"] == json{{"state", "disabled"}});
+    page.status.oven =
+        OvenStatus{.state = "answering",
+                   .trouble = "",
+                   .port = "/dev/pts/5",
+                   .values = oven::ControllerValues{DegC(42.5), DegC(43.0), Percent(25.0), 0x0100},
+                   .decimals = 1,
+                   .age = std::chrono::milliseconds(1500),
+                   .is_stale = false,
+                   .polls = {{"answered", 7}, {"bad_crc", 2}}};
+    CHECK(page.ask(get("/api/status"))["oven"] ==
+          json{{"state", "answering"},
+               {"trouble", ""},
+               {"port", "/dev/pts/5"},
+               {"process_value_degc", 42.5},
+               {"set_point_degc", 43.0},
+               {"heating_percent", 25.0},
+               {"status_word", 256},
+               {"has_input_error", false},
+               {"decimals", 1},
+               {"age_s", 1.5},
+               {"is_stale", false},
+               {"polls", {{"answered", 7}, {"bad_crc", 2}}}});
+    page.status.oven->values->process_value.reset();
+    page.status.oven->values->status = oven::kInputError;
+    const auto doubtful = page.ask(get("/api/status"));
+    CHECK(is(doubtful, "/oven/process_value_degc", "null"));
+    CHECK(is(doubtful, "/oven/has_input_error", "true"));
+    page.status.oven->values.reset();
+    page.status.oven->age.reset();
+    const auto silent = page.ask(get("/api/status"));
+    for (const char* field : {"process_value_degc", "set_point_degc", "heating_percent",
+                              "status_word", "has_input_error", "age_s"}) {
+        CHECK(silent["oven"].at(field).is_null());
+    }
+}
+
 TEST_CASE("the status carries values with their units", "[daemon][page]") {
     Page page;
     page.status.level = Status::Level::warning;

@@ -54,3 +54,20 @@ TEST_CASE_METHOD(Fixture, "a counter that rises is said with its step, at most o
     status.counters.gaps = 7;
     CHECK(said(status, 61) == "gaps: 5 more, 7 in all\n");
 }
+
+TEST_CASE_METHOD(Fixture, "the oven's state is said when it changes, its lost polls by kind",
+                 "[daemon][status_log]") {
+    Status status;
+    CHECK(said(status, 0).empty());
+    status.oven.emplace();
+    status.oven->state = "answering";
+    status.oven->port = "/dev/pts/5, 9600 baud 8N2";
+    status.oven->polls = {{"answered", 1}, {"timed_out", 0}};
+    CHECK(said(status, 1) == "oven: answering (/dev/pts/5, 9600 baud 8N2)\n");
+    status.oven->polls = {{"answered", 2}, {"timed_out", 3}};
+    CHECK(said(status, 2) == "oven polls timed_out: 3 more, 3 in all\n");
+    status.oven->state = "silent";
+    status.oven->trouble = "no answer in time";
+    CHECK(said(status, 3) == "oven: silent (no answer in time)\n");
+    CHECK(said(status, 4).empty());
+}
