@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <modbus/modbus.h>
 #include <sys/file.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <array>
@@ -112,6 +113,13 @@ ModbusLine::ModbusLine(const Settings& settings)
     }
     if (flock(connection_->lock, LOCK_EX | LOCK_NB) != 0) {
         throw PortError(PortError::Kind::locked, device.string() + ": somebody else holds it");
+    }
+    // libmodbus leaves the settings as it found them: a port that echoes would talk to the
+    // controller while nobody reads.
+    termios raw{};
+    if (tcgetattr(connection_->lock, &raw) == 0) {
+        cfmakeraw(&raw);
+        tcsetattr(connection_->lock, TCSANOW, &raw);
     }
     connection_->context =
         modbus_new_rtu(device.c_str(), settings.baud, settings.parity, 8, stop_bits);

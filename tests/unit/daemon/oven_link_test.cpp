@@ -1,5 +1,9 @@
 #include "daemon/source/oven_link.hpp"
 
+#include <fcntl.h>
+#include <termios.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <mutex>
@@ -211,6 +215,18 @@ TEST_CASE("what came unasked is not taken for the answer", "[daemon][oven_link]"
     CHECK(line.read(oven::kFirstMonitor, oven::kMonitorCount).outcome == OvenOutcome::bad_crc);
     controller.manner = Manner::good;
     CHECK(line.read(oven::kFirstMonitor, oven::kMonitorCount).words.size() == oven::kMonitorCount);
+}
+
+TEST_CASE("a port that echoes does so no more, even after it was closed", "[daemon][oven_link]") {
+    Pty pty;
+    const int host = open(pty.path().c_str(), O_RDWR | O_NOCTTY);
+    termios settings{};
+    REQUIRE(tcgetattr(host, &settings) == 0);
+    REQUIRE((settings.c_lflag & ECHO) != 0);
+    { const ModbusLine line({.port = pty.path(), .parity = 'N'}); }
+    REQUIRE(tcgetattr(host, &settings) == 0);
+    close(host);
+    CHECK((settings.c_lflag & (ECHO | ICANON)) == 0);
 }
 
 TEST_CASE("what is no port, or does not take the settings, is refused", "[daemon][oven_link]") {
