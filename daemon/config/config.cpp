@@ -145,9 +145,12 @@ SensorConfig read_sensor(TomlTable table, record::StationCodes& codes) {
 
 /// Links are followed as far as they lead anywhere now.
 bool is_same_port(const std::filesystem::path& one, const std::filesystem::path& other) {
-    std::error_code error;
-    return std::filesystem::weakly_canonical(one, error) ==
-           std::filesystem::weakly_canonical(other, error);
+    const auto resolved = [](const std::filesystem::path& port) {
+        std::error_code error;
+        const auto device = std::filesystem::weakly_canonical(port, error);
+        return error ? port.lexically_normal() : device;
+    };
+    return resolved(one) == resolved(other);
 }
 
 /// A table that is not enabled is checked all the same.
