@@ -58,6 +58,10 @@ ModbusLine::Answer answer_in(const Frame& frame, std::size_t size, std::size_t c
     return answer;
 }
 
+tcflag_t parity_bits(char parity) {
+    return parity == 'N' ? 0U : parity == 'O' ? PARENB | PARODD : PARENB;
+}
+
 ModbusLine::Answer failure(int error) {
     switch (error) {
         case ETIMEDOUT:
@@ -126,6 +130,11 @@ ModbusLine::ModbusLine(const Settings& settings)
     if (connection_->context == nullptr || modbus_connect(connection_->context) != 0) {
         throw PortError(PortError::Kind::settings,
                         description_ + ": " + std::generic_category().message(errno));
+    }
+    termios kept{};
+    if (tcgetattr(connection_->lock, &kept) != 0 ||
+        (kept.c_cflag & (PARENB | PARODD)) != parity_bits(settings.parity)) {
+        throw PortError(PortError::Kind::settings, description_ + ": does not keep this parity");
     }
     modbus_set_slave(connection_->context, settings.unit);
     using std::chrono::microseconds;

@@ -230,6 +230,10 @@ TEST_CASE("a port that echoes does so no more, even after it was closed", "[daem
 }
 
 TEST_CASE("what is no port, or does not take the settings, is refused", "[daemon][oven_link]") {
+    const Pty pty;  // It carries no parity, and does not say so when it is asked for one.
+    CHECK_NOTHROW(ModbusLine({.port = pty.path(), .parity = 'N'}));
+    CHECK_THROWS_WITH(ModbusLine({.port = pty.path(), .parity = 'E'}),
+                      Catch::EndsWith("baud 8E1: does not keep this parity"));
     CHECK_THROWS_AS(ModbusLine({.port = "/dev/null"}), PortError);
     CHECK_THROWS_AS(ModbusLine({.port = "/nonexistent/oven"}), PortError);
 }
