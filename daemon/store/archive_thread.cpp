@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "protocol/record/channel_code.hpp"
 #include "protocol/record/sds.hpp"
 
 namespace a351::daemon {
@@ -179,9 +180,12 @@ void ArchiveThread::sync() {
         throw;
     }
     if (!marked_ || marks.empty() || !are_marks_true_) return;
-    const auto last = std::min_element(
-        marks.begin(), marks.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
-    progress_.archive_synced(*marked_, last->index);
+    std::optional<std::int64_t> last;
+    for (const auto& mark : marks) {
+        if (record::is_derived(mark.channel)) continue;
+        last = std::min(last.value_or(mark.index), mark.index);
+    }
+    if (last) progress_.archive_synced(*marked_, *last);
     hooks_.post(record::MarkChunk{*marked_, std::move(marks)});
 }
 

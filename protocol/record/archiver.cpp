@@ -9,6 +9,7 @@
 #include "protocol/record/channel_code.hpp"
 #include "protocol/record/channel_packer.hpp"
 #include "protocol/record/retiming.hpp"
+#include "protocol/record/slow_channels.hpp"
 #include "protocol/timing/sample_index.hpp"
 #include "protocol/wire/burst_decoder.hpp"
 #include "protocol/wire/device_profile.hpp"
@@ -22,8 +23,6 @@ using Kind = timing::Placement::Kind;
 // The counter wraps every 16.4 s: a loss up to these bounds is known from it alone.
 constexpr std::uint64_t kContiguousFrames = 400;
 constexpr Nanoseconds kContiguousSilence = std::chrono::seconds(10);
-
-constexpr Nanoseconds kMostAge = std::chrono::seconds(60);
 
 // All axes read so while rate and filter do not fit (M-A352AD10 data sheet, FLAG).
 constexpr std::int32_t kNoData = 0x64000000;
@@ -107,7 +106,8 @@ public:
           index_(count_step_, Hertz(header.output_rate_hz)),
           clock_(clock_options(header)),
           clip_counts_(std::ldexp(profile_of(header).rated_range.value(),
-                                  profile_of(header).acceleration_fraction_bits)) {
+                                  profile_of(header).acceleration_fraction_bits)),
+          slow_(profile_of(header), {clock_, record_header_, errors_, sink_, counters_}) {
         begin_run();
         adopt(header);
     }
@@ -139,12 +139,21 @@ public:
             if (clock_.awake(reading.raw) != awake) retiming_->host_slept();
             retiming_->observe_clock(reading);
         }
-        if (last_index_ && clock_.awake(reading.raw) - last_arrival_ > kMostAge)
-            close_records(false);
+        if (last_index_ && clock_.awake(reading.raw) - last_arrival_ > kMostRecordAge)
+            close_channels(false, next_index());
+        if (const auto last = last_index_ ? clock_.time_of(*last_index_) : std::nullopt)
+            slow_.pass(last->utc + since_last_sample(reading.raw));
         errors_.forget_before(oldest_unpacked());
     }
 
-    void close_records(bool ends_series) { close_channels(ends_series, next_index()); }
+    void observe_oven(const OvenChunk& poll) {
+        if (last_index_) slow_.add(*last_index_, since_last_sample(poll.time), poll);
+    }
+
+    void close_records(bool ends_series) {
+        close_channels(ends_series, next_index());
+        slow_.close(ends_series);
+    }
 
     /// Ends the session: bytes that wait for more will not become a frame.
     void end() {
@@ -181,10 +190,16 @@ private:
         }
         if (layout_.has_temperature())
             channels_.push_back({ChannelPacker(channel_code(rate_hz, "K1")), std::nullopt});
+        slow_.begin_run(channels_.front().packer.code(), layout_.has_temperature());
     }
 
     [[nodiscard]] RecordContext context() {
-        return {clock_, record_header_, errors_, sink_, counters_};
+        return {clock_, record_header_, errors_, slow_, counters_};
+    }
+
+    /// From the instant of the newest sample.
+    [[nodiscard]] Nanoseconds since_last_sample(RawTime raw) const {
+        return clock_options(header_).fixed_delay + (clock_.awake(raw) - last_arrival_);
     }
     [[nodiscard]] std::int64_t next_index() const { return last_index_ ? *last_index_ + 1 : 0; }
 
@@ -285,6 +300,7 @@ private:
                 channel.packer.add(context, sample.index, sample.values.temperature, false);
             }
         }
+        slow_.add(sample.index, sample.values.temperature);
         sink_.sample(sample);
     }
 
@@ -308,6 +324,7 @@ private:
     Arrivals arrivals_;
     std::vector<Channel> channels_;
     IndexMarks errors_;
+    SlowChannels slow_;
     std::uint64_t stream_offset_ = 0;  // bytes the decoder has reported on
     std::uint64_t skipped_since_frame_ = 0;
     std::optional<std::int64_t> last_index_;
@@ -335,6 +352,8 @@ void Archiver::take(const JournalChunk& chunk) {
             counters_.bytes_skipped += received->bytes.size();
     } else if (const auto* reading = std::get_if<timing::ClockReading>(&chunk)) {
         if (session_) session_->observe_clock(*reading);
+    } else if (const auto* poll = std::get_if<OvenChunk>(&chunk)) {
+        if (session_) session_->observe_oven(*poll);
     }
 }
 

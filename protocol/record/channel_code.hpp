@@ -12,4 +12,15 @@ namespace a351::record {
     return band + std::string(instrument_and_axis);
 }
 
+/// Codes of the derived channels; band code L is 1 Hz.  LCE and LCQ as Quanterra digitizers have
+/// them, so that network tools know them.
+inline constexpr std::string_view kSensorTemperature = "LK1";  ///< 0.001 degC
+inline constexpr std::string_view kOvenTemperature = "LK2";    ///< Process value, 0.001 degC.
+inline constexpr std::string_view kOvenSetPoint = "LK3";       ///< 0.001 degC
+inline constexpr std::string_view kOvenHeating = "LYH";        ///< 0.01 %
+inline constexpr std::string_view kClockError = "LCE";         ///< 1 us
+inline constexpr std::string_view kTimingQuality = "LCQ";      ///< 1 %
+
+[[nodiscard]] inline bool is_derived(std::string_view channel) { return channel.starts_with('L'); }
+
 }  // namespace a351::record

@@ -8,7 +8,6 @@
 namespace a351::record {
 namespace {
 
-constexpr double kMostAge_s = 60.0;  // so that slow channels become visible
 constexpr Nanoseconds kQuestionable = std::chrono::milliseconds(10);
 
 }  // namespace
@@ -16,6 +15,12 @@ constexpr Nanoseconds kQuestionable = std::chrono::milliseconds(10);
 bool IndexMarks::any_in(std::int64_t first, std::int64_t last) const {
     const auto found = std::lower_bound(indices_.begin(), indices_.end(), first);
     return found != indices_.end() && *found <= last;
+}
+
+void set_timing(RecordHeader& header, const timing::SampleTime& time) {
+    header.is_clock_locked = time.is_host_synchronised && time.state == timing::TimingState::locked;
+    header.is_time_questionable = !time.is_host_synchronised || time.uncertainty > kQuestionable;
+    header.timing_quality_percent = timing_quality_percent(time.uncertainty);
 }
 
 ChannelPacker::ChannelPacker(std::string code) : code_(std::move(code)) {
@@ -29,7 +34,7 @@ void ChannelPacker::add(const RecordContext& context, std::int64_t index, std::i
     samples_.push_back(counts);
     if (is_clipped) clipped_.add(index);
     const auto age_samples = static_cast<double>(index - first_);
-    if (age_samples >= kMostAge_s * context.header.nominal_rate.value())
+    if (age_samples >= kMostRecordAge.count() * context.header.nominal_rate.value())
         close(context, false);
     else if (samples_.size() >= kMostSamplesPerRecord)
         pack_one(context, false);
@@ -64,9 +69,7 @@ void ChannelPacker::pack_one(const RecordContext& context, bool ends_series) {
     RecordHeader header = context.header;
     header.channel = code_;
     header.start = std::chrono::floor<std::chrono::microseconds>(time.utc);
-    header.is_clock_locked = time.is_host_synchronised && time.state == timing::TimingState::locked;
-    header.is_time_questionable = !time.is_host_synchronised || time.uncertainty > kQuestionable;
-    header.timing_quality_percent = timing_quality_percent(time.uncertainty);
+    set_timing(header, time);
 
     std::size_t available = samples_before_midnight(context.clock, header.start);
     if (const auto held = context.sink.samples_held(code_, header.start))

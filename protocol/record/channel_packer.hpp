@@ -2,6 +2,7 @@
 /// @file
 /// The samples of one channel that are not in a record yet, and where records end.
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <string>
@@ -26,6 +27,9 @@ private:
     std::deque<std::int64_t> indices_;
 };
 
+/// A record is closed when its oldest sample is this old, so that slow channels become visible.
+inline constexpr std::chrono::seconds kMostRecordAge{60};
+
 /// What the records of all channels of a session share.
 struct RecordContext {
     const timing::SampleClock& clock;
@@ -34,6 +38,9 @@ struct RecordContext {
     ArchiveSink& sink;
     ArchiverCounters& counters;
 };
+
+/// What a record says of its time: clock locked, questionable, quality.
+void set_timing(RecordHeader& header, const timing::SampleTime& time);
 
 class ChannelPacker {
 public:
@@ -46,6 +53,7 @@ public:
     /// Packs all that is left.
     void close(const RecordContext& context, bool ends_series);
 
+    [[nodiscard]] const std::string& code() const noexcept { return code_; }
     [[nodiscard]] bool is_empty() const noexcept { return samples_.empty(); }
     [[nodiscard]] std::int64_t first() const noexcept { return first_; }
 

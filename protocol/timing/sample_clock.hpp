@@ -85,6 +85,11 @@ public:
     /// std::nullopt before the first clock reading and arrival.
     [[nodiscard]] std::optional<SampleTime> time_of(std::int64_t index) const;
 
+    /// The time of this sample, one observed, stays as it is.
+    [[nodiscard]] bool is_fixed(std::int64_t index) const noexcept {
+        return is_given_ || (!pieces_.empty() && index < fixed_until_);
+    }
+
     /// Index of the first sample at or after `utc`; std::nullopt before the first sample whose
     /// time is still remembered, or after the last one observed.
     [[nodiscard]] std::optional<std::int64_t> index_at(UtcTime utc) const;

@@ -34,7 +34,7 @@ def wait_for_more(port, session, journaled, count):
 
 
 def archive_is_whole(archive):
-    """There are day files, each of whole records or, at its very end, the start of one."""
+    """There are day files of four sampled channels, and all are of whole records or, at their very end, the start of one."""
     files = list(archive.rglob("*.D.*"))
     for file in files:
         data = file.read_bytes()
@@ -42,7 +42,33 @@ def archive_is_whole(archive):
         for i in range(whole):
             if not (data[i * 512:i * 512 + 6].isdigit() and data[i * 512 + 6:i * 512 + 7] == b"D"):
                 return False
-    return len(files) == 4
+    return sum(not file.name.split(".")[3].startswith("L") for file in files) == 4
+
+
+def archived(archive):
+    """The records of each channel, day after day."""
+    channels = {}
+    for file in sorted(archive.rglob("*.D.*")):
+        channels.setdefault(file.name.split(".")[3], bytearray()).extend(file.read_bytes())
+    return channels
+
+
+def compare_recovery(daemon, port, scratch):
+    """Another start replays the last session into the archive, all of whose channels must be as the journal has them."""
+    before = archived(scratch / "data" / "archive")
+    with open(scratch / "a351d.log", "a") as log:
+        third = subprocess.Popen(daemon, cwd=scratch, stderr=log)
+        while daemon_status(port) is None and third.poll() is None:
+            time.sleep(0.05)
+        third.send_signal(signal.SIGTERM)
+        demand("a daemon without its sensor ends cleanly", third.wait(timeout=30) == 0)
+    said = [line for line in (scratch / "a351d.log").read_text().splitlines() if "recovery" in line]
+    print(*said, sep="\n")
+    demand("recovery finds nothing in the archive that disagrees with the journal",
+           len(said) == 3 and not any("disagree" in line for line in said))
+    demand("after a clean end there is nothing to add", "0 records added" in said[2])
+    demand(f"the archive stays as it is: {sorted(before)}",
+           {"LCE", "LCQ", "LK1"} < set(before) and archived(scratch / "data" / "archive") == before)
 
 
 def round_of(number, scratch):
@@ -89,6 +115,7 @@ def round_of(number, scratch):
         demand("the restarted daemon ends cleanly", second.wait(timeout=30) == 0)
     sim.send_signal(signal.SIGTERM)
     sim.wait(timeout=30)
+    compare_recovery(daemon, port, scratch)
 
     report = read_json(scratch / "report.json")
     print("emulator:", report, "last published journaled:", last_published)

@@ -75,13 +75,15 @@ def streams(journal):
 
 
 def samples(directory):
-    """Per channel: its counts, first and last instant."""
+    """Per sampled channel: its counts, first and last instant.  The derived ones of 1 Hz follow the seconds of UTC, which
+    fall elsewhere between the samples of a replay."""
     out = directory / "counts"
     out.mkdir(exist_ok=True)
     channels = {}
     for line in run(TOOLS / "archive-samples", directory / "data" / "archive", out).stdout.splitlines():
         fields = dict(part.split("=", 1) for part in line.split())
-        channels[fields["channel"]] = ((out / fields["channel"]).read_text(), fields["first"], fields["last"])
+        if not fields["channel"].startswith("L"):
+            channels[fields["channel"]] = ((out / fields["channel"]).read_text(), fields["first"], fields["last"])
     return channels
 
 

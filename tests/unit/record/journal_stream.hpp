@@ -81,6 +81,14 @@ public:
         flush();
         chunks.emplace_back(clock_at(since_start));
     }
+    /// An answer of the controller: process value in 0.1 degC, set point 42.5 degC, heating 61.7 %.
+    void oven(Nanoseconds since_start, std::uint16_t process_value, std::uint16_t status = 0x0100) {
+        flush();
+        chunks.emplace_back(OvenChunk{kRawStart + since_start,
+                                      OvenOutcome::answered,
+                                      1,
+                                      {process_value, status, 425, 0, 617}});
+    }
     void flush() {
         if (!pending_.bytes.empty()) chunks.emplace_back(std::exchange(pending_, {}));
     }

@@ -11,7 +11,8 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// Two minutes over midnight in three segments, with a gap, a flipped bit and clock readings.
+/// Two minutes over midnight in three segments, with a gap, a flipped bit, clock readings and polls
+/// of an oven.
 std::vector<JournalChunk> eventful_session() {
     const auto before = 12h - 60s;
     JournalStream stream(1, before);
@@ -23,6 +24,9 @@ std::vector<JournalChunk> eventful_session() {
         const auto late = Nanoseconds(static_cast<std::int64_t>(random() % 16'000'000));
         stream.bytes(frame, before + due(k) + late);
         if (k % 50 == 49) stream.second(before + due(k) + 17ms);
+        if (k % 50 == 24) {
+            stream.oven(before + due(k), static_cast<std::uint16_t>(420 + random() % 5));
+        }
         if (k == 2'024 || k == 4'525) {
             stream.flush();
             stream.chunks.emplace_back(header_at(before + due(k) + 17ms));
@@ -92,7 +96,7 @@ TEST_CASE("an archive cut at any record, torn or not, comes back to the same byt
     whole.write_journal(chunks);
     archive_all(whole, chunks);
     const auto reference = whole.files();
-    REQUIRE(reference.size() == 8);  // four channels, two days
+    REQUIRE(reference.size() == 20);  // four channels and six derived ones, two days
     std::mt19937_64 random(1);
     for (int round = 0; round < 16; ++round) {
         DataRoot root;
