@@ -168,7 +168,8 @@ OccupationRows average_occupations(const SurveyFile& survey, const Progress& pro
                                     ? read_logged_occupations(survey.root / "events", sites)
                                     : read_occupation_table(survey.occupations, sites);
     const std::filesystem::path metadata = survey.root / "metadata" / "station.xml";
-    const record::StationMetadata station = record::read_station_xml(metadata);
+    const record::StationMetadata station =
+        record::read_station_xml(metadata, list.windows.front().start);
     const SurveyChannels channels = find_channels(station, metadata);
     const RepresentativeOptions options = options_of(survey);
     const SurveySamples samples = read_samples(survey, station.codes, channels, list.windows);

@@ -5,30 +5,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <span>
 #include <string>
-#include <string_view>
 #include <system_error>
 
-#include "protocol/text/text_file.hpp"
+#include "protocol/core/input_error.hpp"
 
 namespace a351::daemon {
-namespace {
-
-/// Without the values of the form YYYY-MM-DDT...
-std::string without_instants(std::string xml) {
-    constexpr std::size_t kDate = std::string_view("2026-03-01").size();
-    for (auto at = xml.find('T'); at != std::string::npos; at = xml.find('T', at + 1)) {
-        if (at < kDate || xml[at - 3] != '-' || xml[at - 6] != '-') continue;
-        const auto end = xml.find_first_of("\"<", at);
-        if (end == std::string::npos) break;
-        at -= kDate;
-        xml.erase(at, end - at);
-    }
-    return xml;
-}
-
-}  // namespace
-
 DataRootLock::DataRootLock(record::FileLayer& files, const std::filesystem::path& root) {
     for (const char* name : {"journal", "archive", "metadata", "events", "state"}) {
         files.create_directories(root / name);
@@ -46,15 +29,26 @@ DataRootLock::DataRootLock(record::FileLayer& files, const std::filesystem::path
 
 DataRootLock::~DataRootLock() { close(descriptor_); }
 
-void describe_station(record::FileLayer& files, const std::filesystem::path& root,
-                      const record::StationDescription& description) {
+std::optional<std::string> describe_station(record::FileLayer& files,
+                                            const std::filesystem::path& root,
+                                            const record::StationDescription& description) {
     const std::filesystem::path file = root / "metadata" / "station.xml";
-    const std::string xml = record::to_station_xml(description);
-    if (std::filesystem::exists(file) &&
-        without_instants(text::read_text_file(file)) == without_instants(xml)) {
-        return;
+    std::optional<std::string> xml, trouble;
+    try {
+        xml = std::filesystem::exists(file) ? record::extend_station_xml(file, description)
+                                            : record::to_station_xml(description);
+    } catch (const InputError& damage) {
+        std::filesystem::path aside = file;
+        aside += ".damaged";
+        for (int n = 2; std::filesystem::exists(aside); ++n)
+            aside = file.string() + ".damaged." + std::to_string(n);
+        files.rename(file, aside);
+        trouble = std::string(damage.what()) + "; kept as " + aside.filename().string() +
+                  ", and written anew without its earlier epochs";
+        xml = record::to_station_xml(description);
     }
-    record::replace_file(files, file, std::as_bytes(std::span(xml)));
+    if (xml) record::replace_file(files, file, std::as_bytes(std::span(*xml)));
+    return trouble;
 }
 
 }  // namespace a351::daemon

@@ -3,7 +3,9 @@
 /// The directory of the record: journal/ archive/ metadata/ events/ state/.
 
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
+#include <string>
 
 #include "protocol/record/file_layer.hpp"
 #include "protocol/record/station_xml.hpp"
@@ -31,9 +33,12 @@ private:
     int descriptor_ = -1;
 };
 
-/// Replaces `metadata/station.xml` unless it says the same already, instants apart: the epoch goes
-/// on while settings and device stay.
-void describe_station(record::FileLayer& files, const std::filesystem::path& root,
-                      const record::StationDescription& description);
+/// Extends `metadata/station.xml` by the epochs that begin with this description, or writes it.  One
+/// that cannot be used is moved aside.
+/// @return  what was wrong with it.
+/// @throws std::system_error  it cannot be read or written.
+std::optional<std::string> describe_station(record::FileLayer& files,
+                                            const std::filesystem::path& root,
+                                            const record::StationDescription& description);
 
 }  // namespace a351::daemon

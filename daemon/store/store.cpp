@@ -52,11 +52,16 @@ void Store::commit(const record::Event& event) { journal_.commit(event, options_
 
 void Store::describe(const record::JournalHeader& header) {
     record::StationDescription description = options_.station;
-    description.start = header.clock.realtime;
+    // The first samples stand for instants before their header by the filter's delay.
+    description.start = header.clock.realtime - description.group_delay;
     description.product_id = header.product_id;
     description.serial_number = header.serial_number;
     description.firmware = header.firmware;
-    describe_station(files_, options_.root, description);
+    description.declared_rate_hz = header.declared_rate_hz;
+    if (const auto trouble = describe_station(files_, options_.root, description)) {
+        const std::lock_guard lock(metadata_mutex_);
+        metadata_trouble_ = *trouble;
+    }
 }
 
 void Store::fill(Status& status) {
@@ -104,6 +109,11 @@ void Store::fill(Status& status) {
         complain(status, Status::Level::fault,
                  "archive: chunks that it could not take: " + std::to_string(archive.chunks_lost) +
                      "; the journal holds them");
+    }
+    {
+        const std::lock_guard lock(metadata_mutex_);
+        if (!metadata_trouble_.empty())
+            complain(status, Status::Level::warning, "metadata: " + metadata_trouble_);
     }
     if (!archive.is_marking) {
         complain(

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <mutex>
+#include <string>
 
 #include "daemon/page/status.hpp"
 #include "daemon/source/host_clock.hpp"
@@ -83,6 +85,8 @@ private:
     ChunkQueue chunks_;
     JournalThread journal_;
     ArchiveThread archive_;
+    std::mutex metadata_mutex_;
+    std::string metadata_trouble_;
     bool is_running_ = false;
 };
 

@@ -6,14 +6,13 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <pugixml.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
-#include "protocol/core/input_error.hpp"
 #include "protocol/record/channel_code.hpp"
+#include "protocol/record/station_document.hpp"
 #include "protocol/wire/device_profile.hpp"
 
 namespace a351::record {
@@ -24,6 +23,8 @@ constexpr const char* kAcceleration = "m/s**2";
 constexpr const char* kTemperature = "degC";
 /// The sensitivity is stated at this frequency; the response is flat up to the filter's edge.
 constexpr double kReferenceFrequency_hz = 1.0;
+/// That of a channel of 1 Hz must lie below 0.5 Hz.
+constexpr double kSlowReferenceFrequency_hz = 0.1;
 
 std::string to_text(double value) {
     std::array<char, 32> buffer{};
@@ -56,23 +57,23 @@ void add_units(pugi::xml_node parent, const char* input) {
     add(parent.append_child("OutputUnits"), "Name", "count");
 }
 
-/// counts = gain x acceleration in m/s2
-void add_gain_response(pugi::xml_node channel, double gain) {
+/// counts = gain x value in `unit`
+void add_gain_response(pugi::xml_node channel, double gain, const char* unit, double frequency_hz) {
     auto response = channel.append_child("Response");
     auto sensitivity = response.append_child("InstrumentSensitivity");
     add(sensitivity, "Value", gain);
-    add(sensitivity, "Frequency", kReferenceFrequency_hz);
-    add_units(sensitivity, kAcceleration);
+    add(sensitivity, "Frequency", frequency_hz);
+    add_units(sensitivity, unit);
     auto stage = response.append_child("Stage");
     stage.append_attribute("number").set_value(1);
     auto flat = stage.append_child("PolesZeros");
-    add_units(flat, kAcceleration);
+    add_units(flat, unit);
     add(flat, "PzTransferFunctionType", "LAPLACE (RADIANS/SECOND)");
     add(flat, "NormalizationFactor", 1.0);
-    add(flat, "NormalizationFrequency", kReferenceFrequency_hz);
+    add(flat, "NormalizationFrequency", frequency_hz);
     auto stage_gain = stage.append_child("StageGain");
     add(stage_gain, "Value", gain);
-    add(stage_gain, "Frequency", kReferenceFrequency_hz);
+    add(stage_gain, "Frequency", frequency_hz);
 }
 
 /// value = offset + slope x counts
@@ -112,13 +113,39 @@ void add_position(pugi::xml_node parent, const StationDescription& description) 
     add(parent, "Elevation", description.elevation.value());
 }
 
-/// What every channel says, up to its response.
+/// What every channel says, up to its place.
 pugi::xml_node add_channel(pugi::xml_node station, const StationDescription& description,
-                           const std::string& code, const Orientation& orientation) {
+                           std::string_view code) {
     auto channel = station.append_child("Channel");
-    channel.append_attribute("code").set_value(code.c_str());
+    channel.append_attribute("code").set_value(std::string(code).c_str());
     channel.append_attribute("locationCode").set_value(description.codes.location.c_str());
     channel.append_attribute("startDate").set_value(to_rfc3339(description.start, 6).c_str());
+    return channel;
+}
+
+void add_place(pugi::xml_node channel, const StationDescription& description,
+               const Orientation& orientation, double rate_hz) {
+    add_position(channel, description);
+    add(channel, "Depth", 0.0);
+    add(channel, "Azimuth", orientation.azimuth_deg);
+    add(channel, "Dip", orientation.dip_deg);
+    add(channel, "SampleRate", rate_hz);
+}
+
+void add_sensor(pugi::xml_node channel, const StationDescription& description) {
+    auto sensor = channel.append_child("Sensor");
+    add(sensor, "Manufacturer", "Seiko Epson");
+    add(sensor, "Model", printable(description.product_id));
+    add(sensor, "SerialNumber", printable(description.serial_number));
+}
+
+/// Up to its response.
+pugi::xml_node add_sampled_channel(pugi::xml_node station, const StationDescription& description,
+                                   const std::string& instrument_and_axis,
+                                   const std::string& content, const Orientation& orientation) {
+    const int rate_hz = description.output_rate_hz;
+    auto channel = add_channel(station, description, channel_code(rate_hz, instrument_and_axis));
+    add_comment(channel, content);
     add_comment(channel, "device profile " + description.profile +
                              (description.is_profile_verified ? " (verified)" : " (unverified)"));
     add_comment(channel, "filter " + description.filter + ", group delay " +
@@ -126,60 +153,40 @@ pugi::xml_node add_channel(pugi::xml_node station, const StationDescription& des
                              " s, already subtracted from the time stamps");
     add_comment(channel, "firmware " + std::to_string(description.firmware));
     if (!orientation.is_known) add_comment(channel, "orientation not surveyed");
-    add_position(channel, description);
-    add(channel, "Depth", 0.0);
-    add(channel, "Azimuth", orientation.azimuth_deg);
-    add(channel, "Dip", orientation.dip_deg);
-    add(channel, "SampleRate", double(description.output_rate_hz));
-    auto sensor = channel.append_child("Sensor");
-    add(sensor, "Manufacturer", "Seiko Epson");
-    add(sensor, "Model", printable(description.product_id));
-    add(sensor, "SerialNumber", printable(description.serial_number));
+    add_place(channel, description, orientation, rate_hz);
+    if (const auto declared_hz = description.declared_rate_hz)
+        add(channel, "ClockDrift", std::abs(1.0 / *declared_hz - 1.0 / rate_hz));
+    add_sensor(channel, description);
     return channel;
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& trouble) {
-    throw InputError(file.string() + ": " + trouble);
-}
+/// A derived channel of 1 Hz.
+struct SlowChannel {
+    std::string_view code;
+    const char* content;
+    const char* unit;
+    double counts_per_unit;
+    bool is_of_sensor;
+    bool is_of_oven;
+};
 
-double number_in(const std::filesystem::path& file, const std::string& channel,
-                 pugi::xml_node node) {
-    const std::string_view text = node.text().get();
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-        refuse(file, "channel " + channel + ": " + node.name() + " = " + std::string(text) +
-                         ": not a number");
-    }
-    return value;
-}
+constexpr SlowChannel kSlowChannels[] = {
+    {kSensorTemperature, "sensor temperature, mean over the second", kTemperature, 1000.0, true,
+     false},
+    {kOvenTemperature, "oven, process value", kTemperature, 1000.0, false, true},
+    {kOvenSetPoint, "oven, set point", kTemperature, 1000.0, false, true},
+    {kOvenHeating, "oven, heating", "%", 100.0, false, true},
+    {kClockError, "sample times less those by start and rate of a record", "s", 1e6, false, false},
+    {kTimingQuality, "timing quality", "%", 1.0, false, false},
+};
 
-ChannelScale read_scale(const std::filesystem::path& file, pugi::xml_node channel) {
-    ChannelScale scale;
-    scale.code = channel.attribute("code").value();
-    const auto response = channel.child("Response");
-    const auto sensitivity = response.child("InstrumentSensitivity");
-    const auto polynomial = response.child("InstrumentPolynomial");
-    const auto described = sensitivity ? sensitivity : polynomial;
-    scale.unit = described.child("InputUnits").child("Name").text().get();
-    if (scale.unit.empty()) refuse(file, "channel " + scale.code + ": no response with a unit");
-    if (sensitivity) {
-        const double gain = number_in(file, scale.code, sensitivity.child("Value"));
-        if (!(gain > 0.0)) refuse(file, "channel " + scale.code + ": sensitivity must be > 0");
-        scale.gain = 1.0 / gain;
-        return scale;
-    }
-    std::vector<double> coefficients;
-    for (const auto node : polynomial.children("Coefficient")) {
-        coefficients.push_back(number_in(file, scale.code, node));
-    }
-    if (coefficients.size() != 2) {
-        refuse(file, "channel " + scale.code + ": " + std::to_string(coefficients.size()) +
-                         " polynomial coefficients; allowed: 2");
-    }
-    scale.offset = coefficients[0];
-    scale.gain = coefficients[1];
-    return scale;
+void add_slow_channel(pugi::xml_node station, const StationDescription& description,
+                      const SlowChannel& slow) {
+    auto channel = add_channel(station, description, slow.code);
+    add_comment(channel, slow.content);
+    add_place(channel, description, Orientation{}, 1.0);
+    if (slow.is_of_sensor) add_sensor(channel, description);
+    add_gain_response(channel, slow.counts_per_unit, slow.unit, kSlowReferenceFrequency_hz);
 }
 
 }  // namespace
@@ -212,15 +219,18 @@ std::string to_station_xml(const StationDescription& description) {
     // Counts per g over m/s2 per g.
     const double gain =
         std::ldexp(1.0, profile->acceleration_fraction_bits) / (kMilliGalPerStandardGravity / 1e5);
-    for (const std::string& axis : description.codes.axes) {
-        add_gain_response(
-            add_channel(station, description, channel_code(description.output_rate_hz, "N" + axis),
-                        orientation_of(axis)),
-            gain);
+    // The same words in all three: their epochs begin together, so their order is that of the axes.
+    const auto& axes = description.codes.axes;
+    const std::string names = "; x, y, z are " + axes[0] + ", " + axes[1] + ", " + axes[2];
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        add_gain_response(add_sampled_channel(station, description, "N" + axes[i],
+                                              "axis " + std::string(1, "xyz"[i]) + names,
+                                              orientation_of(axes[i])),
+                          gain, kAcceleration, kReferenceFrequency_hz);
     }
-    auto response = add_channel(station, description,
-                                channel_code(description.output_rate_hz, "K1"), Orientation{})
-                        .append_child("Response");
+    auto response =
+        add_sampled_channel(station, description, "K1", "sensor temperature", Orientation{})
+            .append_child("Response");
     const double offset_degc = profile->temperature_offset_degc;
     const double slope_degc = profile->temperature_slope_degc;
     add_polynomial(response.append_child("InstrumentPolynomial"), offset_degc, slope_degc,
@@ -229,40 +239,16 @@ std::string to_station_xml(const StationDescription& description) {
     stage.append_attribute("number").set_value(1);
     add_polynomial(stage.append_child("Polynomial"), offset_degc, slope_degc,
                    description.output_rate_hz);
+    for (const SlowChannel& slow : kSlowChannels) {
+        if (description.has_oven || !slow.is_of_oven) add_slow_channel(station, description, slow);
+    }
+    return xml_text(document);
+}
+
+std::string xml_text(const pugi::xml_document& document) {
     std::ostringstream text;
     document.save(text, "  ");
     return text.str();
-}
-
-StationMetadata read_station_xml(const std::filesystem::path& file) {
-    pugi::xml_document document;
-    const auto result = document.load_file(file.c_str());
-    if (!result) refuse(file, std::string("cannot be read as XML: ") + result.description());
-    const auto network = document.child("FDSNStationXML").child("Network");
-    const auto station = network.child("Station");
-    if (!station) refuse(file, "not StationXML: no FDSNStationXML/Network/Station");
-    StationMetadata metadata;
-    metadata.codes.network = network.attribute("code").value();
-    metadata.codes.station = station.attribute("code").value();
-    std::vector<std::string> axes;
-    for (const auto channel : station.children("Channel")) {
-        auto scale = read_scale(file, channel);
-        metadata.codes.location = channel.attribute("locationCode").value();
-        // Epochs follow each other: the last one of a channel counts.
-        const auto known = std::find_if(metadata.channels.begin(), metadata.channels.end(),
-                                        [&](const auto& one) { return one.code == scale.code; });
-        if (known != metadata.channels.end()) {
-            *known = std::move(scale);
-            continue;
-        }
-        if (scale.code.size() == 3 && scale.code[1] == 'N') axes.push_back(scale.code.substr(2));
-        metadata.channels.push_back(std::move(scale));
-    }
-    if (axes.size() != metadata.codes.axes.size()) {
-        refuse(file, std::to_string(axes.size()) + " acceleration channels; allowed: 3");
-    }
-    std::copy(axes.begin(), axes.end(), metadata.codes.axes.begin());
-    return metadata;
 }
 
 }  // namespace a351::record

@@ -110,7 +110,6 @@ void write_station_xml(const Scenario& scenario, const wire::DeviceProfile& prof
     station.latitude = base.latitude;
     station.longitude = base.longitude;
     station.elevation = base.altitude;
-    station.start = scenario.start();
     station.profile = profile.name;
     station.is_profile_verified = profile.is_verified;
     station.product_id = header.product_id;
@@ -119,6 +118,8 @@ void write_station_xml(const Scenario& scenario, const wire::DeviceProfile& prof
     station.output_rate_hz = header.output_rate_hz;
     station.filter = header.filter;
     station.group_delay = profile.group_delay(*profile.filter_named(kFilterName));
+    station.declared_rate_hz = header.declared_rate_hz;
+    station.start = header.clock.realtime - station.group_delay;  // as the daemon does
     fs::create_directories(root / "metadata");
     write_text_file(root / "metadata" / "station.xml", record::to_station_xml(station));
 }

@@ -26,3 +26,20 @@ with Scratch() as scratch:
     stream.remove_sensitivity()
     norm = sum(float(trace.data.mean()) ** 2 for trace in stream) ** 0.5
     demand(f"the norm of the means is gravity ({norm:.5f} m/s2)", 9.79 < norm < 9.83)
+
+    slow = client.get_waveforms("XX", "A351", "00", "L*", start, start + 600)
+    print(slow)
+    demand("clock error, timing quality and temperature come as one trace each at 1 Hz",
+           sorted(trace.stats.channel for trace in slow) == ["LCE", "LCQ", "LK1"]
+           and all(trace.stats.sampling_rate == 1.0 for trace in slow))
+    demand("their samples stand on whole seconds, one for each",
+           all(trace.stats.starttime.microsecond == 0 and abs(trace.stats.npts - 600) <= 1 for trace in slow))
+    temperature = slow.select(channel="LK1")[0]
+    raw = client.get_waveforms("XX", "A351", "00", "BK1", temperature.stats.starttime, start + 600)[0]
+    temperature.remove_sensitivity(inventory)
+    # M-A352AD10 data sheet, 7.6.  Records start on whole microseconds, so a sample at a second's edge may show outside it:
+    # either the 50 from half a period before the second or those from half a period after are its own.
+    error = max(min(abs(34.987 - 0.0037918 * float(raw.slice(at + edge, at + edge + 0.99).data.mean()) - temperature.data[i])
+                    for edge in (-0.01, 0.01))
+                for i in range(1, 590, 10) for at in [temperature.stats.starttime + i])
+    demand(f"LK1 is the mean of BK1 within half a count ({error * 1e3:.3f} mdegC)", error <= 0.000501)

@@ -1,5 +1,7 @@
 #include "daemon/store/store.hpp"
 
+#include <fstream>
+
 #include "protocol/text/text_file.hpp"
 #include "tests/unit/daemon/store_rig.hpp"
 
@@ -82,14 +84,51 @@ TEST_CASE_METHOD(Rig, "station metadata are replaced only when they say somethin
     station.serial_number = "00000042";
     files.create_directories(root / "metadata");
     const auto file = root / "metadata" / "station.xml";
-    describe_station(files, root, station);
+    CHECK_FALSE(describe_station(files, root, station));
     const auto first_written = text::read_text_file(file);
     station.start += std::chrono::hours(1);
-    describe_station(files, root, station);
+    CHECK_FALSE(describe_station(files, root, station));
     CHECK(text::read_text_file(file) == first_written);
     station.serial_number = "00000043";
+    CHECK_FALSE(describe_station(files, root, station));
+    const auto extended = text::read_text_file(file);
+    CHECK_THAT(extended, Catch::Contains("<SerialNumber>00000042<"));
+    CHECK_THAT(extended, Catch::Contains("<SerialNumber>00000043<"));
+}
+
+TEST_CASE_METHOD(Rig, "station metadata that are damaged are kept aside and written anew",
+                 "[daemon][data_root]") {
+    record::StationDescription station = options().station;
+    station.start = clock.now();
+    files.create_directories(root / "metadata");
+    const auto file = root / "metadata" / "station.xml";
     describe_station(files, root, station);
-    CHECK(text::read_text_file(file) != first_written);
+    const auto whole = text::read_text_file(file);
+    const auto write = [&](const std::string& content) {
+        std::ofstream(file, std::ios::binary) << content;
+    };
+    for (const std::size_t size : {std::size_t{0}, whole.size() / 3, whole.size() - 20}) {
+        INFO("cut to " << size);
+        write(whole.substr(0, size));
+        const auto trouble = describe_station(files, root, station);
+        REQUIRE(trouble);
+        CHECK_THAT(*trouble, Catch::Contains("station.xml: "));
+        CHECK(text::read_text_file(file) == whole);
+    }
+    CHECK(text::read_text_file(root / "metadata" / "station.xml.damaged").empty());
+    CHECK(text::read_text_file(root / "metadata" / "station.xml.damaged.3") ==
+          whole.substr(0, whole.size() - 20));
+    // Found at the start of a session, it is told.
+    write("no xml");
+    Store store(files, options(), clock, reads);
+    store.start();
+    begin_session();
+    feed(100);
+    REQUIRE(eventually([&] { return status_of(store).received == 99; }));
+    CHECK(store.stop());
+    bool is_told = false;
+    for (const auto& reason : status_of(store).reasons) is_told |= reason.find("metadata: ") == 0;
+    CHECK(is_told);
 }
 
 TEST_CASE_METHOD(Rig, "an instant of a session that is over is still known", "[daemon][store]") {

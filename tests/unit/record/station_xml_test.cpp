@@ -3,37 +3,10 @@
 #include <catch2/catch.hpp>
 
 #include "protocol/core/input_error.hpp"
-#include "tests/unit/record/file_bytes.hpp"
-#include "tests/unit/record/temporary_directory.hpp"
+#include "tests/unit/record/station_files.hpp"
 
 namespace a351::record {
 namespace {
-
-StationDescription description() {
-    StationDescription station;
-    station.latitude = Degrees(36.106);
-    station.longitude = Degrees(140.087);
-    station.elevation = Metres(25.5);
-    station.start = *parse_rfc3339("2026-03-01T12:00:00Z");
-    station.profile = "A351";
-    station.product_id = "A352AD10";
-    station.serial_number = "X0000001";
-    station.firmware = 258;
-    station.output_rate_hz = 50;
-    station.filter = "k512_fc9";
-    station.group_delay = Nanoseconds(63'875'000);
-    return station;
-}
-
-class File {
-public:
-    explicit File(const std::string& text) { test::write_bytes(path(), test::bytes_of(text)); }
-    [[nodiscard]] std::filesystem::path path() const { return directory_.path() / "station.xml"; }
-    [[nodiscard]] StationMetadata read() const { return read_station_xml(path()); }
-
-private:
-    test::TemporaryDirectory directory_;
-};
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
     const auto at = text.find(what);
@@ -46,7 +19,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 TEST_CASE("scales come back from the metadata", "[record][station_xml]") {
     const auto metadata = File(to_station_xml(description())).read();
     CHECK(metadata.codes == StationCodes{});
-    REQUIRE(metadata.channels.size() == 4);
+    REQUIRE(metadata.channels.size() == 7);
     const char* codes[] = {"BN1", "BN2", "BNZ"};
     for (std::size_t i = 0; i < 3; ++i) {
         CHECK(metadata.channels[i].code == codes[i]);
@@ -60,11 +33,43 @@ TEST_CASE("scales come back from the metadata", "[record][station_xml]") {
     CHECK(metadata.channels[3].unit == "degC");
     CHECK(metadata.channels[3].gain == -0.0037918);
     CHECK(metadata.channels[3].offset == 34.987);
+    CHECK(metadata.channels[4].code == "LK1");
+    CHECK(metadata.channels[4].gain == 0.001);
+    CHECK(metadata.channels[4].unit == "degC");
+    CHECK(metadata.channels[5].code == "LCE");
+    CHECK(metadata.channels[5].gain == 1e-6);
+    CHECK(metadata.channels[5].unit == "s");
+    CHECK(metadata.channels[6].code == "LCQ");
+    CHECK(metadata.channels[6].unit == "%");
 }
 
 TEST_CASE("the sensitivity has all digits of 2^24 / 9.80665", "[record][station_xml]") {
     // 1710799.916383270536 by long division; the nearest double in its shortest form.
     CHECK_THAT(to_station_xml(description()), Catch::Contains("<Value>1710799.9163832706</Value>"));
+}
+
+TEST_CASE("an oven adds its channels", "[record][station_xml]") {
+    auto station = description();
+    station.has_oven = true;
+    const auto metadata = File(to_station_xml(station)).read();
+    REQUIRE(metadata.channels.size() == 10);
+    CHECK(metadata.channels[5].code == "LK2");
+    CHECK(metadata.channels[6].code == "LK3");
+    CHECK(metadata.channels[6].gain == 0.001);
+    CHECK(metadata.channels[7].code == "LYH");
+    CHECK(metadata.channels[7].gain == 0.01);
+    CHECK(metadata.channels[7].unit == "%");
+}
+
+TEST_CASE("the clock's drift is that of the declared rate", "[record][station_xml]") {
+    CHECK_THAT(to_station_xml(description()), !Catch::Contains("ClockDrift"));
+    auto station = description();
+    station.declared_rate_hz = 50.001;
+    const auto text = to_station_xml(station);
+    const auto at = text.find("<ClockDrift>");
+    REQUIRE(at != std::string::npos);
+    // 20 ppm of 20 ms; the schema wants it positive.
+    CHECK(std::stod(text.substr(at + 12)) == Approx(4e-7).epsilon(1e-4).margin(0));
 }
 
 TEST_CASE("other codes and axes come back", "[record][station_xml]") {
@@ -83,7 +88,7 @@ TEST_CASE("the metadata say what a reader has to know", "[record][station_xml]")
           "firmware 258", "<SerialNumber>X0000001</SerialNumber>", "<Model>A352AD10</Model>",
           "<SampleRate>50</SampleRate>", "<Dip>-90</Dip>", "<Azimuth>90</Azimuth>",
           "orientation not surveyed", "<Longitude>140.087</Longitude>",
-          "startDate=\"2026-03-01T12:00:00.000000Z\""}) {
+          "startDate=\"2026-03-01T12:00:00.000000Z\"", "axis y; x, y, z are 1, 2, Z"}) {
         CHECK_THAT(text, Catch::Contains(part));
     }
     auto station = description();
@@ -115,7 +120,8 @@ TEST_CASE("metadata that cannot be used are refused with the file's name",
     const std::string text = GENERATE_COPY(
         std::string(), std::string("no xml"), std::string("<a/>"), whole.substr(0, 2000),
         replaced(whole, "<Value>1710799", "<Value>x"), replaced(whole, "<Value>1", "<Value>-1"),
-        replaced(whole, "code=\"BN1\"", "code=\"LK1\""),
+        replaced(whole, "code=\"BN1\"", "code=\"LK9\""),
+        replaced(whole, "locationCode=\"00\" startDate=\"2026", "startDate=\"x"),
         replaced(whole, "<Name>m/s**2</Name>", "<Name/>"),
         replaced(whole, "<Coefficient number=\"1\">34.987</Coefficient>", ""));
     const File file(text);

@@ -5,6 +5,7 @@
 
 #include "corrector/survey/occupation_rows.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/record/channel_code.hpp"
 #include "protocol/record/event_log.hpp"
 #include "protocol/record/miniseed.hpp"
 #include "protocol/record/sds.hpp"
@@ -46,7 +47,8 @@ public:
         description.filter = "k512_fc9";
         folder_.write("data/metadata/station.xml", record::to_station_xml(description));
         const auto station = record::read_station_xml(folder_.path() / "data/metadata/station.xml");
-        for (const auto& channel : station.channels) write_channel(channel);
+        for (const auto& channel : station.channels)
+            if (!record::is_derived(channel.code)) write_channel(channel);
         folder_.write("sites.csv",
                       "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\n"
                       "B,140.1,36.2,500,979800\nS1,140.0,36.1,200,979850\n"
