@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -60,6 +61,9 @@ struct Status {
     std::map<std::string, std::uint64_t> more_counters;  ///< Of link and store, by name.
 
     std::optional<std::uint64_t> disk_free_bytes;  ///< Absent: it cannot be told.
+    std::string disk_reserve;                      ///< present, given_up, unavailable.
+    std::string disk_reserve_trouble;              ///< Why it is unavailable.
+    std::chrono::milliseconds longest_sync{0};     ///< Of the journal, or write.
 };
 
 }  // namespace a351::daemon

@@ -133,7 +133,9 @@ json to_json(const Status& status, const Occupations& occupations, Nanoseconds s
               {"filter", status.filter},
               {"output_rate_hz", status.output_rate_hz}}},
             {"disk",
-             {{"free_bytes", status.disk_free_bytes ? json(*status.disk_free_bytes) : json()}}}};
+             {{"free_bytes", or_null(status.disk_free_bytes)},
+              {"reserve", status.disk_reserve},
+              {"longest_sync_ms", status.longest_sync.count()}}}};
 }
 
 json to_json(const RunningOccupation& running, UtcTime now) {

@@ -10,9 +10,9 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using std::chrono::steady_clock;
 
 constexpr seconds kSyncInterval{30};
+constexpr seconds kSpaceInterval{1};   // A disk can fill up within a minute.
 constexpr seconds kModelInterval{10};  // Of instrument time, and
 constexpr milliseconds kShortestModelInterval{100};
 constexpr std::size_t kMostWaitingBytes = std::size_t{64} << 20;
@@ -22,7 +22,7 @@ constexpr std::size_t kSessionsRemembered = 16;  // Each with 24 h of times, som
 
 ArchiveThread::ArchiveThread(record::FileLayer& files, std::filesystem::path archive,
                              record::StationCodes codes, const HostClock& clock, ChunkQueue& chunks,
-                             Progress& progress, Hooks hooks, milliseconds retry_interval,
+                             Progress& progress, SpaceReserve& reserve, Hooks hooks, DiskTime time,
                              const record::Replay& replay)
     : files_(files),
       archive_(std::move(archive)),
@@ -30,9 +30,11 @@ ArchiveThread::ArchiveThread(record::FileLayer& files, std::filesystem::path arc
       clock_(clock),
       chunks_(chunks),
       progress_(progress),
+      reserve_(reserve),
       hooks_(std::move(hooks)),
-      retry_interval_(retry_interval),
+      time_(std::move(time)),
       replay_(replay),
+      last_sync_(time_.now()),
       archiver_(std::make_unique<record::Archiver>(outbox_)) {
     status_.is_replaying = true;
 }
@@ -45,7 +47,6 @@ ArchiveThread::~ArchiveThread() {
 }
 
 void ArchiveThread::start() {
-    last_sync_ = steady_clock::now();
     thread_ = std::thread([this] { run(); });
 }
 
@@ -56,34 +57,50 @@ void ArchiveThread::hurry() {
 }
 
 bool ArchiveThread::join() {
-    if (thread_.joinable()) thread_.join();
+    if (thread_.joinable())
+        thread_.join();
+    else
+        run();
     const std::lock_guard lock(mutex_);
     return !status_.is_faulty && status_.chunks_lost == 0;
 }
 
 void ArchiveThread::run() noexcept {
-    if (!recover()) {
-        while (chunks_.pop()) {  // The journal has them; it must not wait for us.
+    while (!recover()) {
+        {
+            std::unique_lock lock(mutex_);
+            if (!hurried_.wait_for(lock, time_.retry_interval, [this] { return is_hurried_; }))
+                continue;
+        }
+        while (chunks_.pop()) {  // The next start will find them in the journal.
         }
         return;
     }
-    while (const auto numbered = chunks_.pop()) {
-        try {
-            take(*numbered);
-            post_model();
-        } catch (const std::exception& error) {
-            note_fault(error.what());
-            are_marks_true_ = false;  // No mark may say that it is archived.
-            const std::lock_guard lock(mutex_);
-            ++status_.chunks_lost;
-        }
-        if (may_write()) put_away(false);
-    }
+    while (const auto numbered = chunks_.pop()) handle(*numbered);
     {
         const std::lock_guard lock(mutex_);
         archiver_->close_records();
     }
+    // The journal is written: whatever space is left is for the archive.
     if (!put_away(true)) put_away(true);
+}
+
+void ArchiveThread::step() {
+    if (!recover()) return;
+    while (const auto numbered = chunks_.try_pop()) handle(*numbered);
+}
+
+void ArchiveThread::handle(const NumberedChunk& numbered) noexcept {
+    try {
+        take(numbered);
+        post_model();
+    } catch (const std::exception& error) {
+        note_fault(error.what());
+        are_marks_true_ = false;  // No mark may say that it is archived.
+        const std::lock_guard lock(mutex_);
+        ++status_.chunks_lost;
+    }
+    if (may_write()) put_away(false);
 }
 
 void ArchiveThread::take(const NumberedChunk& numbered) {
@@ -115,14 +132,21 @@ void ArchiveThread::note_session(const record::SessionId& session) {
     if (ended_.size() > kSessionsRemembered) ended_.pop_front();
 }
 
-/// While the archive is in trouble, only now and then; that is waited for only with memory full.
+/// Not while the journal needs the space, unless memory is full; while the archive is in trouble
+/// only now and then, which is waited for only with memory full.
 bool ArchiveThread::may_write() {
+    if (time_.now() - last_look_at_space_ >= kSpaceInterval) {
+        last_look_at_space_ = time_.now();
+        reserve_.tend();
+    }
+    const bool is_full = outbox_.bytes > kMostWaitingBytes;
+    if (reserve_.is_space_short() && !is_full) return false;
     if (!retry_at_) return true;
-    if (outbox_.bytes > kMostWaitingBytes) {
+    if (is_full) {
         std::unique_lock lock(mutex_);
         hurried_.wait_until(lock, *retry_at_, [this] { return is_hurried_; });
     }
-    return steady_clock::now() >= *retry_at_;
+    return time_.now() >= *retry_at_;
 }
 
 /// @return false when the disk did not take everything; the rest waits.
@@ -132,10 +156,10 @@ bool ArchiveThread::put_away(bool is_last) {
         if (undescribed_) hooks_.session_began(*undescribed_);
         undescribed_.reset();
         write_outbox();
-        if (is_last || steady_clock::now() - last_sync_ >= kSyncInterval) sync();
+        if (is_last || time_.now() - last_sync_ >= kSyncInterval) sync();
     } catch (const std::exception& error) {
         note_fault(error.what());
-        retry_at_ = steady_clock::now() + retry_interval_;
+        retry_at_ = time_.now() + time_.retry_interval;
         return false;
     }
     retry_at_.reset();
@@ -170,7 +194,7 @@ void ArchiveThread::write_outbox() {
 }
 
 void ArchiveThread::sync() {
-    last_sync_ = steady_clock::now();
+    last_sync_ = time_.now();
     std::vector<record::ChannelMark> marks;
     try {
         marks = writer_->sync();
@@ -190,7 +214,7 @@ void ArchiveThread::sync() {
 }
 
 void ArchiveThread::post_model() {
-    const auto now = steady_clock::now();
+    const auto now = time_.now();
     if (now - last_model_real_ < kShortestModelInterval) return;
     const RawTime raw = clock_.raw();
     if (raw - last_model_ < kModelInterval) return;

@@ -2,8 +2,9 @@
 /// @file
 /// The archive thread: journal chunks -> samples, times, miniSEED records.  First those that the
 /// last run left in the journal, so that acquisition need not wait for them.  While the archive
-/// cannot be written, records wait in memory, tried now and then, and the journal goes on: 64 MiB
-/// here, 18 h at 50 Hz, then what ChunkQueue holds; from then on the journal waits.
+/// cannot be written, or the journal needs the space that is left, records wait in memory, tried
+/// now and then, and the journal goes on: 64 MiB here, 18 h at 50 Hz.  Then they are written if
+/// they can be, or else wait in ChunkQueue; from then on the journal waits.
 
 #include <atomic>
 #include <chrono>
@@ -19,7 +20,9 @@
 
 #include "daemon/source/host_clock.hpp"
 #include "daemon/store/chunk_queue.hpp"
+#include "daemon/store/disk_time.hpp"
 #include "daemon/store/progress.hpp"
+#include "daemon/store/space_reserve.hpp"
 #include "daemon/survey/recorder.hpp"
 #include "protocol/record/archive_writer.hpp"
 #include "protocol/record/archiver.hpp"
@@ -59,11 +62,14 @@ public:
     /// All referred to must outlive this.
     ArchiveThread(record::FileLayer& files, std::filesystem::path archive,
                   record::StationCodes codes, const HostClock& clock, ChunkQueue& chunks,
-                  Progress& progress, Hooks hooks, std::chrono::milliseconds retry_interval,
+                  Progress& progress, SpaceReserve& reserve, Hooks hooks, DiskTime time,
                   const record::Replay& replay);
     ~ArchiveThread();
 
     void start();
+
+    /// What has come, in the caller's thread, for who does without start().
+    void step();
 
     /// From now on nothing is waited for: a fault at the end is retried once, a replay is left to the
     /// next start.
@@ -116,6 +122,7 @@ private:
     [[nodiscard]] bool recover() noexcept;
     [[nodiscard]] bool replay(record::RecoveryReport& report);
     [[nodiscard]] bool take_again(const record::JournalChunk& chunk);
+    void handle(const NumberedChunk& numbered) noexcept;
     void take(const NumberedChunk& numbered);
     void open_archive(const record::StationCodes& codes);
     void write_replayed();
@@ -135,15 +142,16 @@ private:
     const HostClock& clock_;
     ChunkQueue& chunks_;
     Progress& progress_;
+    SpaceReserve& reserve_;
     Hooks hooks_;
-    std::chrono::milliseconds retry_interval_;
+    DiskTime time_;
     const record::Replay& replay_;
 
     using steady_time = std::chrono::steady_clock::time_point;
 
     // Of the archive thread.
     std::unique_ptr<record::ArchiveWriter> writer_;
-    steady_time last_sync_, last_model_real_;
+    steady_time last_sync_, last_model_real_, last_look_at_space_;
     RawTime last_model_;
     std::optional<steady_time> retry_at_;  ///< Set while the archive is in trouble.
     std::optional<record::JournalHeader>

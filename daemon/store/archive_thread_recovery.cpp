@@ -1,25 +1,31 @@
 /// @file
 /// The beginning of the archive thread: what the last run left in the journal.
 
+#include <system_error>
+
 #include "daemon/store/archive_thread.hpp"
 
 namespace a351::daemon {
 
-/// Brings the last run's journal in, however often the disk fails.  The archiver then stands where
-/// that run left it: a stream that is adopted goes on in its session.
-/// @return false when there was no time for it: the next start will do it.
+/// Brings the last run's journal in.  The archiver then stands where that run left it: a stream
+/// that is adopted goes on in its session.
+/// @return false: the disk failed, or time was short; to be called again.
 bool ArchiveThread::recover() noexcept {
-    record::RecoveryReport report;
-    while (true) {
-        try {
-            if (!replay(report)) return false;
-            break;
-        } catch (const std::exception& error) {
-            note_fault(error.what());
-        }
-        std::unique_lock lock(mutex_);
-        if (hurried_.wait_for(lock, retry_interval_, [this] { return is_hurried_; })) return false;
+    {
+        const std::lock_guard lock(mutex_);
+        if (!status_.is_replaying) return true;
     }
+    if (retry_at_ && time_.now() < *retry_at_) return false;
+    record::RecoveryReport report;
+    reserve_.tend();
+    try {
+        if (!replay(report)) return false;
+    } catch (const std::exception& error) {
+        note_fault(error.what());
+        retry_at_ = time_.now() + time_.retry_interval;
+        return false;
+    }
+    retry_at_.reset();
     if (report.chunks_lost > 0) are_marks_true_ = false;
     hooks_.recovered(report);
     const std::lock_guard lock(mutex_);
@@ -61,6 +67,9 @@ void ArchiveThread::open_archive(const record::StationCodes& codes) {
 
 /// @return false when time is short.
 bool ArchiveThread::take_again(const record::JournalChunk& chunk) {
+    if (reserve_.is_space_short())
+        throw std::system_error(std::make_error_code(std::errc::no_space_on_device),
+                                "the journal needs the space");
     bool is_new_session = false;
     {
         const std::lock_guard lock(mutex_);

@@ -29,6 +29,15 @@ bool ChunkQueue::push(NumberedChunk chunk) {
 std::optional<NumberedChunk> ChunkQueue::pop() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return is_closed_ || !chunks_.empty(); });
+    return take_front();
+}
+
+std::optional<NumberedChunk> ChunkQueue::try_pop() {
+    const std::lock_guard lock(mutex_);
+    return take_front();
+}
+
+std::optional<NumberedChunk> ChunkQueue::take_front() {
     if (chunks_.empty()) return std::nullopt;
     NumberedChunk chunk = std::move(chunks_.front());
     chunks_.pop_front();

@@ -33,10 +33,15 @@ public:
     /// Waits for a chunk; std::nullopt once the queue is closed and empty.
     [[nodiscard]] std::optional<NumberedChunk> pop();
 
+    /// Does not wait.
+    [[nodiscard]] std::optional<NumberedChunk> try_pop();
+
     /// No chunk will follow; one that does is dropped.
     void close();
 
 private:
+    std::optional<NumberedChunk> take_front();
+
     std::size_t capacity_bytes_;
     std::mutex mutex_;
     std::condition_variable changed_;

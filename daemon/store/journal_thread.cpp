@@ -1,5 +1,6 @@
 #include "daemon/store/journal_thread.hpp"
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -8,7 +9,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using std::chrono::steady_clock;
 
 constexpr milliseconds kWriteInterval{50};  // Half of what is promised leaves room for the disk.
 constexpr milliseconds kSyncInterval{800};  // Of the second that is promised.
@@ -22,14 +22,15 @@ constexpr std::size_t kMostReads = 1000;
 
 JournalThread::JournalThread(record::FileLayer& files, const std::filesystem::path& data_root,
                              const HostClock& clock, ReadQueue& reads, ChunkQueue& written,
-                             Progress& progress, milliseconds retry_interval)
-    : retry_interval_(retry_interval),
+                             Progress& progress, SpaceReserve& reserve, DiskTime time)
+    : time_(std::move(time)),
       files_(files),
       events_(data_root / "events"),
       clock_(clock),
       reads_(reads),
       written_(written),
       progress_(progress),
+      reserve_(reserve),
       writer_(files, data_root / "journal") {}
 
 JournalThread::~JournalThread() {
@@ -39,13 +40,18 @@ JournalThread::~JournalThread() {
 }
 
 void JournalThread::start() {
+    is_started_ = true;
     thread_ = std::thread([this] { run(); });
 }
 
 void JournalThread::drain() {
+    {
+        const std::lock_guard lock(mutex_);
+        phase_ = Phase::draining;
+        woken_.notify_all();
+    }
+    if (!thread_.joinable()) return go_round(Phase::draining);
     std::unique_lock lock(mutex_);
-    phase_ = Phase::draining;
-    woken_.notify_all();
     woken_.wait(lock, [this] { return is_drained_; });
 }
 
@@ -55,8 +61,12 @@ bool JournalThread::finish() {
         phase_ = Phase::finishing;
         woken_.notify_all();
     }
-    if (thread_.joinable()) thread_.join();
-    return !status().is_faulty;
+    if (thread_.joinable())
+        thread_.join();
+    else
+        go_round(Phase::finishing);
+    const std::lock_guard lock(mutex_);
+    return !status_.is_faulty;
 }
 
 void JournalThread::post(record::JournalChunk chunk) {
@@ -72,6 +82,7 @@ void JournalThread::commit(const record::Event& event, milliseconds patience) {
         commits_.push_back(commit);
         woken_.notify_all();
     }
+    if (!is_started_) step();
     if (done.wait_for(patience) != std::future_status::ready) {
         const std::lock_guard lock(mutex_);
         if (std::erase(commits_, commit) > 0) {
@@ -84,7 +95,14 @@ void JournalThread::commit(const record::Event& event, milliseconds patience) {
 
 JournalStatus JournalThread::status() const {
     const std::lock_guard lock(mutex_);
-    return status_;
+    JournalStatus status = status_;
+    status.is_faulty |= is_fault_recent();
+    if (on_disk_since_) {
+        status.present_sync =
+            std::chrono::duration_cast<milliseconds>(time_.now() - *on_disk_since_);
+        status.longest_sync = std::max(status.longest_sync, status.present_sync);
+    }
+    return status;
 }
 
 void JournalThread::run() noexcept {
@@ -98,19 +116,23 @@ void JournalThread::run() noexcept {
             });
             phase = phase_;
         }
-        try {
-            work();
-            if (phase != Phase::running) sync();
-        } catch (const std::exception& error) {
-            note_fault(error.what());
-        }
-        if (phase == Phase::running) continue;
-        written_.close();
-        const std::lock_guard lock(mutex_);
-        is_drained_ = true;
-        woken_.notify_all();
+        go_round(phase);
         if (phase == Phase::finishing) break;
     }
+}
+
+void JournalThread::go_round(Phase phase) noexcept {
+    try {
+        work();
+        if (phase != Phase::running) sync();
+    } catch (const std::exception& error) {
+        note_fault(error.what());
+    }
+    if (phase == Phase::running) return;
+    written_.close();
+    const std::lock_guard lock(mutex_);
+    is_drained_ = true;
+    woken_.notify_all();
 }
 
 void JournalThread::work() {
@@ -120,7 +142,7 @@ void JournalThread::work() {
         while (auto chunk = next_posted()) write(std::move(*chunk));
     }
     carry_out_commits();
-    if (is_dirty_ && may_try_again() && steady_clock::now() - last_sync_ >= kSyncInterval) sync();
+    if (is_dirty_ && may_try_again() && time_.now() - last_sync_ >= kSyncInterval) sync();
 }
 
 std::optional<record::JournalChunk> JournalThread::next_posted() {
@@ -162,7 +184,7 @@ void JournalThread::write_reads() {
         }
     }
     write_rx();
-    const auto now = steady_clock::now();
+    const auto now = time_.now();
     if (has_segment_ && now - last_clock_real_ >= kShortestClockInterval &&
         clock_.raw() - last_clock_ >= kClockInterval) {
         const timing::ClockReading reading = clock_.read();
@@ -185,10 +207,12 @@ void JournalThread::retry_unwritten() {
         return;
     }
     if (header != nullptr) {
-        writer_.begin_segment(*header);
+        on_disk([&] { writer_.begin_segment(*header); });
         has_segment_ = true;
-    } else if (const auto rotated = writer_.append(*unwritten_, clock_.read())) {
-        hand_over(*rotated);  // The archive must see what a reader will see.
+    } else {
+        std::optional<record::JournalHeader> rotated;
+        on_disk([&] { rotated = writer_.append(*unwritten_, clock_.read()); });
+        if (rotated) hand_over(*rotated);  // The archive must see what a reader will see.
     }
     is_dirty_ = true;
     hand_over(*std::exchange(unwritten_, std::nullopt));
@@ -220,7 +244,7 @@ void JournalThread::carry_out_commits() {
 // The event log decides: the journal's copy follows, at once unless the journal is in trouble.
 void JournalThread::carry_out(Commit& commit) {
     try {
-        record::append_event(files_, events_, commit.event);
+        on_disk([&] { record::append_event(files_, events_, commit.event); });
     } catch (const std::exception&) {
         {
             const std::lock_guard lock(mutex_);
@@ -244,30 +268,58 @@ void JournalThread::carry_out(Commit& commit) {
 
 void JournalThread::sync() {
     if (!is_dirty_) return;
-    last_sync_ = steady_clock::now();
-    writer_.sync();
+    last_sync_ = time_.now();
+    on_disk([this] { writer_.sync(); });
     is_dirty_ = false;
-    is_failing_ = false;
+    faults_running_ = 0;
     progress_.journal_synced(last_chunk_);
 }
 
+/// Times it, and tries it once more on a disk that was full when the reserve is given up.
+void JournalThread::on_disk(const std::function<void()>& operation) {
+    const auto note_end = [this] {
+        const std::lock_guard lock(mutex_);
+        const auto took = time_.now() - *std::exchange(on_disk_since_, std::nullopt);
+        status_.longest_sync =
+            std::max(status_.longest_sync, std::chrono::duration_cast<milliseconds>(took));
+    };
+    {
+        const std::lock_guard lock(mutex_);
+        on_disk_since_ = time_.now();
+    }
+    try {
+        try {
+            operation();
+        } catch (const std::system_error& error) {
+            if (error.code() != std::errc::no_space_on_device || !reserve_.give_up()) throw;
+            operation();
+        }
+    } catch (...) {
+        note_end();
+        throw;
+    }
+    note_end();
+}
+
 void JournalThread::note_fault(const std::string& trouble) {
-    last_fault_ = steady_clock::now();
-    is_failing_ = true;
+    ++faults_running_;
     const std::lock_guard lock(mutex_);
+    last_fault_ = time_.now();
     status_.is_faulty = true;
     status_.trouble = trouble;
     ++status_.faults;
 }
 
-// While the disk is bad each try may cost a segment.
+// At once after the first fault; while the disk is bad each further try may cost a segment.
 bool JournalThread::may_try_again() const {
-    if (!is_failing_) return true;
-    const bool is_last_chance = [this] {
-        const std::lock_guard lock(mutex_);
-        return phase_ != Phase::running;
-    }();
-    return is_last_chance || steady_clock::now() - last_fault_ >= retry_interval_;
+    if (faults_running_ < 2) return true;
+    const std::lock_guard lock(mutex_);
+    return phase_ != Phase::running || !is_fault_recent();
+}
+
+/// With the lock held.
+bool JournalThread::is_fault_recent() const {
+    return last_fault_ && time_.now() - *last_fault_ < time_.retry_interval;
 }
 
 }  // namespace a351::daemon

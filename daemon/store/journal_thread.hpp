@@ -2,7 +2,7 @@
 /// @file
 /// The journal thread: what was read goes to disk within 100 ms and survives a power cut after
 /// one second, both of real time.  It waits for the disk, and for the archive
-/// thread when ChunkQueue is full.
+/// thread when ChunkQueue is full.  What a full disk refuses costs the reserve first.
 
 #include <atomic>
 #include <chrono>
@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <memory>
 #include <mutex>
@@ -21,7 +22,9 @@
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/read_queue.hpp"
 #include "daemon/store/chunk_queue.hpp"
+#include "daemon/store/disk_time.hpp"
 #include "daemon/store/progress.hpp"
+#include "daemon/store/space_reserve.hpp"
 #include "protocol/record/event_log.hpp"
 #include "protocol/record/file_layer.hpp"
 #include "protocol/record/journal_writer.hpp"
@@ -29,12 +32,14 @@
 namespace a351::daemon {
 
 struct JournalStatus {
-    bool is_faulty = false;
-    std::string trouble;  ///< The last fault of the disk.
+    bool is_faulty = false;  ///< Now, or within the last retry interval: long enough to be seen.
+    std::string trouble;     ///< The last fault of the disk.
     std::uint64_t faults = 0;
     std::uint64_t bytes_written = 0;
-    std::uint64_t archive_waits = 0;   ///< Times it had to wait for the archive.
-    std::uint64_t events_refused = 0;  ///< That the event log did not take.
+    std::uint64_t archive_waits = 0;            ///< Times it had to wait for the archive.
+    std::uint64_t events_refused = 0;           ///< That the event log did not take.
+    std::chrono::milliseconds longest_sync{0};  ///< Or write; one under way counts.
+    std::chrono::milliseconds present_sync{0};  ///< The one under way; 0: none.
 };
 
 class JournalThread {
@@ -42,10 +47,13 @@ public:
     /// All referred to must outlive this.
     JournalThread(record::FileLayer& files, const std::filesystem::path& data_root,
                   const HostClock& clock, ReadQueue& reads, ChunkQueue& written, Progress& progress,
-                  std::chrono::milliseconds retry_interval = std::chrono::seconds(10));
+                  SpaceReserve& reserve, DiskTime time);
     ~JournalThread();
 
     void start();
+
+    /// One round in the caller's thread, for who does without start().
+    void step() noexcept { go_round(Phase::running); }
 
     /// Writes what is left in the queues, closes `written`, and goes on until finish().
     void drain();
@@ -73,6 +81,7 @@ private:
     };
 
     void run() noexcept;
+    void go_round(Phase phase) noexcept;
     void work();
     void write_reads();
     [[nodiscard]] std::optional<record::JournalChunk> next_posted();
@@ -82,26 +91,31 @@ private:
     void carry_out_commits();
     void carry_out(Commit& commit);
     void sync();
+    void on_disk(const std::function<void()>& operation);
     void note_fault(const std::string& trouble);
     [[nodiscard]] bool may_try_again() const;
+    [[nodiscard]] bool is_fault_recent() const;
 
-    std::chrono::milliseconds retry_interval_;
+    DiskTime time_;
     record::FileLayer& files_;
     std::filesystem::path events_;
     const HostClock& clock_;
     ReadQueue& reads_;
     ChunkQueue& written_;
     Progress& progress_;
+    SpaceReserve& reserve_;
     record::JournalWriter writer_;
+
+    bool is_started_ = false;  ///< Else the caller's thread does the work.
 
     // Of the journal thread.
     bool has_segment_ = false;
     bool is_dirty_ = false;
-    bool is_failing_ = false;                        ///< From a fault to the next good sync.
+    int faults_running_ = 0;                         ///< Since the last good sync.
     std::optional<record::JournalChunk> unwritten_;  ///< What the disk refused.
     std::uint64_t last_chunk_ = 0;
     RawTime last_clock_;
-    std::chrono::steady_clock::time_point last_clock_real_, last_sync_, last_fault_;
+    std::chrono::steady_clock::time_point last_clock_real_, last_sync_;
 
     mutable std::mutex mutex_;
     std::condition_variable woken_;
@@ -110,6 +124,7 @@ private:
     std::deque<record::JournalChunk> posted_;
     std::deque<std::shared_ptr<Commit>> commits_;
     JournalStatus status_;
+    std::optional<std::chrono::steady_clock::time_point> on_disk_since_, last_fault_;
     std::thread thread_;
 };
 

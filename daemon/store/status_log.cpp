@@ -29,6 +29,11 @@ void StatusLog::note(const Status& status, Instant now) {
                    status.oven->trouble.empty() ? status.oven->port : status.oven->trouble);
         oven_state_ = status.oven->state;
     }
+    if (status.disk_reserve != reserve_) {
+        log_->info("reserve for a full disk: {}{}{}", status.disk_reserve,
+                   status.disk_reserve_trouble.empty() ? "" : ": ", status.disk_reserve_trouble);
+        reserve_ = status.disk_reserve;
+    }
     note_reasons(status, now);
     note_counter("gaps", status.counters.gaps, now);
     note_counter("checksum errors", status.counters.checksum_errors, now);

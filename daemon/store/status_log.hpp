@@ -41,6 +41,7 @@ private:
     std::string session_;
     std::string link_state_;
     std::string oven_state_;
+    std::string reserve_;
     std::map<std::string, Trouble> troubles_;
     std::map<std::string, Counter> counters_;
 };

@@ -6,6 +6,11 @@
 #include "daemon/store/assess.hpp"
 
 namespace a351::daemon {
+namespace {
+
+constexpr std::chrono::seconds kStall{1};  // What a power cut may cost is more from here on.
+
+}  // namespace
 
 Store::Store(record::FileLayer& files, StoreOptions options, const HostClock& clock,
              ReadQueue& reads)
@@ -13,26 +18,30 @@ Store::Store(record::FileLayer& files, StoreOptions options, const HostClock& cl
       options_(std::move(options)),
       lock_(files, options_.root),
       keeper_(files, options_.root / "journal", options_.keeper),
-      replay_(record::begin_recovery(files, options_.root / "journal")),
+      reserve_(files, options_.root / "state" / "reserve", options_.reserve_bytes),
+      replay_(plan_replay()),
       known_stream_(record::stream_end(replay_.segments)),
       profile_(wire::find_profile(options_.station.profile)),
-      journal_(files, options_.root, clock, reads, chunks_, progress_, options_.retry_interval),
+      journal_(files, options_.root, clock, reads, chunks_, progress_, reserve_, options_.time),
       archive_(files, options_.root / "archive", options_.station.codes, clock, chunks_, progress_,
+               reserve_,
                {.post = [this](record::JournalChunk chunk) { journal_.post(std::move(chunk)); },
                 .session_began = [this](const record::JournalHeader& header) { describe(header); },
-                .recovered =
-                    [this](const record::RecoveryReport& report) {
-                        options_.recovered(report);
-                        keeper_.start();  // It renames what the replay reads.
-                    }},
-               options_.retry_interval, replay_) {}
+                .recovered = [this](const record::RecoveryReport& report) { go_on(report); }},
+               options_.time, replay_) {}
 
 Store::~Store() { stop(); }
 
 void Store::start() {
-    is_running_ = true;
+    is_running_ = is_started_ = true;
     archive_.start();
     journal_.start();
+}
+
+void Store::step() {
+    is_running_ = true;
+    journal_.step();
+    archive_.step();
 }
 
 bool Store::stop() {
@@ -49,6 +58,22 @@ std::optional<Instant> Store::latest() { return archive_.latest(); }
 std::optional<Instant> Store::at(UtcTime utc) { return archive_.at(utc); }
 
 void Store::commit(const record::Event& event) { journal_.commit(event, options_.commit_patience); }
+
+/// On a full disk the reserve is given up for it: a day in the field must go on.
+record::Replay Store::plan_replay() {
+    const auto journal = options_.root / "journal";
+    try {
+        return record::begin_recovery(files_, journal);
+    } catch (const std::system_error& error) {
+        if (error.code() != std::errc::no_space_on_device || !reserve_.give_up()) throw;
+        return record::begin_recovery(files_, journal);
+    }
+}
+
+void Store::go_on(const record::RecoveryReport& report) {
+    options_.recovered(report);
+    if (is_started_) keeper_.start();  // Not before: it renames what the replay reads.
+}
 
 void Store::describe(const record::JournalHeader& header) {
     record::StationDescription description = options_.station;
@@ -122,9 +147,20 @@ void Store::fill(Status& status) {
             "journal holds it, and the next start brings it in");
     }
 
-    std::error_code error;
-    const auto space = std::filesystem::space(options_.root, error);
-    if (!error) status.disk_free_bytes = space.available;
+    status.longest_sync = journal.longest_sync;
+    if (journal.present_sync >= kStall)
+        complain(status, Status::Level::warning, "the disk stalls: what is read waits in memory");
+
+    status.disk_free_bytes = files_.free_bytes(options_.root);
+    const SpaceReserve::Status reserve = reserve_.status();
+    status.disk_reserve = to_text(reserve.state);
+    status.disk_reserve_trouble = reserve.trouble;
+    status.more_counters["reserve_given_up"] = reserve.times_given_up;
+    if (reserve.is_space_short) {
+        complain(status, Status::Level::fault,
+                 "disk full: the archive waits so that the journal has the space; " +
+                     std::to_string(status.disk_free_bytes.value_or(0) >> 20) + " MiB free");
+    }
 }
 
 }  // namespace a351::daemon

@@ -16,9 +16,11 @@
 #include "daemon/store/archive_thread.hpp"
 #include "daemon/store/chunk_queue.hpp"
 #include "daemon/store/data_root.hpp"
+#include "daemon/store/disk_time.hpp"
 #include "daemon/store/journal_keeper.hpp"
 #include "daemon/store/journal_thread.hpp"
 #include "daemon/store/progress.hpp"
+#include "daemon/store/space_reserve.hpp"
 #include "daemon/survey/recorder.hpp"
 #include "protocol/record/file_layer.hpp"
 #include "protocol/record/journal.hpp"
@@ -33,8 +35,8 @@ struct StoreOptions {
     std::filesystem::path root;
     /// What the configuration knows of the station; device and instants come with each session.
     record::StationDescription station = {};
-    /// Between tries when journal or archive could not be written.
-    std::chrono::milliseconds retry_interval{10'000};
+    DiskTime time = {};
+    std::uint64_t reserve_bytes = SpaceReserve::kSize_bytes;
     JournalKeeper::Options keeper = {};
     /// How long an event waits for its turn.
     std::chrono::milliseconds commit_patience{10'000};
@@ -57,6 +59,9 @@ public:
     /// Records from now on; the archive is recovered meanwhile.
     void start();
 
+    /// Instead of start(): does in the caller's thread what journal and archive thread would do.
+    void step();
+
     /// Writes what the reader left in its queue, closes and syncs everything.
     /// @return false when something could not be written.
     bool stop();
@@ -72,12 +77,15 @@ public:
     void fill(Status& status);
 
 private:
+    record::Replay plan_replay();
+    void go_on(const record::RecoveryReport& report);
     void describe(const record::JournalHeader& header);
 
     record::FileLayer& files_;
     StoreOptions options_;
     DataRootLock lock_;
     JournalKeeper keeper_;
+    SpaceReserve reserve_;
     record::Replay replay_;
     std::optional<record::StreamEnd> known_stream_;
     const wire::DeviceProfile* profile_;
@@ -87,6 +95,7 @@ private:
     ArchiveThread archive_;
     std::mutex metadata_mutex_;
     std::string metadata_trouble_;
+    bool is_started_ = false;
     bool is_running_ = false;
 };
 

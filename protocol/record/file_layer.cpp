@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -116,6 +117,27 @@ public:
 
     void remove(const std::filesystem::path& file) override {
         if (::unlink(file.c_str()) != 0) fail("remove", file, errno);
+    }
+
+    void allocate(const std::filesystem::path& file, std::uint64_t size) override {
+        const Descriptor opened(file, O_RDWR | O_CREAT);
+        const int error = ::posix_fallocate(opened.get(), 0, static_cast<off_t>(size));
+        if (error != 0) fail("allocate", file, error);
+        if (::fsync(opened.get()) != 0) fail("sync", file, errno);
+        struct stat status {};
+        if (::fstat(opened.get(), &status) != 0) fail("stat", file, errno);
+        // Where the system only pretends (zeros compressed away) there is no space to give back.
+        constexpr std::uint64_t kStatBlock = 512;  // stat(2), st_blocks.
+        if (static_cast<std::uint64_t>(status.st_blocks) * kStatBlock < size) {
+            fail("allocate", file, EOPNOTSUPP);
+        }
+    }
+
+    [[nodiscard]] std::optional<std::uint64_t> free_bytes(
+        const std::filesystem::path& directory) const override {
+        std::error_code error;
+        const auto space = std::filesystem::space(directory, error);
+        return error ? std::nullopt : std::optional<std::uint64_t>(space.available);
     }
 };
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace a351::record {
@@ -32,6 +33,12 @@ public:
     virtual void truncate(const std::filesystem::path& file, std::uint64_t size) = 0;  ///< Synced.
     virtual void rename(const std::filesystem::path& from, const std::filesystem::path& to) = 0;
     virtual void remove(const std::filesystem::path& file) = 0;
+    /// Gives a file blocks of its own for `size` bytes; creates it when absent.  Synced.
+    /// @throws std::system_error  operation_not_supported: this file system cannot promise space.
+    virtual void allocate(const std::filesystem::path& file, std::uint64_t size) = 0;
+    /// What may still be written; std::nullopt when it cannot be told.
+    [[nodiscard]] virtual std::optional<std::uint64_t> free_bytes(
+        const std::filesystem::path& directory) const = 0;
 };
 
 /// The operating system's files.

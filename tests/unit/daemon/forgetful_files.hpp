@@ -44,6 +44,13 @@ public:
         unsynced_names_.insert(to);
     }
     void remove(const std::filesystem::path& file) override { files_.remove(file); }
+    void allocate(const std::filesystem::path& file, std::uint64_t size) override {
+        files_.allocate(file, size);
+    }
+    [[nodiscard]] std::optional<std::uint64_t> free_bytes(
+        const std::filesystem::path& directory) const override {
+        return files_.free_bytes(directory);
+    }
 
     /// What is found of `root` after a cut just now.
     void cut(const std::filesystem::path& root, const std::filesystem::path& found,

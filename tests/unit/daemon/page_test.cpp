@@ -172,7 +172,8 @@ TEST_CASE("every fixed field of the status is there before the first sample", "[
          {"/api", "/version", "/level", "/session", "/received", "/journaled", "/archived",
           "/timing/state", "/timing/uncertainty_ms", "/verdict/state", "/verdict/reasons",
           "/occupation", "/counters/gaps", "/counters/checksum_errors", "/counters/bytes_skipped",
-          "/counters/duplicates", "/oven", "/device/port", "/disk/free_bytes"}) {
+          "/counters/duplicates", "/oven", "/device/port", "/disk/free_bytes",
+          "/disk/reserve", "/disk/longest_sync_ms"}) {
         CAPTURE(field);
         CHECK(status.contains(json::json_pointer(field)));
     }

@@ -71,3 +71,14 @@ TEST_CASE_METHOD(Fixture, "the oven's state is said when it changes, its lost po
     CHECK(said(status, 3) == "oven: silent (no answer in time)\n");
     CHECK(said(status, 4).empty());
 }
+
+TEST_CASE_METHOD(Fixture, "the state of the reserve is said when it changes, with what is wrong",
+                 "[daemon][status_log]") {
+    Status status;
+    status.disk_reserve = "present";
+    CHECK(said(status, 0) == "reserve for a full disk: present\n");
+    CHECK(said(status, 1).empty());
+    status.disk_reserve = "unavailable";
+    status.disk_reserve_trouble = "allocate: not supported";
+    CHECK(said(status, 2) == "reserve for a full disk: unavailable: allocate: not supported\n");
+}

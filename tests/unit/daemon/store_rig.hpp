@@ -55,6 +55,13 @@ public:
         files_.rename(from, to);
     }
     void remove(const std::filesystem::path& file) override { files_.remove(file); }
+    void allocate(const std::filesystem::path& file, std::uint64_t size) override {
+        files_.allocate(file, size);
+    }
+    [[nodiscard]] std::optional<std::uint64_t> free_bytes(
+        const std::filesystem::path& directory) const override {
+        return files_.free_bytes(directory);
+    }
 
 private:
     class File : public record::AppendFile {
@@ -102,7 +109,8 @@ struct Rig {
     [[nodiscard]] StoreOptions options() const {
         StoreOptions options;
         options.root = root;
-        options.retry_interval = std::chrono::milliseconds(100);
+        options.time.retry_interval = std::chrono::milliseconds(100);
+        options.reserve_bytes = std::uint64_t{1} << 20;
         options.commit_patience = std::chrono::milliseconds(500);
         options.station.profile = "A351";
         options.station.output_rate_hz = 50;

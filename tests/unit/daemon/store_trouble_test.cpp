@@ -1,7 +1,6 @@
 #include <fstream>
 
 #include "tests/unit/daemon/store_rig.hpp"
-#include "tests/unit/record/failing_files.hpp"
 
 using namespace a351;
 using namespace a351::daemon;
@@ -18,6 +17,36 @@ TEST_CASE_METHOD(Rig, "no sample is called journaled before its bytes are synced
     files.does_sync_hang = false;
     CHECK(eventually([&] { return status_of(store).journaled == 199; }));
     CHECK(store.stop());
+}
+
+TEST_CASE_METHOD(Rig, "a sync that hangs for 10 s loses nothing, and the status tells it meanwhile",
+                 "[daemon][store]") {
+    std::atomic<std::chrono::seconds> stalled{std::chrono::seconds(0)};
+    StoreOptions stalling = options();
+    stalling.time.now = [&] { return std::chrono::steady_clock::now() + stalled.load(); };
+    Store store(files, stalling, clock, reads);
+    record_first(store);
+    CHECK(status_of(store).longest_sync < std::chrono::seconds(10));
+
+    files.does_sync_hang = true;
+    feed(500);
+    REQUIRE(eventually([&] { return status_of(store).received == 599 && files.hanging == 1; }));
+    stalled = std::chrono::seconds(10);
+    const Status hanging = status_of(store);
+    CHECK(hanging.longest_sync >= std::chrono::seconds(10));
+    CHECK(hanging.level == Status::Level::warning);
+    CHECK(hanging.reasons.at(0).find("the disk stalls") == 0);
+    CHECK(hanging.journaled == 99);
+    feed(500);
+    files.does_sync_hang = false;
+    CHECK(eventually([&] { return status_of(store).journaled == 1099; }));
+    const Status after = status_of(store);
+    CHECK(after.longest_sync >= std::chrono::seconds(10));
+    CHECK(after.level == Status::Level::good);
+    CHECK(after.more_counters.at("journal_faults") == 0);
+    CHECK(store.stop());
+    CHECK(read_journal(root).bytes == bytes);
+    CHECK(archived_counts(root, "BNZ") == expected_counts(fed));
 }
 
 TEST_CASE_METHOD(Rig, "after a failed sync its samples are called journaled when written again",
@@ -194,38 +223,6 @@ TEST_CASE_METHOD(Rig, "a full disk leaves no segments without a header", "[daemo
         CHECK(std::filesystem::file_size(segment) > 0);
     }
     CHECK(read_journal(root).bytes == bytes);
-}
-
-TEST_CASE_METHOD(Rig, "whichever file operation fails once, nothing is lost or doubled",
-                 "[daemon][store]") {
-    int operations = 1;
-    int failed = 0;
-    for (int fail_at = 1; fail_at <= operations; ++fail_at) {
-        CAPTURE(fail_at);
-        Rig rig;
-        test::FailingFiles failing;
-        {
-            Store store(failing, rig.options(), rig.clock, rig.reads);
-            failing.fail_at(failing.operations() + fail_at);
-            store.start();
-            rig.begin_session();
-            rig.feed(kFrames);
-            REQUIRE(eventually([&] { return status_of(store).received == kFrames - 1; }));
-            const int before = failing.operations();
-            store.stop();
-            operations = std::min(failing.operations(), 40);
-            const Status status = status_of(store);
-            failed += status.more_counters.at("journal_faults") > 0 ||
-                      status.more_counters.at("archive_faults") > 0;
-            CHECK(before > 0);
-        }
-        CHECK(read_journal(rig.root).bytes == rig.bytes);
-        const Store again(rig.files, rig.options(), rig.clock, rig.reads);
-        CHECK(archived_counts(rig.root, "BNZ") == expected_counts(kFrames));
-        CHECK(samples_in_records(rig.root, "BNZ") == kFrames);
-    }
-    CHECK(operations > 20);
-    CHECK(failed > 20);
 }
 
 TEST_CASE_METHOD(Rig, "what the archive cannot take stays a fault, and the journal has it",

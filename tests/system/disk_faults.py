@@ -1,0 +1,248 @@
+"""Trouble of the disk under the unmodified daemon, at 5x: whatever it is, in the end the archive is the truth.
+
+    disk_faults.py full        a small disk, filled up and emptied
+    disk_faults.py failing     system calls of the running daemon that fail or stall
+"""
+
+import contextlib
+import datetime
+import os
+import random
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+
+from programs import BIN, SKIPPED, Scratch, compare_truth, daemon_config, daemon_status, demand, run
+
+SPEED = 5  # strace stops every call of the daemon twice.
+RESERVE = 64 << 20
+OWN_MOUNTS = "A351_OWN_MOUNTS"
+
+
+def skip(reason):
+    print("skipped:", reason)
+    sys.exit(SKIPPED)
+
+
+class Day:
+    """Emulator and daemon side by side."""
+
+    def __init__(self, scratch):
+        self.scratch = scratch
+        self.port = random.randrange(20000, 40000)
+        (scratch / "a351d.toml").write_text(daemon_config(self.port))
+        plan = run(BIN / "a351-sim", "plan", "--scenario", "tsukuba", "--out", scratch)
+        start = dict(part.split("=", 1) for part in plan.stdout.split())["start_utc"]
+        host = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%S.%fZ")
+        clock = f"scaled:{SPEED}@{start},{host}"
+        self.sim = subprocess.Popen(
+            [BIN / "a351-sim", "device", "--link", "sensor", "--scenario", "tsukuba", "--clock", clock,
+             "--control", "control", "--truth", "truth.bin"], cwd=scratch, stderr=subprocess.DEVNULL)
+        with open(scratch / "a351d.log", "w") as log:
+            self.daemon = subprocess.Popen([BIN / "a351d", "--config", "a351d.toml", "--clock", clock],
+                                           cwd=scratch, stderr=log)
+        self.wait_for("1000 samples are journaled", lambda state: (state["journaled"] or 0) >= 1000)
+
+    def status(self):
+        return daemon_status(self.port)
+
+    def counters(self):
+        return self.status()["counters"]
+
+    def wait_for(self, claim, is_true, seconds=60):
+        """The first status of which it is true."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            state = self.status()
+            if state and is_true(state):
+                return state
+            time.sleep(0.05)
+        demand(f"{claim} within {seconds} s, last: {self.status()}", False)
+
+    def wait_for_more(self, count=500):
+        reached = (self.status()["journaled"] or 0) + count
+        self.wait_for(f"{count} more samples are journaled", lambda state: state["journaled"] >= reached)
+
+    def is_noted(self, text):
+        return run(BIN / "a351ctl", "--url", f"http://127.0.0.1:{self.port}", "note", text,
+                   check=False).returncode == 0
+
+    def end(self):
+        """Silence first, so that every frame the emulator sent was read."""
+        with socket.socket(socket.AF_UNIX) as control:
+            control.connect(str(self.scratch / "control"))
+            control.sendall(b"silence seconds=100000\n")
+            control.recv(65536)
+        time.sleep(1.0)
+        self.daemon.send_signal(signal.SIGTERM)
+        demand("the daemon ends cleanly: everything is on disk", self.daemon.wait(timeout=60) == 0)
+        self.sim.send_signal(signal.SIGTERM)
+        self.sim.wait(timeout=30)
+        for name, counted in compare_truth(self.scratch / "data" / "archive",
+                                           self.scratch / "truth.bin").items():
+            demand(f"{name}: all {counted['truth']:.0f} samples are archived, none altered or doubled",
+                   counted["matched"] == counted["truth"] > 1000
+                   and counted["missing"] == counted["altered"] == counted["duplicated"] == 0)
+
+
+def has_reason(state, beginning):
+    return any(reason.startswith(beginning) for reason in state["reasons"])
+
+
+def archive_size(scratch):
+    return sum(file.stat().st_size for file in (scratch / "data" / "archive").rglob("*.D.*"))
+
+
+def fill(file):
+    """Takes what is free."""
+    with open(file, "wb", buffering=0) as out, contextlib.suppress(OSError):
+        while True:
+            out.write(bytes(1 << 16))
+
+
+# A full disk
+
+def enter_own_mounts():
+    """Starts this script again where it may mount: as root, or as root of a name space of its own."""
+    for way in (["unshare", "-m"], ["unshare", "-rm"]):
+        if shutil.which("unshare") is None:
+            break
+        with Scratch() as scratch:
+            trial = run(*way, "mount", "-t", "tmpfs", "none", scratch, check=False)
+        if trial.returncode == 0:
+            os.environ[OWN_MOUNTS] = "1"
+            os.execvp(way[0], way + [sys.executable, os.path.abspath(__file__), *sys.argv[1:]])
+    skip("neither `unshare -m` nor `unshare -rm` may mount a tmpfs here")
+
+
+def full_disk():
+    if OWN_MOUNTS not in os.environ:
+        enter_own_mounts()
+    with Scratch() as scratch:
+        data = scratch / "data"
+        data.mkdir()
+        run("mount", "-t", "tmpfs", "-o", f"size={4 * RESERVE}", "none", data)
+        day = Day(scratch)
+        reserve = data / "state" / "reserve"
+        demand("64 MiB are set aside, blocks and all", day.status()["disk"]["reserve"] == "present"
+               and reserve.stat().st_size == RESERVE and reserve.stat().st_blocks * 512 >= RESERVE)
+
+        fill(data / "filler")
+        day.wait_for("the reserve is given up", lambda state: state["disk"]["reserve"] == "given_up")
+        before = archive_size(scratch)
+        day.wait_for_more(3000)
+        state = day.status()
+        demand(f"the status says so: {state['reasons']}",
+               state["level"] == "fault" and has_reason(state, "disk full"))
+        demand(f"{state['disk']['free_bytes']} bytes are free for the journal, which has no fault",
+               0 < state["disk"]["free_bytes"] <= RESERVE and state["counters"]["journal_faults"] == 0)
+        demand("the archive waits", archive_size(scratch) == before
+               and state["counters"]["archive_records_waiting"] > 0)
+        demand("an event goes through", day.is_noted("in the reserve"))
+
+        fill(data / "filler2")
+        state = day.wait_for("the journal has a fault",
+                             lambda state: state["counters"]["journal_faults"] > 0)
+        demand(f"the status says so: {state['reasons']}", has_reason(state, "journal: "))
+        time.sleep(5.0)
+        journaled = day.status()["journaled"]
+
+        (data / "filler").unlink()
+        (data / "filler2").unlink()
+        state = day.wait_for("all is well again", lambda state: state["disk"]["reserve"] == "present"
+                             and state["journaled"] > journaled + 5 * 50 * SPEED and state["level"] != "fault")
+        demand("the reserve is there again", reserve.stat().st_blocks * 512 >= RESERVE)
+        demand("it was given up once", state["counters"]["reserve_given_up"] == 1)
+        day.end()
+        demand("the event is there", "in the reserve" in "".join(
+            file.read_text() for file in (data / "events").iterdir()))
+        run("umount", data)
+
+
+# Failing system calls
+
+@contextlib.contextmanager
+def injecting(day, *injections):
+    """While strace has hold of the daemon."""
+    names = ",".join(injection.split(":")[0] for injection in injections)
+    tracer = subprocess.Popen(
+        ["strace", "-f", "-q", "-o", day.scratch / "strace.txt", "-p", str(day.daemon.pid), "-e", f"trace={names}"]
+        + [part for injection in injections for part in ("-e", f"inject={injection}")],
+        stderr=subprocess.PIPE, text=True)
+    time.sleep(0.3)
+    if tracer.poll() is not None:
+        day.daemon.kill()
+        day.sim.kill()
+        skip(f"strace cannot attach: {tracer.stderr.read().strip()}")
+    try:
+        yield
+    finally:
+        tracer.send_signal(signal.SIGINT)
+        tracer.wait(timeout=30)
+
+
+STALL = "the disk stalls"
+
+
+def failing_sync(day, part, n):
+    before = day.counters()
+    with injecting(day, f"fdatasync:error=EIO:when={n}"):  # strace counts in each thread.
+        state = day.wait_for(f"a fault of the {part} is counted", lambda state: state["counters"][f"{part}_faults"]
+                             > before[f"{part}_faults"])
+        demand(f"{part}, sync {n} fails: alarm {state['reasons']}",
+               state["level"] == "fault" and has_reason(state, f"{part}: "))
+    day.wait_for_more()
+
+
+def stall(day, call, n, seconds):
+    with injecting(day, f"{call}:delay_enter={seconds * 1_000_000}:when={n}"):
+        day.wait_for(f"{call} {n} stalls", lambda state: has_reason(state, STALL))
+        longest_s, is_stalled = 0.0, True
+        while is_stalled:
+            asked = time.monotonic()
+            state = day.status()
+            longest_s = max(longest_s, time.monotonic() - asked)
+            is_stalled = state is None or has_reason(state, STALL)
+            time.sleep(0.05)
+        demand(f"{call} {n} stalled, the status came within {longest_s:.3f} s all the time", longest_s < 1.0)
+        longest_ms = state["disk"]["longest_sync_ms"]
+        demand(f"it tells {longest_ms} ms of {seconds} s", longest_ms >= 1000 * seconds - 100)
+    day.wait_for_more()
+
+
+def read_only(day):
+    """Syncs and whatever makes or opens a file, as on a file system that turned read-only."""
+    before = day.counters()
+    calls = ("fdatasync", "fsync", "openat", "mkdir", "rename", "unlink", "ftruncate", "fallocate")
+    with injecting(day, *(f"{call}:error=EROFS" for call in calls)):
+        state = day.wait_for("two tries fail", lambda state: state["counters"]["journal_faults"]
+                             >= before["journal_faults"] + 2)
+        demand(f"read-only: alarm {state['reasons']}", state["level"] == "fault" and has_reason(state, "journal: "))
+        time.sleep(12.0)  # Longer than the 10 s between tries.
+        demand("it is an alarm still", has_reason(day.status(), "journal: "))
+    day.wait_for("the journal goes on", lambda state: not has_reason(state, "journal: "))
+    day.wait_for_more()
+
+
+def failing_calls():
+    if shutil.which("strace") is None:
+        skip("strace is missing")
+    with Scratch() as scratch:
+        day = Day(scratch)
+        for n in (1, 2, 5):
+            failing_sync(day, "journal", n)
+        failing_sync(day, "archive", 1)
+        stall(day, "write", 7, 3)
+        stall(day, "fdatasync", 2, 10)
+        read_only(day)
+        with injecting(day, "fdatasync:error=EIO:when=1", "fsync:delay_enter=3000000:when=1"):
+            day.wait_for("the stall of a new segment", lambda state: has_reason(state, STALL))
+        day.wait_for_more()
+        print("counters:", day.counters())
+        day.end()
+
+
+{"full": full_disk, "failing": failing_calls}[sys.argv[1]]()

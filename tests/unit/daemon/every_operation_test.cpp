@@ -1,0 +1,187 @@
+#include <cstdlib>
+#include <cstring>
+
+#include "tests/unit/daemon/stepped_rig.hpp"
+#include "tests/unit/record/failing_files.hpp"
+
+using namespace a351;
+using namespace a351::daemon;
+using std::chrono::seconds;
+using test::Fault;
+
+namespace {
+
+// FIR filter k512_fc9 at 50 Hz, and the time on the wire of 24 bytes of 10 bits at 460 800 Bd.
+constexpr Nanoseconds kWire{24LL * 10 * 1'000'000'000 / 460'800};
+
+/// 60 s of signal and two events through a store whose files fail as asked; then another start.
+class Minute : public SteppedRig {
+public:
+    explicit Minute(const Fault& fault) : kind_(fault.kind) {
+        {
+            Store store(failing_, options(), clock, reads);
+            failing_.set(fault);
+            begin_session();
+            advance(store, seconds(20));
+            note_event(store, "a third of it");
+            advance(store, seconds(20));
+            note_event(store, "two thirds of it");
+            advance(store, seconds(20));
+            published_ = status_of(store).journaled.value_or(-1);
+            uncertainty_ = status_of(store).timing_uncertainty;
+            std::filesystem::copy(root, killed_, std::filesystem::copy_options::recursive);
+            is_stopped_well_ = store.stop();
+            published_at_stop_ = status_of(store).journaled.value_or(-1);
+            const auto counters = status_of(store).more_counters;
+            faults_counted_ = counters.at("journal_faults") + counters.at("archive_faults") +
+                              counters.at("events_refused") + counters.at("reserve_given_up");
+        }
+        operations_ = failing_.operations();
+        failing_.set({});
+    }
+
+    /// Nothing is lost that was called journaled, nothing doubled, nothing changed.
+    void check(const Fault& fault) {
+        CAPTURE(fault.at, fault.lasts, static_cast<int>(fault.kind));
+        check_root(killed_, published_);
+        if (is_stopped_well_) CHECK(published_at_stop_ == fed - 1);
+        const int archived = check_root(root, published_at_stop_);
+        if (!fault.lasts) CHECK(archived == fed);
+    }
+
+    [[nodiscard]] int operations() const noexcept { return operations_; }
+    [[nodiscard]] bool is_fault_counted() const noexcept { return faults_counted_ > 0; }
+
+private:
+    void note_event(Store& store, const std::string& text) {
+        const record::Event event = note(text);
+        if (commit(store, event)) acknowledged_.push_back(record::to_json(event));
+    }
+
+    /// @return samples in the archive after recovery, of the channel that has fewest.
+    int check_root(const std::filesystem::path& found, std::int64_t published) {
+        StoreOptions again = options();
+        again.root = found;
+        test::FailingFiles unharmed;
+        const auto report = recover(unharmed, again, clock);
+        // Where the journal lost what it had not synced, the archive may be ahead of it.
+        if (kind_ != Fault::Kind::sync) CHECK(report.records_conflicting == 0);
+        int archived = fed;
+        const std::array<const char*, 4> channels{"BN1", "BN2", "BNZ", "BK1"};
+        for (std::size_t i = 0; i < channels.size(); ++i)
+            archived = std::min(archived, check_channel(found, channels.at(i), i));
+        CHECK(archived > published);
+        check_events(found);
+        return archived;
+    }
+
+    int check_channel(const std::filesystem::path& found, const char* channel, std::size_t place) {
+        const auto data =
+            record::read_channel(found / "archive", {}, channel, utc - std::chrono::hours(1), utc);
+        CHECK(data.damage.empty());
+        int count = 0;
+        bool is_same = true;
+        Nanoseconds worst{0};
+        for (const record::Segment& segment : data.segments) {
+            for (std::size_t i = 0; i < segment.counts.size(); ++i, ++count) {
+                is_same = is_same && segment.counts[i] == counts(count, place);
+                const UtcTime truth = arrival(count) - kWire - group_delay();
+                worst = std::max(worst, Nanoseconds(std::chrono::abs(segment.time_of(i) - truth)));
+            }
+        }
+        CHECK(is_same);
+        CHECK(samples_in_records(found, channel) == static_cast<std::size_t>(count));
+        if (count > 0) CHECK(worst <= uncertainty_);
+        return count;
+    }
+
+    void check_events(const std::filesystem::path& found) {
+        const record::EventLog log = record::read_events(found / "events");
+        std::vector<std::string> kept;
+        for (const record::Event& event : log.events) kept.push_back(record::to_json(event));
+        for (const std::string& event : acknowledged_)
+            CHECK(std::count(kept.begin(), kept.end(), event) == 1);
+        const auto journaled = read_journal(found).events;
+        for (const std::string& event : journaled)
+            CHECK(std::count(journaled.begin(), journaled.end(), event) == 1);
+    }
+
+    static Nanoseconds group_delay() {
+        const wire::DeviceProfile* profile = wire::find_profile("A351");
+        return profile->group_delay(*profile->filter_named("k512_fc9"));
+    }
+
+    Fault::Kind kind_;
+    test::FailingFiles failing_;
+    std::filesystem::path killed_ = directory.path() / "killed";
+    std::int64_t published_ = -1, published_at_stop_ = -1;
+    Nanoseconds uncertainty_{0};
+    bool is_stopped_well_ = false;
+    std::uint64_t faults_counted_ = 0;
+    int operations_ = 0;
+    std::vector<std::string> acknowledged_;
+};
+
+bool is_long() {
+    const char* const value = std::getenv("A351_LONG");
+    return value != nullptr && std::strcmp(value, "1") == 0;
+}
+
+}  // namespace
+
+TEST_CASE("the same minute is the same operations each time", "[daemon][store][every_operation]") {
+    Minute once{Fault{}};
+    Minute twice{Fault{}};
+    CHECK(once.operations() == twice.operations());
+    CHECK_FALSE(once.is_fault_counted());
+    once.check({});
+}
+
+TEST_CASE_METHOD(SteppedRig, "one failed sync is an alarm for 10 s and written again at once",
+                 "[daemon][store][every_operation]") {
+    test::FailingFiles failing;
+    Store store(failing, options(), clock, reads);
+    begin_session();
+    advance(store, seconds(10));
+    failing.set({1, Fault::Kind::sync});
+    while (status_of(store).more_counters.at("journal_faults") == 0) advance(store, kStep);
+    advance(store, 2 * kStep);
+    failing.set({});
+    const auto segments = record::journal_segments(root / "journal");
+    CHECK(segments.size() == 2);
+    CHECK(read_journal(root).bytes == bytes);
+    const Status alarmed = status_of(store);
+    CHECK(alarmed.level == Status::Level::fault);
+    CHECK(alarmed.reasons.at(0).find("journal: ") == 0);
+    CHECK(alarmed.journaled.value() > fed - 100);
+    advance(store, seconds(10));
+    CHECK(status_of(store).level == Status::Level::good);
+    CHECK(store.stop());
+}
+
+TEST_CASE("whichever operation of a minute fails, what was journaled is archived once",
+          "[daemon][store][every_operation]") {
+    const struct {
+        Fault::Kind kind;
+        const char* name;
+    } kinds[] = {{Fault::Kind::any, "EIO"},
+                 {Fault::Kind::full_disk, "ENOSPC"},
+                 {Fault::Kind::short_write, "short write"},
+                 {Fault::Kind::sync, "failed fdatasync"}};
+    // A prime, so that the few n of the short form are of all sorts.
+    const int stride = is_long() ? 1 : 19;
+    for (const auto& [kind, name] : kinds) {
+        for (const bool lasts : {false, true}) {
+            const int operations = Minute(Fault{0, kind}).operations();
+            int tried = 0, counted = 0;
+            for (int n = 1; n <= operations; n += stride, ++tried) {
+                const Fault fault{n, kind, lasts};
+                Minute minute(fault);
+                minute.check(fault);
+                counted += minute.is_fault_counted();
+            }
+            std::printf("%s, %s: %d of %d operations failed, %d counted in the status\n", name,
+                        lasts ? "from n on" : "once", tried, operations, counted);
+        }
+    }
+}

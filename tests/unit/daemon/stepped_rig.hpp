@@ -1,0 +1,94 @@
+#pragma once
+/// @file
+/// A store that one thread drives, on a clock that only advance() moves: every run does the same
+/// file operations in the same order.
+
+#include "tests/unit/daemon/store_rig.hpp"
+
+namespace a351::daemon {
+
+inline constexpr Nanoseconds kStep = std::chrono::milliseconds(250);
+
+struct SteppedRig : Rig {
+    UtcTime utc = *parse_rfc3339("2026-03-01T12:00:00Z");
+    std::chrono::steady_clock::time_point real{std::chrono::hours(1)};
+
+    SteppedRig() {
+        set(utc);
+        first = clock.raw() + kPeriod;
+    }
+
+    [[nodiscard]] StoreOptions options() const {
+        StoreOptions options = Rig::options();
+        options.time.now = [this] { return real; };
+        options.time.retry_interval = std::chrono::seconds(10);
+        options.commit_patience = std::chrono::milliseconds(0);
+        return options;
+    }
+
+    /// Counts like noise, so that records are as long as they are in the field.
+    static wire::BurstValues values(int i) {
+        wire::BurstValues values = FakeSensor::values(i);
+        for (std::size_t axis = 0; axis < values.axes.size(); ++axis)
+            values.axes[axis] = counts(i, axis);
+        return values;
+    }
+    /// Of an axis; 3: the temperature.
+    static std::int32_t counts(int i, std::size_t axis) {
+        if (axis == 3) return FakeSensor::values(i).temperature;
+        const auto mixed = (static_cast<std::uint32_t>(i) * 3 + static_cast<std::uint32_t>(axis)) *
+                           2'654'435'761U;  // Knuth's multiplier: a permutation that looks random.
+        return static_cast<std::int32_t>(mixed >> 20) + 16'000'000;
+    }
+
+    /// Arrival of the frame of a sample.
+    [[nodiscard]] UtcTime arrival(int i) const {
+        return UtcTime((first + i * kPeriod).time_since_epoch());
+    }
+
+    /// Frames arrive, and the store goes round once, every 250 ms.
+    void advance(Store& store, Nanoseconds span) {
+        for (Nanoseconds done{0}; done < span; done += kStep) {
+            set(utc + kStep);
+            real += std::chrono::duration_cast<std::chrono::steady_clock::duration>(kStep);
+            for (std::vector<std::byte> frame; arrival(fed) <= utc; ++fed, frame.clear()) {
+                wire::append_frame(wire::BurstLayout::recommended(), values(fed), frame);
+                REQUIRE(reads.push(ReadQueue::Kind::rx, first + fed * kPeriod, frame));
+                bytes.insert(bytes.end(), frame.begin(), frame.end());
+            }
+            store.step();
+        }
+    }
+
+    [[nodiscard]] record::Event note(const std::string& text) const {
+        record::Event event;
+        event.type = "note";
+        event.utc = utc;
+        event.details["note"] = text;
+        return event;
+    }
+
+    /// @return whether the store took it.
+    static bool commit(Store& store, const record::Event& event) {
+        try {
+            store.commit(event);
+            return true;
+        } catch (const std::system_error&) {
+            return false;
+        }
+    }
+
+private:
+    void set(UtcTime now) {
+        utc = now;
+        clock = HostClock(ClockScale{1e-15, now, host_realtime()});
+    }
+};
+
+inline std::vector<std::int32_t> stepped_counts(int frames, std::size_t axis) {
+    std::vector<std::int32_t> counts;
+    for (int i = 0; i < frames; ++i) counts.push_back(SteppedRig::counts(i, axis));
+    return counts;
+}
+
+}  // namespace a351::daemon
