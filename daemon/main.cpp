@@ -81,6 +81,7 @@ record::StationDescription station_of(const Config& config) {
     station.output_rate_hz = sensor.settings.output_rate_hz;
     station.filter = sensor.filter;
     station.group_delay = sensor.profile->group_delay(*sensor.profile->filter_named(sensor.filter));
+    station.has_oven = config.oven.has_value();
     return station;
 }
 
