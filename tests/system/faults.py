@@ -1,19 +1,13 @@
 """Faults at 20x: what the daemon counts is what the emulator did, frame for frame and byte for byte."""
 
-import datetime
 import json
 import os
-import random
 import signal
-import socket
-import struct
 import subprocess
 import time
 
-from programs import BIN, Scratch, compare_truth, daemon_config, demand, read_json, run
-
-SPEED = 20
-INTACT, DAMAGED, LOST, REPEATED, MISPLACED = range(5)
+from emulated_session import Session, ask, gaps_of, wait_for
+from programs import BIN, Scratch, compare_truth, demand, read_json
 
 FRAME = 24
 
@@ -58,145 +52,25 @@ duplicate_frame_per_h = 60
 """
 
 
-def ask(scratch, line):
-    """One order through the control socket, and the answer."""
-    with socket.socket(socket.AF_UNIX) as control:
-        control.connect(str(scratch / "control"))
-        control.sendall(line.encode() + b"\n")
-        answer = b""
-        while not answer.endswith(b"\n"):
-            more = control.recv(65536)
-            if not more:
-                demand(f"the emulator answers the order {line}, came: {answer}", False)
-            answer += more
-    return answer.decode()
-
-
-def wait_for(claim, is_true, seconds=60):
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        if is_true():
-            return
-        time.sleep(0.1)
-    demand(f"{claim} within {seconds} s", False)
-
-
-class Session:
-    """Emulator and daemon side by side; both are stopped in the end, the emulator's report read."""
-
-    def __init__(self, scratch, faults):
-        self.scratch = scratch
-        self.port = random.randrange(20000, 40000)
-        (scratch / "a351d.toml").write_text(daemon_config(self.port))
-        (scratch / "faults.toml").write_text(faults)
-        plan = run(BIN / "a351-sim", "plan", "--scenario", "tsukuba", "--out", scratch)
-        start = dict(part.split("=", 1) for part in plan.stdout.split())["start_utc"]
-        host = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%S.%fZ")
-        clock = f"scaled:{SPEED}@{start},{host}"
-        self.sim = subprocess.Popen(
-            [BIN / "a351-sim", "device", "--link", "sensor", "--scenario", "tsukuba", "--clock", clock,
-             "--faults", "faults.toml", "--control", "control", "--truth", "truth.bin", "--report",
-             "report.json"], cwd=scratch)
-        self.log = open(scratch / "a351d.log", "w")
-        self.daemon = subprocess.Popen([BIN / "a351d", "--config", "a351d.toml", "--clock", clock],
-                                       cwd=scratch, stderr=self.log)
-        wait_for("the control socket", (scratch / "control").exists)
-
-    def order(self, line):
-        answer = ask(self.scratch, line)
-        if not answer.startswith("ok"):
-            demand(f"the emulator takes the order {line}: {answer}", False)
-        return answer[3:].strip()
-
-    def emulated(self):
-        return json.loads(self.order("status"))
-
-    def status(self):
-        result = run(BIN / "a351ctl", "--url", f"http://127.0.0.1:{self.port}", "status", "--json",
-                     check=False)
-        return json.loads(result.stdout) if result.stdout else {}
-
-    def wait_for_frames(self, count):
-        wait_for(f"{count} frames", lambda: self.status().get("counters", {}).get("frames", 0) >= count)
-
-    def settled(self):
-        """Counters of the daemon once it has all that the emulator had sent by now, and 100 frames more."""
-        sent = self.emulated()["frames_sent"]
-        self.wait_for_frames(sent + 100)
-        return self.status()["counters"]
-
-    def play(self, order, expected, by_chance):
-        """One fault, and what the daemon counts of it."""
-        before, emulated = self.settled(), self.emulated()
-        self.order(order)
-        time.sleep(0.1)
-        kind = order.split()[0]
-        wait_for(order, lambda: self.emulated()["faults"].get(kind, 0) > emulated["faults"].get(kind, 0))
-        counters, after = self.settled(), self.emulated()
-        came = {key: counters[key] - before[key] for key in WATCHED if key not in by_chance}
-        if kind == "silence":
-            expected = {**expected, "samples_missing": after["faults"][kind] - emulated["faults"].get(kind, 0)}
-        if kind == "truncate_frame":
-            cut = after["bytes_dropped"] - emulated["bytes_dropped"]
-            expected = {**expected, "bytes_skipped": 3 * FRAME - cut}
-        demand(f"{order}: the daemon counts {came}, of it expected {expected} and no more",
-               came == {key: expected.get(key, 0) for key in came})
-        chance = sum(counters[key] - before[key] for key in by_chance)
-        if by_chance:
-            demand(f"{order}: damage is seen as damage ({chance})", chance > 0)
-
-    def end(self):
-        """Silence first, so that nothing is under way when the counters are read."""
-        self.order("silence seconds=100000")
-        time.sleep(1.0)
-        counters = self.status()["counters"]
-        self.sim.send_signal(signal.SIGTERM)
-        demand("the emulator ends cleanly", self.sim.wait(timeout=30) == 0)
-        self.daemon.send_signal(signal.SIGTERM)
-        demand("the daemon ends cleanly", self.daemon.wait(timeout=30) == 0)
-        self.log.close()
-        report = read_json(self.scratch / "report.json")
-        report.pop("faults_applied")
-        demand("every fault could be had", report["faults_refused"] == [])
-        demand("every frame made is settled once, second copies apart",
-               report["frames_made"] + report["faults"].get("duplicate_frame", 0)
-               == report["frames_sent"] + report["frames_damaged"] + report["frames_lost"]
-               + report["frames_pending"])
-        print("emulator:", report)
-        print("daemon:", counters)
-        demand("the control socket and the link are gone",
-               not (self.scratch / "control").exists() and not (self.scratch / "sensor").is_symlink())
-        return report, counters
-
-    def rows(self):
-        """Instant, x, y, z, temperature, COUNT, run, grid index, fate of every frame, in the order sent."""
-        data = (self.scratch / "truth.bin").read_bytes()[16:]
-        return list(struct.iter_unpack("<q4iHHIB7x", data))
-
-    def truth(self):
-        return [(row[0], row[8]) for row in self.rows()]
-
-    def samples(self):
-        return {row[0]: row[1:5] for row in self.rows()}
-
-    def archive_is_true(self, missing, steps=0):
-        """Without `steps`, where times begin anew, only the values."""
-        for name, counted in compare_truth(self.scratch / "data" / "archive",
-                                           self.scratch / "truth.bin").items():
-            demand(f"{name}: no damaged, lost or repeated frame is in the archive, none altered",
-                   counted["altered"] == counted["duplicated"] == 0 and counted["matched"] > 0)
-            demand(f"{name}: {counted['missing']:.0f} of {counted['truth']:.0f} intact frames missing, "
-                   f"{counted['steps']:.0f} time steps (allowed {missing} and {steps})",
-                   counted["missing"] == missing and (steps is None or counted["steps"] == steps))
-
-
-def gaps_of(truth):
-    """Gaps and missing samples between the first and the last intact frame."""
-    placed = {instant for instant, fate in truth if fate == INTACT}
-    instants = sorted({instant for instant, _ in truth if min(placed) <= instant <= max(placed)})
-    missing = [instant not in placed for instant in instants]
-    gaps = sum(1 for now, before in zip(missing, [False] + missing) if now and not before)
-    return gaps, sum(missing)
+def play(session, order, expected, by_chance):
+    """One fault, and what the daemon counts of it."""
+    before, emulated = session.settled(), session.emulated()
+    session.order(order)
+    time.sleep(0.1)
+    kind = order.split()[0]
+    wait_for(order, lambda: session.emulated()["faults"].get(kind, 0) > emulated["faults"].get(kind, 0))
+    counters, after = session.settled(), session.emulated()
+    came = {key: counters[key] - before[key] for key in WATCHED if key not in by_chance}
+    if kind == "silence":
+        expected = {**expected, "samples_missing": after["faults"][kind] - emulated["faults"].get(kind, 0)}
+    if kind == "truncate_frame":
+        cut = after["bytes_dropped"] - emulated["bytes_dropped"]
+        expected = {**expected, "bytes_skipped": 3 * FRAME - cut}
+    demand(f"{order}: the daemon counts {came}, of it expected {expected} and no more",
+           came == {key: expected.get(key, 0) for key in came})
+    chance = sum(counters[key] - before[key] for key in by_chance)
+    if by_chance:
+        demand(f"{order}: damage is seen as damage ({chance})", chance > 0)
 
 
 def bytes_agree(report, counters):
@@ -211,10 +85,10 @@ def bytes_agree(report, counters):
 
 
 with Scratch() as scratch:
-    session = Session(scratch, "")
+    session = Session(scratch)
     session.wait_for_frames(500)
     for row in ROWS:
-        session.play(*row)
+        play(session, *row)
     report, counters = session.end()
     bytes_agree(report, counters)
     demand("one session", counters["sessions"] == len(report["runs"]) == 1)
@@ -222,10 +96,10 @@ with Scratch() as scratch:
     first_samples = session.samples()
 
 with Scratch() as scratch:
-    session = Session(scratch, "")
+    session = Session(scratch)
     session.wait_for_frames(500)
     for row in COUNTER_ROWS:
-        session.play(*row)
+        play(session, *row)
     report, counters = session.end()
     bytes_agree(report, counters)
     demand("one run of sampling, two counters that are no longer the same",
@@ -246,7 +120,7 @@ with Scratch() as scratch:
 
 # The device ends sampling: no frame is under way when the daemon configures it again.
 with Scratch() as scratch:
-    session = Session(scratch, "")
+    session = Session(scratch)
     runs = 1
     for fault in ("stop", "reset", "power_cycle", "hang_up seconds=40 loses_power=true"):
         wait_for(f"run {runs}", lambda: session.emulated()["runs"][runs - 1:]
@@ -275,7 +149,7 @@ def wait_for_run(runs):
 
 # Another rate.  Which of the frames the daemon keeps until it notices is chance, so its archive is not compared.
 with Scratch() as scratch:
-    session = Session(scratch, "")
+    session = Session(scratch)
     wait_for_run(1)
     session.order("change_settings output_rate_hz=100 filter=k512_fc16")
     counters = wait_for_run(3)
@@ -287,7 +161,7 @@ with Scratch() as scratch:
 
 # Another device, or the same with other settings.  What the daemon does not notice is said at each.
 with Scratch() as scratch:
-    session = Session(scratch, "")
+    session = Session(scratch)
     wait_for_run(1)
     session.order("other_unit serial_number=87654321")
     demand("another unit is another session", wait_for_run(2)["sessions"] == 2)
@@ -326,7 +200,7 @@ with Scratch() as scratch:
 
 # Pulled out and back under another name while it samples: what comes before the daemon has stopped it is nobody's.
 with Scratch() as scratch:
-    session = Session(scratch, "")
+    session = Session(scratch)
     session.wait_for_frames(1000)
     before = (scratch / "sensor").readlink()
     session.order("hang_up seconds=60")
@@ -344,7 +218,7 @@ with Scratch() as scratch:
 
 # A receiver that overflows while the host does not read; for less than the counter's wrap, so that no clock decides.
 with Scratch() as scratch:
-    session = Session(scratch, "")
+    session = Session(scratch)
     session.wait_for_frames(1000)
     session.order("overrun")
     session.daemon.send_signal(signal.SIGSTOP)
@@ -369,7 +243,7 @@ with Scratch() as scratch:
     (scratch / "faults.toml").write_text('[[fault]]\nkind = "oven_unplug"\nat_s = 20\n'
                                          '[[fault]]\nkind = "oven_unplug"\nat_s = 60\ncount = 0\n')
     sim = subprocess.Popen([BIN / "a351-sim", "device", "--link", "sensor", "--oven-link", "oven", "--control",
-                            "control", "--speed", str(SPEED), "--scenario", scenario, "--report", "report.json",
+                            "control", "--speed", "20", "--scenario", scenario, "--report", "report.json",
                             "--truth", "truth.bin", "--faults", "faults.toml"], cwd=scratch, stderr=subprocess.PIPE)
     wait_for("the control socket", (scratch / "control").exists)
     wait_for("the oven is out", lambda: not (scratch / "oven").is_symlink())

@@ -1,0 +1,146 @@
+"""Emulator and daemon side by side, faults on demand, and the emulator's truth of what became of every frame."""
+
+import datetime
+import json
+import random
+import signal
+import socket
+import struct
+import subprocess
+import time
+
+from programs import BIN, compare_truth, daemon_config, demand, read_json, run
+
+INTACT, DAMAGED, LOST, REPEATED, MISPLACED = range(5)
+
+
+def ask(scratch, line):
+    """One order through the control socket, and the answer."""
+    with socket.socket(socket.AF_UNIX) as control:
+        control.connect(str(scratch / "control"))
+        control.sendall(line.encode() + b"\n")
+        answer = b""
+        while not answer.endswith(b"\n"):
+            more = control.recv(65536)
+            if not more:
+                demand(f"the emulator answers the order {line}, came: {answer}", False)
+            answer += more
+    return answer.decode()
+
+
+def wait_for(claim, is_true, seconds=60):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if is_true():
+            return
+        time.sleep(0.1)
+    demand(f"{claim} within {seconds} s", False)
+
+
+class Session:
+    """Emulator and daemon side by side; both are stopped in the end, the emulator's report read."""
+
+    def __init__(self, scratch, faults="", speed=20, scenario="tsukuba", start=None, config="", prepare_port=None):
+        """@param start  of simulated time, RFC 3339; by default that of the scenario.
+        @param config  lines added to the daemon's [sensor].
+        @param prepare_port  what is done to the emulator's terminal before the daemon starts.
+        """
+        self.scratch = scratch
+        self.port = random.randrange(20000, 32000)  # Below the ports that outgoing connections take.
+        (scratch / "a351d.toml").write_text(
+            daemon_config(self.port).replace("[storage]", config + "\n[storage]"))
+        (scratch / "faults.toml").write_text(faults)
+        if start is None:
+            plan = run(BIN / "a351-sim", "plan", "--scenario", scenario, "--out", scratch)
+            start = dict(part.split("=", 1) for part in plan.stdout.split())["start_utc"]
+        host = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%S.%fZ")
+        self.clock = f"scaled:{speed}@{start},{host}"
+        self.sim = subprocess.Popen(
+            [BIN / "a351-sim", "device", "--link", "sensor", "--scenario", scenario, "--clock", self.clock,
+             "--faults", "faults.toml", "--control", "control", "--truth", "truth.bin", "--report",
+             "report.json"], cwd=scratch)
+        wait_for("the control socket", (scratch / "control").exists)
+        if prepare_port:
+            prepare_port(scratch / "sensor")
+        self.log = open(scratch / "a351d.log", "w")
+        self.daemon = self.start_daemon()
+
+    def start_daemon(self, config="a351d.toml", log=None):
+        return subprocess.Popen([BIN / "a351d", "--config", config, "--clock", self.clock],
+                                cwd=self.scratch, stderr=log or self.log)
+
+    def order(self, line):
+        answer = ask(self.scratch, line)
+        if not answer.startswith("ok"):
+            demand(f"the emulator takes the order {line}: {answer}", False)
+        return answer[3:].strip()
+
+    def emulated(self):
+        return json.loads(self.order("status"))
+
+    def status(self):
+        result = run(BIN / "a351ctl", "--url", f"http://127.0.0.1:{self.port}", "status", "--json",
+                     check=False)
+        return json.loads(result.stdout) if result.stdout else {}
+
+    def wait_for_frames(self, count):
+        wait_for(f"{count} frames", lambda: self.status().get("counters", {}).get("frames", 0) >= count)
+
+    def settled(self):
+        """Counters of the daemon once it has all that the emulator had sent by now, and 100 frames more."""
+        sent = self.emulated()["frames_sent"]
+        self.wait_for_frames(sent + 100)
+        return self.status()["counters"]
+
+    def end(self):
+        """Silence first, so that nothing is under way when the counters are read."""
+        self.order("silence seconds=100000")
+        time.sleep(1.0)
+        counters = self.status()["counters"]
+        self.sim.send_signal(signal.SIGTERM)
+        demand("the emulator ends cleanly", self.sim.wait(timeout=30) == 0)
+        self.daemon.send_signal(signal.SIGTERM)
+        demand("the daemon ends cleanly", self.daemon.wait(timeout=30) == 0)
+        self.log.close()
+        report = read_json(self.scratch / "report.json")
+        report.pop("faults_applied")
+        demand("every fault could be had", report["faults_refused"] == [])
+        demand("every frame made is settled once, second copies apart",
+               report["frames_made"] + report["faults"].get("duplicate_frame", 0)
+               == report["frames_sent"] + report["frames_damaged"] + report["frames_lost"]
+               + report["frames_pending"])
+        print("emulator:", report)
+        print("daemon:", counters)
+        demand("the control socket and the link are gone",
+               not (self.scratch / "control").exists() and not (self.scratch / "sensor").is_symlink())
+        return report, counters
+
+    def rows(self):
+        """Instant, x, y, z, temperature, COUNT, run, grid index, fate of every frame, in the order sent."""
+        data = (self.scratch / "truth.bin").read_bytes()[16:]
+        return list(struct.iter_unpack("<q4iHHIB7x", data))
+
+    def truth(self):
+        return [(row[0], row[8]) for row in self.rows()]
+
+    def samples(self):
+        return {row[0]: row[1:5] for row in self.rows()}
+
+    def archive_is_true(self, missing, steps=0):
+        """Without `steps`, where times begin anew, only the values."""
+        for name, counted in compare_truth(self.scratch / "data" / "archive",
+                                           self.scratch / "truth.bin").items():
+            demand(f"{name}: no damaged, lost or repeated frame is in the archive, none altered",
+                   counted["altered"] == counted["duplicated"] == 0 and counted["matched"] > 0)
+            demand(f"{name}: {counted['missing']:.0f} of {counted['truth']:.0f} intact frames missing, "
+                   f"{counted['steps']:.0f} time steps (allowed {missing} and {steps})",
+                   counted["missing"] == missing and (steps is None or counted["steps"] == steps))
+
+
+def gaps_of(truth):
+    """Gaps and missing samples between the first and the last intact frame."""
+    placed = {instant for instant, fate in truth if fate == INTACT}
+    instants = sorted({instant for instant, _ in truth if min(placed) <= instant <= max(placed)})
+    missing = [instant not in placed for instant in instants]
+    gaps = sum(1 for now, before in zip(missing, [False] + missing) if now and not before)
+    return gaps, sum(missing)
