@@ -1,0 +1,104 @@
+"""ringserver scans an archive that a daemon has written and goes on writing; slarchive fetches it to the byte.
+
+Looked up in PATH, or named by A351_RINGSERVER and A351_SLARCHIVE (https://github.com/EarthScope); slarchive 3.2 ends at
+a record whose first blockette is not 1000.
+"""
+
+import os
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+
+from emulated_session import Session, wait_for
+from programs import IS_SANITIZED, SKIPPED, Scratch, demand
+
+# Ten minutes before a midnight, and as long after it: two day files of each channel.
+SCENARIO = """base = "quiet"
+name = "midnight"
+[schedule]
+start_utc = "2017-07-15T23:50:00Z"
+duration_h = 10.0
+[[site]]
+name = "here"
+longitude_deg = 140.0
+latitude_deg = 36.0
+altitude_m = 0.0
+gravity_mgal = 979900.0
+[[ambient]]
+at_h = 0.0
+degc = 25.0
+"""
+START = "2017-07-15T23:50:00Z"
+SPEED = 20 if IS_SANITIZED else 100
+FRAMES = 20 * 60 * 50
+
+
+def program(name, variable):
+    found = shutil.which(os.environ.get(variable) or name)
+    if found is None:
+        print(f"skipped: {name} is neither in PATH nor named by {variable}")
+        sys.exit(SKIPPED)
+    version = subprocess.run([found, "-V"], capture_output=True, text=True)
+    print((version.stdout + version.stderr).strip())
+    return found
+
+
+def free_port():
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
+
+
+def day_files(root):
+    root = pathlib.Path(root)
+    return {str(file.relative_to(root)): file.read_bytes() for file in root.rglob("*.D.*")}
+
+
+def is_listening(port):
+    with socket.socket() as one:
+        return one.connect_ex(("127.0.0.1", port)) == 0
+
+
+ringserver, slarchive = program("ringserver", "A351_RINGSERVER"), program("slarchive", "A351_SLARCHIVE")
+
+with Scratch() as scratch:
+    archive, fetched, port = scratch / "data" / "archive", scratch / "fetched", free_port()
+    archive.mkdir(parents=True)
+    # Served from memory, to this host alone.
+    (scratch / "ring.conf").write_text(
+        f"VolatileRing 1\nRingSize 64M\nListenPort {port} SeedLink IPv4\nAcceptIP 127.0.0.1\n"
+        f"MSeedScan {archive} StateFile=scan.state\n")
+    server = subprocess.Popen([ringserver, "ring.conf"], cwd=scratch, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL)
+    wait_for("ringserver listens", lambda: is_listening(port))
+    # A client is sent what comes after it: it is there before the first record.
+    log = open(scratch / "slarchive.log", "w")
+    client = subprocess.Popen([slarchive, "-v", "-SDS", "fetched", "-nd", "1", "-S", "XX_A351",
+                               f"127.0.0.1:{port}"], cwd=scratch, stdout=log, stderr=log)
+    wait_for("slarchive is taken", lambda: "accepted" in (scratch / "slarchive.log").read_text())
+    (scratch / "midnight.toml").write_text(SCENARIO)
+    session = Session(scratch, speed=SPEED, scenario="midnight.toml", start=START)
+    try:
+        session.wait_for_frames(FRAMES)
+        while_growing = sum(len(data) for data in day_files(fetched).values())
+        session.end()
+        written = day_files(archive)
+        wait_for("what was written is fetched", lambda: day_files(fetched).keys() == written.keys() and all(
+            len(data) >= len(written[name]) for name, data in day_files(fetched).items()))
+        time.sleep(2.0)  # Nothing may come twice.
+        demand("ringserver and slarchive run to the end", server.poll() is None and client.poll() is None)
+    finally:
+        for process in (client, server):
+            process.send_signal(signal.SIGTERM)
+            process.wait(timeout=30)
+    came, size = day_files(fetched), sum(len(data) for data in written.values())
+    print(f"{len(written)} day files of {size} bytes; {while_growing} bytes were fetched while they grew")
+    channels, days = {name.split(".")[-4] for name in written}, {name.rsplit(".", 1)[1] for name in written}
+    demand(f"channels {', '.join(sorted(channels))} on days {', '.join(sorted(days))}",
+           len(channels) >= 4 and len(days) == 2 and len(written) >= 8)
+    demand("data were fetched while the archive grew", while_growing > 0)
+    demand("every day file is fetched to the byte, and no other", came == written)
