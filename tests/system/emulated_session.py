@@ -1,5 +1,6 @@
 """Emulator and daemon side by side, faults on demand, and the emulator's truth of what became of every frame."""
 
+import atexit
 import datetime
 import json
 import random
@@ -40,10 +41,13 @@ def wait_for(claim, is_true, seconds=60):
 class Session:
     """Emulator and daemon side by side; both are stopped in the end, the emulator's report read."""
 
-    def __init__(self, scratch, faults="", speed=20, scenario="tsukuba", start=None, config="", prepare_port=None):
+    def __init__(self, scratch, faults="", speed=20, scenario="tsukuba", start=None, config="", prepare_port=None,
+                 on_host_clock=False, **options):
         """@param start  of simulated time, RFC 3339; by default that of the scenario.
         @param config  lines added to the daemon's [sensor].
         @param prepare_port  what is done to the emulator's terminal before the daemon starts.
+        @param on_host_clock  both run on the host's clock: speed 1, `start` not after now.
+        @param options  with which the daemon is started, of subprocess.Popen.
         """
         self.scratch = scratch
         self.port = random.randrange(20000, 32000)  # Below the ports that outgoing connections take.
@@ -51,23 +55,32 @@ class Session:
             daemon_config(self.port).replace("[storage]", config + "\n[storage]"))
         (scratch / "faults.toml").write_text(faults)
         if start is None:
-            plan = run(BIN / "a351-sim", "plan", "--scenario", scenario, "--out", scratch)
+            plan = run(BIN / "a351-sim", "plan", "--scenario", scenario, "--out", ".", cwd=scratch)
             start = dict(part.split("=", 1) for part in plan.stdout.split())["start_utc"]
-        host = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%S.%fZ")
+        now = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%S.%fZ")
+        host = start if on_host_clock else now
         self.clock = f"scaled:{speed}@{start},{host}"
-        self.sim = subprocess.Popen(
+        self.sim = self._start(
             [BIN / "a351-sim", "device", "--link", "sensor", "--scenario", scenario, "--clock", self.clock,
              "--faults", "faults.toml", "--control", "control", "--truth", "truth.bin", "--report",
-             "report.json"], cwd=scratch)
+             "report.json"])
         wait_for("the control socket", (scratch / "control").exists)
         if prepare_port:
             prepare_port(scratch / "sensor")
+        self.on_host_clock, self.options = on_host_clock, options
         self.log = open(scratch / "a351d.log", "w")
         self.daemon = self.start_daemon()
 
-    def start_daemon(self, config="a351d.toml", log=None):
-        return subprocess.Popen([BIN / "a351d", "--config", config, "--clock", self.clock],
-                                cwd=self.scratch, stderr=log or self.log)
+    def _start(self, command, **options):
+        """A program that does not outlive the test: one left behind would hold its output open."""
+        process = subprocess.Popen(command, cwd=self.scratch, **options)
+        atexit.register(process.kill)
+        return process
+
+    def start_daemon(self, config="a351d.toml", **options):
+        clock = [] if self.on_host_clock else ["--clock", self.clock]
+        return self._start([BIN / "a351d", "--config", config, *clock],
+                           **{"stderr": self.log, **self.options, **options})
 
     def order(self, line):
         answer = ask(self.scratch, line)
@@ -126,10 +139,13 @@ class Session:
     def samples(self):
         return {row[0]: row[1:5] for row in self.rows()}
 
+    def counted(self):
+        """Per channel, against the truth."""
+        return compare_truth(self.scratch / "data" / "archive", self.scratch / "truth.bin")
+
     def archive_is_true(self, missing, steps=0):
         """Without `steps`, where times begin anew, only the values."""
-        for name, counted in compare_truth(self.scratch / "data" / "archive",
-                                           self.scratch / "truth.bin").items():
+        for name, counted in self.counted().items():
             demand(f"{name}: no damaged, lost or repeated frame is in the archive, none altered",
                    counted["altered"] == counted["duplicated"] == 0 and counted["matched"] > 0)
             demand(f"{name}: {counted['missing']:.0f} of {counted['truth']:.0f} intact frames missing, "

@@ -1,0 +1,226 @@
+"""Faults that a running daemon has to bear, of fault-list.md: a device that resets, reports errors or is another one,
+a second daemon, SIGHUP, and clients of its page."""
+
+import os
+import signal
+import socket
+import subprocess
+import time
+
+from emulated_session import Session, wait_for
+from fault_table import FaultTable
+from programs import Scratch, daemon_config, daemon_status
+
+SPEED = 2  # Silence of 2 s ends a session, but never less than 1 s of real time.
+OWN, OTHER = "00000001", "87654321"
+HARD_ERR = 0x00E0
+SEATS = 32  # Connections served at a time.
+table = FaultTable()
+
+
+def reasons(session):
+    return "; ".join(session.status().get("reasons", []))
+
+
+def is_sampling(session):
+    return session.status()["device"]["state"] == "sampling"
+
+
+def seconds_until(claim, is_true):
+    begin = time.monotonic()
+    wait_for(claim, is_true)
+    return (time.monotonic() - begin) * SPEED
+
+
+def undisturbed(session, act):
+    """@return  what `act` returns, and whether no sample was lost and no session began meanwhile."""
+    before = session.settled()
+    result = act()
+    after = session.settled()
+    keys = ("gaps", "samples_missing", "bytes_skipped", "sessions", "link_stalls", "queue_full")
+    return result, all(before[key] == after[key] for key in keys)
+
+
+def second_daemon(session, name, old, new):
+    """@return  exit status, seconds, and what it said."""
+    (session.scratch / f"{name}.toml").write_text(daemon_config(session.port + 1).replace(old, new))
+    begin = time.monotonic()
+    with open(session.scratch / f"{name}.log", "w") as log:
+        second = session.start_daemon(f"{name}.toml", stderr=log)
+        try:
+            status = second.wait(timeout=10)
+        except subprocess.TimeoutExpired:
+            second.kill()
+            status = second.wait()
+    return status, time.monotonic() - begin, (session.scratch / f"{name}.log").read_text()
+
+
+def no(is_undisturbed):
+    return "un" if is_undisturbed else ""
+
+
+def reset(session):
+    runs = len(session.emulated()["runs"])
+    session.order("reset")
+    noticed_s = seconds_until("the reset is noticed", lambda: not is_sampling(session))
+    back_s = seconds_until("it samples again", lambda: is_sampling(session))
+    sessions = session.settled()["sessions"]
+    table.note(19, "device resets",
+               f"noticed after {noticed_s:.1f} s, sampling {back_s:.1f} s later, session {sessions}",
+               noticed_s < 3.0 and sessions == len(session.emulated()["runs"]) == runs + 1)
+
+
+def error_flags(session):
+    before = session.settled()
+    session.order("error_flags count=7 diag_stat=32")
+    wait_for("flags", lambda: session.emulated()["faults"].get("error_flags", 0) == 7)
+    after = session.settled()
+    wait_for("the log tells of them",
+             lambda: "frames with error flags: 7 more" in (session.scratch / "a351d.log").read_text())
+    flags, missing = (after[key] - before[key] for key in ("error_flags", "samples_missing"))
+    table.note(24, "device sends error flags", f"{flags} of 7 counted and logged, {missing} samples missing",
+               flags == 7 and missing == 0)
+
+
+def failing_tests(session):
+    session.order(f"failing_tests diag_stat={HARD_ERR}")
+    session.order("power_cycle")
+    wait_for("the failure is told", lambda: "HARD_ERR" in reasons(session))
+    said, level = reasons(session), session.status()["level"]
+    session.order("failing_tests diag_stat=0")
+    session.order("power_cycle")
+    wait_for("it samples again", lambda: is_sampling(session))
+    table.note(24, "device fails its start-up test", f"{level}: {said}; healed, it samples", level == "fault")
+
+
+def other_device(session):
+    session.order(f"other_unit serial_number={OTHER}")
+    wait_for("the other one is told", lambda: OTHER in reasons(session))
+    said, frames = reasons(session), session.status()["counters"]["frames"]
+    time.sleep(2.0)
+    taken = session.status()["counters"]["frames"] - frames
+    session.order(f"other_unit serial_number={OWN}")
+    wait_for("the own one samples again", lambda: is_sampling(session))
+    table.note(21, "other device plugged in",
+               f"{said}; {taken} of its frames recorded; the own one samples again",
+               taken == 0 and f"expected {OWN}" in said)
+
+
+def second_daemons(session):
+    for name, old, new in (("port", 'root = "data"', 'root = "other"'),
+                           ("data root", 'port = "sensor"', 'port = "none"'), ("port and data root", "", "")):
+        (status, took_s, said), is_undisturbed = undisturbed(session, lambda: second_daemon(session, name, old, new))
+        table.note(23, f"second daemon on the {name}", f"exit {status} after {took_s:.2f} s: {said.splitlines()[-1:]}; "
+                   f"the first {no(is_undisturbed)}disturbed", status == 3 and took_s < 2.0 and is_undisturbed)
+
+
+def hang_ups(session):
+    config = session.scratch / "a351d.toml"
+    config.write_text(config.read_text().replace("elevation_m = 400.0", "elevation_m = 1.0\nunknown = 1"))
+
+    def signals():
+        for _ in range(5):
+            session.daemon.send_signal(signal.SIGHUP)
+            time.sleep(0.1)
+        wait_for("SIGHUP is logged", lambda: "SIGHUP" in (session.scratch / "a351d.log").read_text())
+        return session.daemon.poll()
+
+    ended, is_undisturbed = undisturbed(session, signals)
+    table.note(30, "SIGHUP with a broken configuration", f"logged; {no(is_undisturbed)}disturbed",
+               ended is None and is_undisturbed)
+
+
+def connect(session):
+    return socket.create_connection(("127.0.0.1", session.port), timeout=10)
+
+
+def request(session, path="/api/status"):
+    return (f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{session.port}\r\n\r\n").encode()
+
+
+def answer(client):
+    """The status of the answer, or 0: closed without one."""
+    try:
+        line = client.makefile("rb").readline()
+    except OSError:
+        return 0
+    return int(line.split()[1]) if line.startswith(b"HTTP/") else 0
+
+
+def many_tabs(session):
+    def act():
+        clients = [connect(session) for _ in range(100)]
+        for client in clients:
+            try:
+                client.sendall(request(session))
+            except OSError:
+                pass
+        answers = [answer(client) for client in clients]
+        for client in clients:
+            client.close()
+        return answers
+
+    answers, is_undisturbed = undisturbed(session, act)
+    served, refused = answers.count(200), answers.count(503)
+    wait_for("seats are free again", lambda: daemon_status(session.port) is not None)
+    table.note(32, "100 connections at a time",
+               f"{served} served, {refused} told to come back, {answers.count(0)} closed; "
+               f"{no(is_undisturbed)}disturbed", served >= SEATS and refused > 0 and is_undisturbed)
+
+
+def hostile_clients(session):
+    """Ten that send a byte a second, ten that ask and do not listen, and a stream of nonsense: 12 s of it."""
+    text = request(session)
+
+    def act():
+        slow, deaf = [connect(session) for _ in range(10)], [connect(session) for _ in range(10)]
+        for client in deaf:
+            client.setblocking(False)
+        for at in range(12):
+            for client, part in [(one, text[at:at + 1]) for one in slow] + [(one, 200 * text) for one in deaf]:
+                try:
+                    client.sendall(part)
+                except OSError:
+                    pass  # Cut, or full.
+            for junk in (os.urandom(3000), b"\r\n" * 100, b"GET / HTTP/9.9\r\n\r\n"):
+                with connect(session) as client:
+                    client.sendall(junk)
+            time.sleep(1.0)
+        cut = sum(is_closed(client) for client in slow)
+        for client in slow + deaf:
+            client.close()
+        return cut
+
+    memory_before = resident_mb(session.daemon.pid)
+    cut, is_undisturbed = undisturbed(session, act)
+    grown_mb = resident_mb(session.daemon.pid) - memory_before
+    wait_for("the page answers", lambda: daemon_status(session.port) is not None)
+    table.note(31, "slow, deaf and hostile clients",
+               f"{cut} of 10 slow ones cut after 10 s, memory {grown_mb:+.1f} MB; "
+               f"{no(is_undisturbed)}disturbed", cut == 10 and grown_mb < 8 and is_undisturbed)
+
+
+def is_closed(client):
+    client.setblocking(False)
+    try:
+        return client.recv(4096) == b""
+    except BlockingIOError:
+        return False
+    except OSError:
+        return True
+
+
+def resident_mb(pid):
+    with open(f"/proc/{pid}/status") as status:
+        return next(int(line.split()[1]) for line in status if line.startswith("VmRSS:")) / 1024
+
+
+with Scratch() as scratch:
+    session = Session(scratch, speed=SPEED, config=f'serial_number = "{OWN}"')
+    session.wait_for_frames(200)
+    for fault in (second_daemons, hang_ups, many_tabs, hostile_clients, error_flags, reset, failing_tests,
+                  other_device):
+        fault(session)
+    report, counters = session.end()
+    session.archive_is_true(missing=0)
+table.finish()
