@@ -1,0 +1,80 @@
+"""Days at 1000x: memory, descriptors and threads of the daemon stay as they are, and the archive is the truth.
+
+A351_LONG=1: the scenario `week`, seven days in ten minutes; otherwise its first hours.
+"""
+
+import os
+import pathlib
+import signal
+import statistics
+import time
+
+from emulated_session import Session
+from programs import IS_LONG, IS_SANITIZED, Scratch, demand, read_json
+
+SPEED = 150 if IS_SANITIZED else 1000
+HOURS = 168 if IS_LONG else 4
+HOUR_S = 3600 / SPEED
+# As system_bench.py promises; without what a sanitizer adds.
+LARGEST_MB = 60
+# Times of the last 24 h are kept for occupations in the past; from then on memory has no reason to grow.
+SETTLED_H = 25
+LARGEST_GROWTH_MB = 1  # By one page of the allocator here and there.
+
+# What counts work done; a counter that is not named here has to be 0 as long as the sensor is there.
+WORK = {"archive_records", "bytes", "frames", "journal_bytes", "journal_segments_compressed", "link_sessions",
+        "sessions"}
+
+
+def footprint(pid):
+    process = pathlib.Path("/proc") / str(pid)
+    status = dict(line.split(":", 1) for line in (process / "status").read_text().splitlines())
+    return (int(status["VmRSS"].split()[0]) / 1024, len(os.listdir(process / "fd")), int(status["Threads"]))
+
+
+def hour_by_hour(session, hours):
+    """Of each simulated hour the median memory in MB, and the fewest descriptors and threads: a segment that is being
+    compressed holds some for a moment."""
+    table, begin = [], time.monotonic()
+    for hour in range(hours):
+        seen = []
+        while time.monotonic() < begin + (hour + 1) * HOUR_S:
+            seen.append(footprint(session.daemon.pid))
+            time.sleep(HOUR_S / 20)
+        memory, descriptors, threads = zip(*seen)
+        table.append((statistics.median(memory), min(descriptors), min(threads)))
+    return table
+
+
+with Scratch() as scratch:
+    (scratch / "days.toml").write_text(f'base = "week"\nname = "days"\n[schedule]\nduration_h = {HOURS + 0.5}\n')
+    session = Session(scratch, speed=SPEED, scenario="days.toml")
+    session.wait_for_frames(50 * 600)
+    before = session.status()["counters"]  # A sensor that starts up does not answer at first.
+    table = hour_by_hour(session, HOURS)
+    counters = session.status()["counters"]
+    print(f"the emulator ends with {session.sim.wait(timeout=600)}")
+    time.sleep(1.0)
+    heard = session.status()["counters"]["frames"]
+    session.daemon.send_signal(signal.SIGTERM)
+    demand("the daemon ends cleanly", session.daemon.wait(timeout=60) == 0)
+    report = read_json(scratch / "report.json")
+
+    print("hour  memory_mb  descriptors  threads")
+    for hour in sorted({0, 1, *range(0, HOURS, 12), HOURS - 1}):
+        print(f"{hour:4d} {table[hour][0]:10.1f} {table[hour][1]:12d} {table[hour][2]:8d}")
+    print("counters:", counters)
+    print("emulator:", {key: report[key] for key in ("frames_sent", "largest_lateness_real_s", "mean_rate_real_hz")})
+    largest = max(row[0] for row in table)
+    if not IS_SANITIZED:
+        demand(f"memory is {largest:.1f} MB at most, below {LARGEST_MB}", largest < LARGEST_MB)
+    if HOURS > SETTLED_H:
+        growth = table[-1][0] - table[SETTLED_H][0]
+        demand(f"memory from hour {SETTLED_H} to the last: {growth:+.1f} MB", growth < LARGEST_GROWTH_MB)
+    demand("as many descriptors and threads in the last hour as in the first", table[-1][1:] == table[0][1:])
+    unexplained = {key: count for key, count in counters.items()
+                   if count != before[key] and key not in WORK}
+    demand(f"one session, and no counter without a reason: {unexplained}",
+           not unexplained and counters["sessions"] == counters["link_sessions"] == 1)
+    demand(f"{heard} frames are the {report['frames_sent']} that were sent", heard == report["frames_sent"])
+    session.archive_is_true(missing=0)
