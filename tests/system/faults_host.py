@@ -9,11 +9,12 @@ import time
 from emulated_session import INTACT, Session
 from fault_table import FaultTable
 from miniseed_headers import headers
-from programs import BIN, Scratch, run
+from programs import BIN, IS_SANITIZED, Scratch, run
 
 FAKETIME = shutil.which("faketime")
 SLEW = 500e-6
 BEFORE_S, AFTER_S = 8, 16  # A clock that nobody synchronises is believed a minute after it was set.
+STEP_S = 0.050             # What the mapping to UTC takes for one: host_clock_rules.hpp.
 LARGEST_ERROR_S = 0.0045   # As three_days.py allows a live archive.
 SCENARIO = '''base = "indoor"
 name = "now"
@@ -72,8 +73,8 @@ def clocks_set():
         run(BIN / "a351-correct", "retime", session.scratch / "data", "--out", session.scratch / "re-timed")
         last_s = (errors_s(session, session.scratch / "re-timed") or [(0.0, 0.0)])[-1][1]
         table.note(25, f"host clock set by {hours:+d} h", f"{len(errors)} records stay within {1e3 * largest_s:.2f} ms "
-                   f"of the old line; re-timed, the last is at {last_s:+.3f} s", largest_s < LARGEST_ERROR_S
-                   and abs(last_s - 3600 * hours) < LARGEST_ERROR_S and values_are_true(session))
+                   f"of the old line; re-timed, the last is at {last_s:+.3f} s", largest_s < STEP_S
+                   and abs(last_s - 3600 * hours) < STEP_S and values_are_true(session))
     slewed.end()
     errors = errors_s(slewed, slewed.scratch / "data")
     followed = [error - SLEW * at for at, error in errors]
@@ -102,10 +103,10 @@ def logs_lost(sessions):
 
 
 without_log = start_with_lost_logs()
-if FAKETIME:
+if FAKETIME and not IS_SANITIZED:
     clocks_set()
 else:
-    print("left out: #25 and #26, for faketime is not installed")
+    print("left out: #25 and #26, for faketime is not installed, or would come before a sanitizer")
 logs_lost(without_log)
 for scratch in scratches:
     scratch.__exit__(None, None, None)

@@ -37,7 +37,7 @@ def hour_by_hour(session, hours):
     compressed holds some for a moment."""
     table, begin = [], time.monotonic()
     for hour in range(hours):
-        seen = []
+        seen = [footprint(session.daemon.pid)]
         while time.monotonic() < begin + (hour + 1) * HOUR_S:
             seen.append(footprint(session.daemon.pid))
             time.sleep(HOUR_S / 20)
