@@ -1,7 +1,9 @@
+#include <fcntl.h>
 #include <signal.h>
 #include <spdlog/async.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -94,6 +96,7 @@ Status snapshot(const Config& config, const HostClock& clock, const SensorLink& 
     status.is_profile_verified = config.sensor.profile->is_verified;
     status.filter = config.sensor.filter;
     status.output_rate_hz = config.sensor.settings.output_rate_hz;
+    status.declared_rate_hz = config.storage.declared_rate_hz;
     fill(status, link.status());
     if (oven) fill(status, oven->status());
     store.fill(status);
@@ -119,6 +122,15 @@ void log_recovery(spdlog::logger& log, const record::RecoveryReport& report) {
     if (report.records_conflicting > 0) {
         log.error("recovery: {} records of the archive disagree with the journal",
                   report.records_conflicting);
+    }
+}
+
+/// A file must not become what the log is written to because the shell closed it.
+void open_standard_streams() {
+    while (true) {
+        const int descriptor = open("/dev/null", O_RDWR | O_CLOEXEC);
+        if (descriptor > STDERR_FILENO) close(descriptor);
+        if (descriptor < 0 || descriptor > STDERR_FILENO) return;
     }
 }
 
@@ -197,6 +209,7 @@ int complain_and_end(ExitStatus status, const std::string& trouble) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    open_standard_streams();
     CLI::App app("Records an M-A351 accelerometer and shows the operator how it is.", "a351d");
     app.set_version_flag("--version", std::string("a351d ") + A351_VERSION);
     std::string config_file;

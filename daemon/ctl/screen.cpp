@@ -192,6 +192,12 @@ std::string status_screen(const json& status, bool is_coloured) {
     screen += line("archive", lag(status, "archived"));
     screen += line("timing", text_of(at(status, "timing/state")) + ", uncertainty " +
                                  number_of(at(status, "timing/uncertainty_ms"), "%.2f ms"));
+    if (at(status, "timing/rate/measured_hz").is_number()) {
+        screen += line("rate",
+                       number_of(at(status, "timing/rate/measured_hz"), "%.6f Hz +- ") +
+                           number_of(at(status, "timing/rate/uncertainty_ppm"), "%.2f ppm over ") +
+                           number_of(at(status, "timing/rate/span_h"), "%.1f h"));
+    }
     screen += line("counters", "frames " + text_of(at(status, "counters/frames")) + "  sessions " +
                                    text_of(at(status, "counters/sessions")));
     screen += line("troubles", troubles(status));

@@ -44,6 +44,9 @@ struct Status {
 
     timing::TimingState timing_state = timing::TimingState::unlocked;
     Nanoseconds timing_uncertainty{0};
+    std::optional<timing::MeasuredRate> measured_rate;
+    std::optional<double> declared_rate_hz;  ///< Of the configuration.
+    std::string rate_advice;                 ///< What to do about the declared rate; empty: nothing.
 
     std::string port;
     std::string link_state;  ///< searching, handshake, sampling, waiting, stopped.

@@ -52,6 +52,20 @@ json verdict_of(const Status& status, Nanoseconds stale_after) {
     return {{"state", "no data"}, {"reasons", json::array({reason})}};
 }
 
+json rate_of(const Status& status) {
+    json rate = {{"declared_hz", or_null(status.declared_rate_hz)},
+                 {"measured_hz", nullptr},
+                 {"uncertainty_ppm", nullptr},
+                 {"span_h", nullptr},
+                 {"advice", status.rate_advice}};
+    if (const auto& measured = status.measured_rate) {
+        rate["measured_hz"] = measured->rate.value();
+        rate["uncertainty_ppm"] = measured->uncertainty_ppm;
+        rate["span_h"] = std::chrono::duration<double, std::ratio<3600>>(measured->span).count();
+    }
+    return rate;
+}
+
 json sample_of(const Status& status) {
     if (!status.last_sample) return nullptr;
     json acceleration = json::array();
@@ -95,7 +109,8 @@ json counters_of(const Status& status) {
                      {"anomalies", c.anomalies},
                      {"integer_records", c.integer_records},
                      {"error_flags", c.error_flags},
-                     {"sessions", c.sessions}};
+                     {"sessions", c.sessions},
+                     {"records_withheld", c.records_withheld}};
     for (const auto& [key, count] : status.more_counters) counters[key] = count;
     return counters;
 }
@@ -115,7 +130,10 @@ json to_json(const Status& status, const Occupations& occupations, Nanoseconds s
             {"received", or_null(status.received)},
             {"journaled", or_null(status.journaled)},
             {"archived", or_null(status.archived)},
-            {"timing", {{"state", name(status.timing_state)}, {"uncertainty_ms", uncertainty_ms}}},
+            {"timing",
+             {{"state", name(status.timing_state)},
+              {"uncertainty_ms", uncertainty_ms},
+              {"rate", rate_of(status)}}},
             {"verdict", verdict_of(status, stale_after)},
             {"occupation", running ? to_json(*running, status.now) : json()},
             {"sample", sample_of(status)},

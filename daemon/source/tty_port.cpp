@@ -64,8 +64,11 @@ std::string ask_for_low_latency(int descriptor, const std::filesystem::path& dev
         is_low = ioctl(descriptor, TIOCGSERIAL, &serial) == 0 && (serial.flags & kLowLatency) != 0;
     }
     std::string text = is_low ? ", low latency" : ", low latency not available";
+    // FTDI's driver; only root may write it, or config/60-a351.rules does.
+    const auto timer = "/sys/class/tty" / device.filename() / "device/latency_timer";
+    if (std::filesystem::exists(timer)) std::ofstream(timer) << 1;
     std::string timer_ms;
-    std::ifstream("/sys/class/tty" / device.filename() / "device/latency_timer") >> timer_ms;
+    std::ifstream(timer) >> timer_ms;
     if (!timer_ms.empty()) text += ", latency timer " + timer_ms + " ms";
     return text;
 }

@@ -289,6 +289,7 @@ ArchiveStatus ArchiveThread::status() {
     if (const timing::SampleClock* const sample_clock = archiver_->clock()) {
         status.timing_state = sample_clock->state();
         status.timing_uncertainty = sample_clock->uncertainty();
+        status.measured_rate = sample_clock->measured_rate();
     }
     return status;
 }

@@ -46,6 +46,7 @@ struct ArchiveStatus {
     std::optional<record::Sample> last_sample;
     timing::TimingState timing_state = timing::TimingState::unlocked;
     Nanoseconds timing_uncertainty{0};
+    std::optional<timing::MeasuredRate> measured_rate;
 };
 
 class ArchiveThread {

@@ -1,6 +1,8 @@
 #include "daemon/store/assess.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 namespace a351::daemon {
 namespace {
@@ -27,6 +29,33 @@ void assess_oven(Status& status, const OvenStatus& oven) {
         complain(status, Status::Level::warning,
                  "oven: input error, its temperature is not to be believed");
     }
+}
+
+/// A rate that is a day old is trusted: it has seen the temperature's daily course.
+void assess_rate(Status& status) {
+    constexpr std::chrono::hours kNearlyADay{23};
+    // From 0.2 ppm on, readers that join records by their rate lose samples within three days.
+    constexpr double kTolerable_ppm = 0.2;
+    const auto& measured = status.measured_rate;
+    if (!measured || measured->span < kNearlyADay || measured->uncertainty_ppm > kTolerable_ppm)
+        return;
+    char text[160];
+    const double rate_hz = measured->rate.value();
+    if (!status.declared_rate_hz) {
+        std::snprintf(text, sizeof text,
+                      "measured over a day: put declared_rate_hz = %.6f into [storage]", rate_hz);
+        status.rate_advice = text;
+        return;
+    }
+    const double departure_ppm = 1e6 * (rate_hz / *status.declared_rate_hz - 1.0);
+    if (std::abs(departure_ppm) <= kTolerable_ppm + measured->uncertainty_ppm) return;
+    std::snprintf(
+        text, sizeof text,
+        "the sensor's rate was %.6f Hz over a day, %+.2f ppm from the declared one; change it "
+        "with the next deployment",
+        rate_hz, departure_ppm);
+    status.rate_advice = text;
+    complain(status, Status::Level::warning, text);
 }
 
 }  // namespace
@@ -82,6 +111,7 @@ void fill(Status& status, const OvenLinkStatus& link) {
 }
 
 void assess(Status& status) {
+    assess_rate(status);
     if (status.oven) assess_oven(status, *status.oven);
     switch (status.timing_state) {
         case timing::TimingState::unlocked:
@@ -93,6 +123,11 @@ void assess(Status& status) {
         case timing::TimingState::coarse:
         case timing::TimingState::locked:
             break;
+    }
+    if (status.counters.records_withheld > 0) {
+        complain(status, Status::Level::warning,
+                 "the host had no clock: " + std::to_string(status.counters.records_withheld) +
+                     " records wait in the journal for a351-correct retime");
     }
     if (!status.disk_free_bytes) {
         complain(status, Status::Level::warning, "free space of the record cannot be told");

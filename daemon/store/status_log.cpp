@@ -34,6 +34,9 @@ void StatusLog::note(const Status& status, Instant now) {
                    status.disk_reserve_trouble.empty() ? "" : ": ", status.disk_reserve_trouble);
         reserve_ = status.disk_reserve;
     }
+    if (rate_advice_.empty() && !status.rate_advice.empty())
+        log_->info("rate: {}", status.rate_advice);
+    rate_advice_ = status.rate_advice;
     note_reasons(status, now);
     note_counter("gaps", status.counters.gaps, now);
     note_counter("checksum errors", status.counters.checksum_errors, now);

@@ -42,6 +42,7 @@ private:
     std::string link_state_;
     std::string oven_state_;
     std::string reserve_;
+    std::string rate_advice_;
     std::map<std::string, Trouble> troubles_;
     std::map<std::string, Counter> counters_;
 };

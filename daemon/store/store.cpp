@@ -100,6 +100,7 @@ void Store::fill(Status& status) {
     if (const auto last = archive_.latest()) status.last_sample = last->utc;
     status.timing_state = archive.timing_state;
     status.timing_uncertainty = archive.timing_uncertainty;
+    status.measured_rate = archive.measured_rate;
     status.counters = archive.counters;
     if (archive.last_sample && profile_ != nullptr) {
         const wire::BurstValues& values = archive.last_sample->values;

@@ -10,6 +10,7 @@
 #include "protocol/record/channel_packer.hpp"
 #include "protocol/record/retiming.hpp"
 #include "protocol/record/slow_channels.hpp"
+#include "protocol/record/time_gate.hpp"
 #include "protocol/timing/sample_index.hpp"
 #include "protocol/wire/burst_decoder.hpp"
 #include "protocol/wire/device_profile.hpp"
@@ -332,7 +333,8 @@ private:
     std::optional<std::int64_t> next_stored_;
 };
 
-Archiver::Archiver(ArchiveSink& sink, Retiming* retiming) : sink_(sink), retiming_(retiming) {}
+Archiver::Archiver(ArchiveSink& sink, Retiming* retiming)
+    : gate_(std::make_unique<TimeGate>(sink, counters_)), retiming_(retiming) {}
 Archiver::~Archiver() = default;
 
 void Archiver::take(const JournalChunk& chunk) {
@@ -343,7 +345,7 @@ void Archiver::take(const JournalChunk& chunk) {
         }
         if (session_) session_->end();
         session_.reset();  // Bytes behind a header that is refused belong to nothing.
-        session_ = std::make_unique<Session>(*header, sink_, counters_, retiming_);
+        session_ = std::make_unique<Session>(*header, *gate_, counters_, retiming_);
     } else if (const auto* received = std::get_if<RxChunk>(&chunk)) {
         counters_.bytes += received->bytes.size();
         if (session_)

@@ -17,6 +17,7 @@
 namespace a351::record {
 
 class Retiming;
+class TimeGate;
 
 /// A placed sample, before packing.
 struct Sample {
@@ -54,6 +55,8 @@ struct ArchiverCounters {
     std::uint64_t integer_records = 0;  ///< Records that Steim-2 could not hold.
     std::uint64_t error_flags = 0;      ///< Frames with EA, ALIASI_ERR or an alarm.
     std::uint64_t sessions = 0;         ///< Started, device restarts included.
+    /// Records with impossible times, of a host without a clock: in the journal only.
+    std::uint64_t records_withheld = 0;
 };
 
 /// Channels: band code by output rate (B below 80 Hz, H, C from 250, F from 1000), N and the axis
@@ -91,9 +94,9 @@ public:
 
 private:
     class Session;
-    ArchiveSink& sink_;
-    Retiming* retiming_;
     ArchiverCounters counters_;
+    std::unique_ptr<TimeGate> gate_;
+    Retiming* retiming_;
     std::unique_ptr<Session> session_;
 };
 

@@ -17,6 +17,7 @@ constexpr Nanoseconds kBreak = milliseconds(5);
 constexpr Nanoseconds kUnlocked = std::chrono::seconds(60);
 constexpr Nanoseconds kLocked = milliseconds(3);
 constexpr Nanoseconds kRemembered = std::chrono::hours(24);
+constexpr Nanoseconds kShortestSpan = std::chrono::minutes(1);
 
 }  // namespace
 
@@ -96,8 +97,11 @@ void SampleClock::fix_second() {
     }
     const Nanoseconds step =
         target(next) - aim + std::clamp(aim - from, -kLargestPull, kLargestPull);
-    if (is_first || is_break || step != pieces_.back().step)
-        pieces_.push_back({fixed_until_, from, step, line_->uncertainty, is_break});
+    if (is_first || is_break || step != pieces_.back().step) {
+        const Nanoseconds uncertainty =
+            line_->uncertainty + abs(aim - from) + mapping_.error_at(line_at(fixed_until_));
+        pieces_.push_back({fixed_until_, from, step, uncertainty, is_break});
+    }
     fixed_until_ = next;
 }
 
@@ -172,6 +176,23 @@ TimingState SampleClock::state() const noexcept {
     if (!last_ || period_.of(*last_ - *first_) < kUnlocked) return TimingState::unlocked;
     if (mapping_.is_held()) return TimingState::holdover;
     return line_ && line_->uncertainty <= kLocked ? TimingState::locked : TimingState::coarse;
+}
+
+std::optional<MeasuredRate> SampleClock::measured_rate() const {
+    const auto newest = last_ && !is_given_ ? time_of(*last_) : std::nullopt;
+    if (!newest) return std::nullopt;
+    std::optional<MeasuredRate> best;
+    for (const TimePiece& piece : pieces_) {
+        const Nanoseconds span = newest->utc - piece.time;
+        if (piece.first < last_break_.value_or(0) || span < kShortestSpan) continue;
+        const double ppm = 1e6 *
+                           static_cast<double>((piece.uncertainty + newest->uncertainty).count()) /
+                           static_cast<double>(span.count());
+        if (best && best->uncertainty_ppm <= ppm) continue;
+        const double span_s = std::chrono::duration<double>(span).count();
+        best = {Hertz(static_cast<double>(*last_ - piece.first) / span_s), ppm, span};
+    }
+    return best;
 }
 
 Nanoseconds SampleClock::uncertainty() const {

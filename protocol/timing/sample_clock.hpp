@@ -33,8 +33,15 @@ struct TimePiece {
     std::int64_t first = 0;
     UtcTime time;
     Nanoseconds step{0};
-    Nanoseconds uncertainty{0};
+    Nanoseconds uncertainty{0};  ///< Of `time`.
     bool is_break = false;  ///< The times jump.
+};
+
+/// Samples over time, between two samples whose times do not jump.
+struct MeasuredRate {
+    Hertz rate;
+    double uncertainty_ppm = 0.0;  ///< Those of both times together, over the span.
+    Nanoseconds span{0};
 };
 
 struct SampleClockOptions {
@@ -98,6 +105,11 @@ public:
     [[nodiscard]] std::optional<std::int64_t> last_break() const noexcept { return last_break_; }
 
     [[nodiscard]] TimingState state() const noexcept;
+
+    /// Of the sensor's oscillator, from the newest sample and that of the 24 h remembered with which
+    /// it is known best; std::nullopt before a minute.  Accuracy: "the rate of the sensor is measured
+    /// as well as it says".
+    [[nodiscard]] std::optional<MeasuredRate> measured_rate() const;
 
     /// Of the last sample observed; 0 before there is one.
     [[nodiscard]] Nanoseconds uncertainty() const;

@@ -17,6 +17,9 @@ constexpr double kRateError = 100e-6;
 // A counter that steps back by up to a second is corrupt, not nearly a wrap further.
 constexpr std::int64_t kJumpBack = 4096;
 
+// No adapter delays a frame so long: it lay in a buffer.
+constexpr Nanoseconds kLate = std::chrono::seconds(10);
+
 // Long enough to hold frames that came without delay, short enough for kRateError not to matter.
 constexpr double kWindow_s = 512.0;
 
@@ -33,6 +36,11 @@ RawTime SampleIndex::start_of(std::int64_t index, RawTime arrival) const {
     return arrival - from_seconds(static_cast<double>(index) / rate_hz_);
 }
 
+/// The last placed frame.
+bool SampleIndex::was_late() const {
+    return start_of(*last_index_, last_arrival_) - earliest_start_ > kLate;
+}
+
 Placement SampleIndex::place(std::uint16_t count, bool contiguous, RawTime arrival) {
     if (!last_index_) {
         last_index_ = -1;
@@ -45,6 +53,9 @@ Placement SampleIndex::place(std::uint16_t count, bool contiguous, RawTime arriv
     const std::int64_t by_counter = difference / count_step_;
     if (contiguous) {
         if (difference == 0) return {Placement::Kind::duplicate, 0, 0};
+        if (was_late())
+            if (const auto advance = advance_by_time(difference, arrival))
+                return accept(*advance, count, arrival);
         if (is_whole && difference <= kCounterRange - kJumpBack)
             return accept(by_counter, count, arrival);
         if (const auto advance = advance_by_time(difference, arrival))

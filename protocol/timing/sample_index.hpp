@@ -36,7 +36,8 @@ struct Placement {
 ///
 /// Contiguous: the difference to the last placed frame decides.  One that is no multiple of the
 /// step, or a step back by up to 4096 ticks, is a loss longer than a wrap if that agrees with
-/// elapsed time, else an anomaly.
+/// elapsed time, else an anomaly.  A loss right behind frames that came more than 10 s late is what
+/// a receiver dropped while the host did not read: there elapsed time decides first, if it agrees.
 ///
 /// Not contiguous: of the indices that fit the counter, the one nearest the prediction, if it
 /// agrees; otherwise, when the counter goes on with at most 1 s missing, the bytes were merely late
@@ -59,6 +60,7 @@ public:
 
 private:
     [[nodiscard]] RawTime start_of(std::int64_t index, RawTime arrival) const;
+    [[nodiscard]] bool was_late() const;
     [[nodiscard]] std::optional<std::int64_t> advance_by_time(std::uint16_t difference,
                                                               RawTime arrival) const;
     Placement accept(std::int64_t advance, std::uint16_t count, RawTime arrival);

@@ -181,40 +181,9 @@ with Scratch() as scratch:
            counters["bytes_skipped"] > before["bytes_skipped"]
            and counters["link_sessions"] > before["link_sessions"])
 
-    sent = session.emulated()["frames_sent"]
-    before, emulated = session.settled(), session.emulated()
-    session.order("change_baud")
-    wait_for("garbage", lambda: session.emulated()["frames_damaged"] > emulated["frames_damaged"] + 1000)
-    wait_for("bytes are skipped", lambda: session.status()["counters"]["bytes_skipped"]
-             > before["bytes_skipped"] + 1000)
-    # Not noticed as such: the daemon asks at the old speed for ever; who switches the device off ends it.
-    heard, after = session.status()["counters"]["frames"] - before["frames"], session.emulated()
-    demand(f"another speed: of {after['frames_damaged'] - emulated['frames_damaged']} frames none is found in what "
-           f"is heard, but for {heard} before", heard <= after["frames_sent"] - sent)
-    session.order("power_cycle")
-    runs = len(session.emulated()["runs"])
-    wait_for_run(runs + 1)
     report, counters = session.end()
     demand("nothing altered", all(counted["altered"] == counted["duplicated"] == 0 for counted in compare_truth(
         scratch / "data" / "archive", scratch / "truth.bin").values()))
-
-# Pulled out and back under another name while it samples: what comes before the daemon has stopped it is nobody's.
-with Scratch() as scratch:
-    session = Session(scratch)
-    session.wait_for_frames(1000)
-    before = (scratch / "sensor").readlink()
-    session.order("hang_up seconds=60")
-    wait_for("the port is gone", lambda: not (scratch / "sensor").is_symlink())
-    wait_for("the port is back", lambda: (scratch / "sensor").is_symlink())
-    demand("under another name", (scratch / "sensor").readlink() != before)
-    wait_for("a second run", lambda: len(session.emulated()["runs"]) == 2
-                     and session.emulated()["runs"][1]["frames"] > 500)
-    report, counters = session.end()
-    unheard = report["frames_sent"] - counters["frames"]
-    demand(f"{unheard} frames were drained before the handshake, {report['frames_lost_unplugged']} lost "
-           "unplugged", 0 <= unheard < 60 * 50 and report["frames_lost_unplugged"] > 50 * 50)
-    demand("nothing was unread when the port was pulled out", report["bytes_unread"] == 0)
-    session.archive_is_true(missing=unheard)
 
 # A receiver that overflows while the host does not read; for less than the counter's wrap, so that no clock decides.
 with Scratch() as scratch:

@@ -99,3 +99,33 @@ TEST_CASE("the polls of the oven are told by their outcome", "[daemon][assess]")
                                                                      {"malformed", 15},
                                                                      {"no_port", 16}});
 }
+
+TEST_CASE("a rate that was measured over a day is compared with the declared one",
+          "[daemon][assess]") {
+    Status status = healthy();
+    status.measured_rate = {Hertz(50.0006), 0.05, std::chrono::hours(24)};
+    assess(status);
+    CHECK(status.level == Status::Level::good);
+    CHECK(status.rate_advice ==
+          "measured over a day: put declared_rate_hz = 50.000600 into [storage]");
+
+    status = healthy();
+    status.measured_rate = {Hertz(50.0006), 0.05, std::chrono::hours(24)};
+    status.declared_rate_hz = 50.000612;  // 0.24 ppm, of which 0.05 may be chance
+    assess(status);
+    CHECK(status.rate_advice.empty());
+    CHECK(status.level == Status::Level::good);
+    status.declared_rate_hz = 50.000613;
+    assess(status);
+    CHECK(status.level == Status::Level::warning);
+    CHECK(status.rate_advice.find("-0.26 ppm") != std::string::npos);
+
+    status = healthy();
+    SECTION("not over less") { status.measured_rate = {Hertz(51.0), 0.05, std::chrono::hours(22)}; }
+    SECTION("not one that is not known") {
+        status.measured_rate = {Hertz(51.0), 0.21, std::chrono::hours(24)};
+    }
+    SECTION("not when there is none") {}
+    assess(status);
+    CHECK(status.rate_advice.empty());
+}

@@ -237,6 +237,9 @@ TEST_CASE("the status carries values with their units", "[daemon][page]") {
     page.status.journaled = 179'990;
     page.status.timing_state = timing::TimingState::locked;
     page.status.timing_uncertainty = std::chrono::microseconds(1500);
+    page.status.measured_rate = {Hertz(50.0005), 0.03, std::chrono::hours(24)};
+    page.status.declared_rate_hz = 50.00025;
+    page.status.rate_advice = "change it";
     page.status.acceleration = {StandardGravity(0.001), StandardGravity(-0.002),
                                 StandardGravity(0.9993)};
     page.status.temperature = DegC(31.25);
@@ -247,7 +250,13 @@ TEST_CASE("the status carries values with their units", "[daemon][page]") {
     CHECK(is(status, "/level", R"("warning")"));
     CHECK(is(status, "/reasons", R"(["disk nearly full"])"));
     CHECK(is(status, "/received", "179999"));
-    CHECK(is(status, "/timing", R"({"state":"locked","uncertainty_ms":1.5})"));
+    CHECK(is(status, "/timing/state", R"("locked")"));
+    CHECK(is(status, "/timing/uncertainty_ms", "1.5"));
+    CHECK(is(status, "/timing/rate/measured_hz", "50.0005"));
+    CHECK(is(status, "/timing/rate/uncertainty_ppm", "0.03"));
+    CHECK(is(status, "/timing/rate/span_h", "24.0"));
+    CHECK(is(status, "/timing/rate/declared_hz", "50.00025"));
+    CHECK(is(status, "/timing/rate/advice", R"("change it")"));
     CHECK(is(status, "/verdict/state", R"("not assessed")"));
     CHECK(is(status, "/verdict/reasons", "[]"));
     CHECK(status["sample"]["acceleration_mg"][0].get<double>() == Approx(1.0).epsilon(1e-15));

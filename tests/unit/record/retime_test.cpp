@@ -129,3 +129,33 @@ TEST_CASE("a damaged segment is re-timed as far as it is good", "[record][retime
     CHECK(report.damage[0].file == segment);
     CHECK(report.records > 0);
 }
+
+TEST_CASE("records of a host without a clock stay in the journal, and re-timing brings them in",
+          "[record][retime]") {
+    // The host starts in 1970 and is synchronised after a minute.
+    JournalStream stream;
+    for (std::int64_t k = 0; k < 9'000; ++k) {
+        stream.bytes(frame_of(values_of(k)), due(k));
+        if (k % 50 == 49) stream.second(due(k));
+    }
+    stream.flush();
+    for (JournalChunk& chunk : stream.chunks) {
+        auto* reading = std::get_if<timing::ClockReading>(&chunk);
+        if (auto* header = std::get_if<JournalHeader>(&chunk)) reading = &header->clock;
+        if (reading == nullptr || reading->raw >= kRawStart + 60s) continue;
+        reading->realtime -= kStart.time_since_epoch();
+        reading->is_synchronised = false;
+    }
+    DataRoot root;
+    root.write_journal(stream.chunks);
+    archive_all(root, stream.chunks);
+    for (const auto& record : root.records("BNZ")) CHECK(record.header.start > kStart);
+    CHECK(root.counts("BNZ").size() < 6'100);
+    CHECK(root.counts("BNZ").size() > 5'500);
+    for (const auto& entry : std::filesystem::directory_iterator(root.archive()))
+        CHECK(entry.path().filename() != "1970");
+
+    test::TemporaryDirectory parent;
+    static_cast<void>(retime(posix_files(), root.path(), parent.path() / "again"));
+    CHECK(read_vertical(parent.path() / "again" / "archive").counts.size() == 9'000);
+}

@@ -303,3 +303,38 @@ TEST_CASE("a sensor that restarts keeps what is known of the host", "[timing][sa
     CHECK(world.clock.time_of(0)->is_host_synchronised);
     CHECK(world.clock.time_of(0)->uncertainty < Nanoseconds(10ms));
 }
+
+TEST_CASE("the rate of the sensor is measured as well as it says", "[timing][sample_clock]") {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        for (const double ppm : {-20.0, 12.0}) {
+            World world;
+            world.device_ppm = ppm;
+            world.raw_ppm = -40.0;
+            Delays late(seed);
+            for (std::int64_t k = 0; k < 50 * 7200; ++k) {
+                if (k == 50 * 30) CHECK_FALSE(world.clock.measured_rate());
+                world.frame(k, late(world.truth(k) + kGroupDelay));
+            }
+            const auto measured = world.clock.measured_rate();
+            REQUIRE(measured);
+            const double error_ppm = 1e6 * (measured->rate.value() / 50.0 - 1.0) - ppm;
+            CAPTURE(seed, ppm, measured->uncertainty_ppm, error_ppm);
+            CHECK(std::abs(error_ppm) <= measured->uncertainty_ppm);
+            CHECK(measured->uncertainty_ppm < 1.0);  // 2 x (2.5 + 0.5) ms over 2 h is 0.83
+            CHECK(measured->span > std::chrono::hours(1));
+        }
+    }
+}
+
+TEST_CASE("the rate is not measured across a jump of the times", "[timing][sample_clock]") {
+    World world;
+    for (std::int64_t k = 0; k < 50 * 600; ++k) world.frame(k, 0s);
+    CHECK(std::abs(world.clock.measured_rate()->rate.value() - 50.0) < 1e-4);
+    world.host_off = 1h;
+    for (std::int64_t k = 50 * 600; k < 50 * 900; ++k) world.frame(k, 0s);
+    REQUIRE(world.clock.last_break());
+    const auto measured = world.clock.measured_rate();
+    REQUIRE(measured);
+    CHECK(measured->span < 300s);
+    CHECK(std::abs(measured->rate.value() - 50.0) < 1e-3);
+}

@@ -106,16 +106,21 @@ TEST_CASE("an oscillator 10 ppm off does not spoil a gap of ten hours", "[timing
 
 TEST_CASE("a backlog after a pause of the host loses nothing and its end shows the true gap",
           "[timing][sample_index]") {
-    // Stopped for 30 s; the kernel kept the first 3.4 s and dropped the rest; all is read at once.
-    Device device(50);
-    for (std::int64_t k = 0; k < 100; ++k) (void)device.frame(k);
-    const RawTime woken = device.time(100 + 1500);
-    CHECK(device.raw(device.count(100), false, woken).kind == Kind::next);
-    for (std::int64_t k = 101; k < 270; ++k)
-        CHECK(device.raw(device.count(k), true, woken).kind == Kind::next);
-    const auto placement = device.raw(device.count(1600), true, woken);
-    CHECK(placement.kind == Kind::after_gap);
-    CHECK(placement.index == 1600);
+    // The kernel kept the first 3.4 s and dropped the rest; all is read at once.
+    for (std::int64_t pause_s = 4; pause_s <= 200; ++pause_s) {
+        Device device(50);
+        for (std::int64_t k = 0; k < 100; ++k) (void)device.frame(k);
+        const std::int64_t last = 100 + 50 * pause_s;
+        const RawTime woken = device.time(last);
+        bool is_whole = device.raw(device.count(100), pause_s < 10, woken).kind == Kind::next;
+        for (std::int64_t k = 101; k < 270; ++k)
+            is_whole &= device.raw(device.count(k), true, woken).kind == Kind::next;
+        CHECK(is_whole);
+        const auto placement = device.raw(device.count(last), true, woken);
+        CAPTURE(pause_s);
+        CHECK(placement.kind == Kind::after_gap);
+        CHECK(placement.index == last);
+    }
 }
 
 TEST_CASE("bytes that are merely late are taken at the counter's word", "[timing][sample_index]") {

@@ -1,0 +1,119 @@
+"""Ports that go and come back, and sensors that speak otherwise than agreed: what the daemon finds, and what it costs.
+
+At 20x, so that a counter that is a second of signal off is 50 ms of the host's off.
+"""
+
+import re
+import signal
+import time
+
+from emulated_session import Session, gaps_of, wait_for
+from fault_table import FaultTable
+from programs import Scratch
+
+table = FaultTable()
+
+
+def is_archive_true(session, missing=0):
+    return all(one["matched"] > 0 and one["altered"] == one["duplicated"] == 0 and one["missing"] == missing
+               for one in session.counted().values())
+
+
+def unplug(session, order):
+    """@return frames that the daemon has, once it has more than before."""
+    before = session.emulated()["frames_sent"]
+    session.order(order)
+    wait_for("the port is gone", lambda: not (session.scratch / "sensor").is_symlink())
+    wait_for("the port is back", lambda: (session.scratch / "sensor").is_symlink())
+    wait_for("frames again", lambda: session.emulated()["frames_sent"] > before + 1000)
+    return session.settled()
+
+
+# The device keeps sampling: its counter tells what each outage cost.
+with Scratch() as scratch:
+    session = Session(scratch)
+    session.wait_for_frames(1000)
+    first = session.status()["session"]
+    name = (scratch / "sensor").readlink()
+    for seconds in (5, 30, 100, 300):
+        unplug(session, f"hang_up seconds={seconds}")
+    renamed = (scratch / "sensor").readlink() != name
+    status = session.status()
+    report, counters = session.end()
+    gaps, missing = gaps_of(session.truth())
+    is_true = is_archive_true(session)
+    is_one = (status["session"] == first and counters["sessions"] == len(report["runs"]) == 1
+              and counters["link_adoptions"] == 4 and status["device"]["assumed"])
+    table.note(9, "unplugged, back under another name",
+               f"4 outages, {report['frames_lost_unplugged']} frames lost, {counters['samples_missing']} samples "
+               f"missing, {counters['sessions']} session", renamed and is_one and is_true)
+    table.note(10, "outages of 5, 30, 100 and 300 s",
+               f"{counters['gaps']} gaps of {counters['samples_missing']}, truth {gaps} of {missing}",
+               (counters["gaps"], counters["samples_missing"]) == (gaps, missing))
+
+# A host that does not read for so long that the counter comes round; the receiver keeps 4095 bytes.
+with Scratch() as scratch:
+    session = Session(scratch)
+    session.wait_for_frames(1000)
+    session.order("overrun")
+    for seconds in (4.4, 4.7, 6.0):
+        session.daemon.send_signal(signal.SIGSTOP)
+        time.sleep(seconds)
+        session.daemon.send_signal(signal.SIGCONT)
+        session.settled()
+    report, counters = session.end()
+    gaps, missing = gaps_of(session.truth())
+    table.note(10, "nobody reads for 88, 94 and 120 s",
+               f"{counters['gaps']} gaps of {counters['samples_missing']}, truth {gaps} of {missing}",
+               (counters["gaps"], counters["samples_missing"]) == (gaps, missing) and counters["sessions"] == 1
+               and is_archive_true(session))
+
+# It does not keep its power: a new session, and no gap is claimed.
+with Scratch() as scratch:
+    session = Session(scratch)
+    session.wait_for_frames(1000)
+    first = session.status()["session"]
+    unplug(session, "hang_up seconds=40 loses_power=true")
+    status = session.status()
+    report, counters = session.end()
+    table.note(9, "unplugged and without power",
+               f"{counters['sessions']} sessions, {counters['samples_missing']} samples missing",
+               counters["sessions"] == len(report["runs"]) == 2 and counters["link_adoptions"] == 0
+               and status["session"] != first and not status["device"]["assumed"] and is_archive_true(session))
+
+# A daemon that is killed and comes back.
+with Scratch() as scratch:
+    session = Session(scratch, speed=5)
+    session.wait_for_frames(1000)
+    first = session.status()["session"]
+    session.daemon.send_signal(signal.SIGKILL)
+    session.daemon.wait()
+    time.sleep(1)
+    session.daemon = session.start_daemon()
+    wait_for("the daemon again", lambda: session.status().get("counters", {}).get("link_adoptions") == 1)
+    session.wait_for_frames(2000)
+    status = session.status()
+    report, counters = session.end()
+    missing = {int(one["missing"]) for one in session.counted().values()}
+    table.note(1, "the stream of a killed daemon", f"{max(missing)} samples missing (bound 50), {len(report['runs'])} run",
+               status["session"] == first and len(report["runs"]) == 1 and max(missing) <= 50
+               and is_archive_true(session, *missing))
+
+# The device changes its speed: it is found, and used as it is.
+with Scratch() as scratch:
+    session = Session(scratch)
+    session.wait_for_frames(1000)
+    session.order("change_baud")
+    wait_for("frames at the other speed", lambda: len(session.emulated()["runs"]) == 2
+             and session.emulated()["runs"][1]["frames"] > 500)
+    status = session.status()
+    reason = " ".join(status["reasons"])
+    settled = session.settled()
+    report, counters = session.end()
+    baud = re.search(rb'"baud":(\d+)', sorted((scratch / "data" / "journal").glob("*.a351j"))[-1].read_bytes())
+    table.note(22, "another baud rate",
+               f"{report['frames_damaged']} frames until it was found, then {status['device']['port'].split(',')[1]}",
+               "115200 baud, not at the 460800" in reason and baud is not None and baud[1] == b"115200"
+               and counters["sessions"] == 2 and is_archive_true(session))
+
+table.finish()
