@@ -28,27 +28,34 @@ public:
         : known_(known), count_step_(count_step) {}
 
     void take(std::uint16_t count, RawTime arrival) {
-        const bool is_in_step = static_cast<std::uint16_t>(count - last_count_) == count_step_;
+        const bool is_in_step =
+            frames_in_step_ > 0 && static_cast<std::uint16_t>(count - last_.count) == count_step_;
         frames_in_step_ = is_in_step ? frames_in_step_ + 1 : 1;
-        last_count_ = count;
-        last_arrival_ = arrival;
+        if (!is_in_step) first_ = {count, arrival};
+        last_ = {count, arrival};
     }
     [[nodiscard]] bool is_certain() const { return frames_in_step_ >= kFramesInStep; }
 
-    [[nodiscard]] bool fits() const {
+    /// The first of them where the port kept them for us, the last where it came at its time.
+    [[nodiscard]] bool fits() const { return fits(first_) || fits(last_); }
+
+private:
+    struct Frame {
+        std::uint16_t count = 0;
+        RawTime arrival;
+    };
+    [[nodiscard]] bool fits(const Frame& frame) const {
         using Kind = timing::Placement::Kind;
         timing::SampleIndex index(count_step_, Hertz(known_.header.output_rate_hz));
         static_cast<void>(index.place(known_.count, false, known_.arrival));
-        const Kind kind = index.place(last_count_, false, last_arrival_).kind;
+        const Kind kind = index.place(frame.count, false, frame.arrival).kind;
         return kind == Kind::next || kind == Kind::after_gap;
     }
 
-private:
     const record::StreamEnd& known_;
     std::uint16_t count_step_;
     int frames_in_step_ = 0;
-    std::uint16_t last_count_ = 0;
-    RawTime last_arrival_;
+    Frame first_, last_;  ///< In step.
 };
 
 }  // namespace

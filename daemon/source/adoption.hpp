@@ -29,7 +29,8 @@ struct Listening {
 /// Listens on a port just opened, at most half a second into silence.  The stream is the one that
 /// was known when ten frames in a row keep the step of its rate, and their counter stands where
 /// `known` lets expect it by the rule of timing::SampleIndex: a device that restarted meanwhile
-/// passes for it in one of 40 cases, when its new counter happens to be within a second.
+/// passes for it in one of 20 cases, when its new counter happens to be within a second of what it
+/// would be now, or goes on from the old one.
 /// @param stop  when it becomes true, listening ends.
 [[nodiscard]] Listening listen_for(const record::StreamEnd& known, Port& port,
                                    const HostClock& clock, const std::atomic<bool>& stop);

@@ -235,7 +235,10 @@ bool SensorLink::begin_sampling() {
         const std::lock_guard lock(mutex_);
         ++status_.handshake_failures;
     }
-    if (failure.is_unanswered && try_next_baud()) return false;
+    // A sensor that was just switched on is silent for a second: it is asked again first.
+    const bool may_be_baud =
+        failure.is_unanswered && (run.bytes_passed_over > 0 || failures_in_a_row_ > 0);
+    if (may_be_baud && try_next_baud()) return false;
     bauds_tried_ = 0;
     std::string trouble = failure.reason;
     if (failure.is_unanswered && run.bytes_passed_over > 0)

@@ -53,16 +53,20 @@ def archived(archive):
     return channels
 
 
+def recoveries(scratch):
+    return [line for line in (scratch / "a351d.log").read_text().splitlines() if "recovery" in line]
+
+
 def compare_recovery(daemon, port, scratch):
     """Another start replays the last session into the archive, all of whose channels must be as the journal has them."""
     before = archived(scratch / "data" / "archive")
     with open(scratch / "a351d.log", "a") as log:
         third = subprocess.Popen(daemon, cwd=scratch, stderr=log)
-        while daemon_status(port) is None and third.poll() is None:
+        while len(recoveries(scratch)) < 3 and third.poll() is None:
             time.sleep(0.05)
         third.send_signal(signal.SIGTERM)
         demand("a daemon without its sensor ends cleanly", third.wait(timeout=30) == 0)
-    said = [line for line in (scratch / "a351d.log").read_text().splitlines() if "recovery" in line]
+    said = recoveries(scratch)
     print(*said, sep="\n")
     demand("recovery finds nothing in the archive that disagrees with the journal",
            len(said) == 3 and not any("disagree" in line for line in said))
