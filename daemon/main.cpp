@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -116,8 +117,7 @@ void log_recovery(spdlog::logger& log, const record::RecoveryReport& report) {
     log.info("recovery: {} records added, {} confirmed", report.records_added,
              report.records_confirmed);
     if (report.chunks_lost > 0) {
-        log.error("recovery: {} chunks of the journal could not be understood",
-                  report.chunks_lost);
+        log.error("recovery: {} chunks of the journal could not be understood", report.chunks_lost);
     }
     if (report.records_conflicting > 0) {
         log.error("recovery: {} records of the archive disagree with the journal",
@@ -148,11 +148,16 @@ sigset_t block_signals() {
 ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log,
                const sigset_t& signals, StatusLog& status_log) {
     ReadQueue reads;
+    std::atomic<bool> is_recovered{false};
     Store store(record::posix_files(),
                 {.root = config.storage.root,
                  .station = station_of(config),
                  .keeper = {.keep_days = config.storage.journal_keep_days},
-                 .recovered = [&](const auto& report) { log_recovery(log, report); }},
+                 .recovered =
+                     [&](const auto& report) {
+                         log_recovery(log, report);
+                         is_recovered = true;
+                     }},
                 clock, reads);
     SensorLink link({.address = config.sensor.address,
                      .baud = config.sensor.baud,
@@ -196,7 +201,9 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
     page.stop();
     if (oven) oven->stop();
     link.stop();
-    if (store.stop()) return kDone;
+    const bool is_on_disk = store.stop();
+    if (!is_recovered) log.warn("the archive is behind the journal; the next start brings it in");
+    if (is_on_disk) return kDone;
     log.error("not everything is on disk");
     return kFailed;
 }

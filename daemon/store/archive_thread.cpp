@@ -16,14 +16,14 @@ constexpr seconds kSpaceInterval{1};   // A disk can fill up within a minute.
 constexpr seconds kModelInterval{10};  // Of instrument time, and
 constexpr milliseconds kShortestModelInterval{100};
 constexpr std::size_t kMostWaitingBytes = std::size_t{64} << 20;
-constexpr std::size_t kSessionsRemembered = 16;  // Each with 24 h of times, some 100 kB.
+constexpr std::size_t kSessionsRemembered = 8;  // Each with 24 h of times, up to 3.5 MB.
 
 }  // namespace
 
 ArchiveThread::ArchiveThread(record::FileLayer& files, std::filesystem::path archive,
                              record::StationCodes codes, const HostClock& clock, ChunkQueue& chunks,
                              Progress& progress, SpaceReserve& reserve, Hooks hooks, DiskTime time,
-                             const record::Replay& replay)
+                             const record::RecoveryPlan& plan)
     : files_(files),
       archive_(std::move(archive)),
       codes_(std::move(codes)),
@@ -33,7 +33,7 @@ ArchiveThread::ArchiveThread(record::FileLayer& files, std::filesystem::path arc
       reserve_(reserve),
       hooks_(std::move(hooks)),
       time_(std::move(time)),
-      replay_(replay),
+      plan_(plan),
       last_sync_(time_.now()),
       archiver_(std::make_unique<record::Archiver>(outbox_)) {
     status_.is_replaying = true;
@@ -67,12 +67,14 @@ bool ArchiveThread::join() {
 
 void ArchiveThread::run() noexcept {
     while (!recover()) {
+        bool is_over = false;
         {
             std::unique_lock lock(mutex_);
-            if (!hurried_.wait_for(lock, time_.retry_interval, [this] { return is_hurried_; }))
-                continue;
+            is_over = hurried_.wait_for(lock, time_.retry_interval, [this] { return is_hurried_; });
         }
-        while (chunks_.pop()) {  // The next start will find them in the journal.
+        if (!is_over && !chunks_.is_half_full()) continue;
+        if (!is_over) note_fault("given up until the next start, for the journal must not wait");
+        while (chunks_.pop()) {  // The next start finds them in the journal, which must not wait.
         }
         return;
     }
@@ -119,7 +121,9 @@ void ArchiveThread::take(const NumberedChunk& numbered) {
 
 /// A segment's header: of the running session again, or of a new one.
 void ArchiveThread::begin_session(const record::JournalHeader& header) {
-    undescribed_ = header;
+    // The first header of a session tells when it began.
+    if (undescribed_.empty() || undescribed_.back().session != header.session)
+        undescribed_.push_back(header);
     if (session_ != header.session) outbox_.last_sample.reset();
     note_session(header.session);
 }
@@ -153,8 +157,8 @@ bool ArchiveThread::may_write() {
 bool ArchiveThread::put_away(bool is_last) {
     try {
         if (retry_at_) reopen();
-        if (undescribed_) hooks_.session_began(*undescribed_);
-        undescribed_.reset();
+        for (; !undescribed_.empty(); undescribed_.pop_front())
+            hooks_.session_began(undescribed_.front());
         write_outbox();
         if (is_last || time_.now() - last_sync_ >= kSyncInterval) sync();
     } catch (const std::exception& error) {
@@ -181,6 +185,7 @@ void ArchiveThread::write_outbox() {
         const Outbox::Entry& entry = entries.front();
         if (entry.session != marked_) {  // Marks never mix sessions.
             if (marked_) sync();
+            writer_->end_replay();
             writer_->begin_session();
             marked_ = entry.session;
         }
@@ -190,6 +195,7 @@ void ArchiveThread::write_outbox() {
         const std::lock_guard lock(mutex_);
         ++status_.records;
         status_.records_waiting = entries.size();
+        status_.conflicts = writer_->replay_conflicts();
     }
 }
 
@@ -235,7 +241,7 @@ void ArchiveThread::post_model() {
 
 /// A fault may have torn the end of a day file: nothing may be appended behind a torn record.
 void ArchiveThread::reopen() {
-    if (retry_at_ && are_marks_true_) {
+    if (are_marks_true_) {
         try {
             static_cast<void>(writer_->sync());
         } catch (const std::system_error&) {

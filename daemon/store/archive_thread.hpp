@@ -42,6 +42,7 @@ struct ArchiveStatus {
     bool is_replaying = false;  ///< The journal of the last run is being brought in.
     std::uint64_t records = 0;
     std::uint64_t records_waiting = 0;
+    std::uint64_t conflicts = 0;  ///< Records that the archive holds otherwise: left as they are.
     record::ArchiverCounters counters;
     std::optional<record::Sample> last_sample;
     timing::TimingState timing_state = timing::TimingState::unlocked;
@@ -54,7 +55,7 @@ public:
     struct Hooks {
         /// Takes MARK and MODEL chunks on their way to the journal.
         std::function<void(record::JournalChunk)> post;
-        /// A session begins: time to describe the instrument.  May throw std::system_error.
+        /// A session begins: time to describe the instrument.
         std::function<void(const record::JournalHeader&)> session_began;
         /// The archive is up to the journal of the last run.
         std::function<void(const record::RecoveryReport&)> recovered;
@@ -64,7 +65,7 @@ public:
     ArchiveThread(record::FileLayer& files, std::filesystem::path archive,
                   record::StationCodes codes, const HostClock& clock, ChunkQueue& chunks,
                   Progress& progress, SpaceReserve& reserve, Hooks hooks, DiskTime time,
-                  const record::Replay& replay);
+                  const record::RecoveryPlan& plan);
     ~ArchiveThread();
 
     void start();
@@ -122,6 +123,7 @@ private:
     void run() noexcept;
     [[nodiscard]] bool recover() noexcept;
     [[nodiscard]] bool replay(record::RecoveryReport& report);
+    void close_replayed();
     [[nodiscard]] bool take_again(const record::JournalChunk& chunk);
     void handle(const NumberedChunk& numbered) noexcept;
     void take(const NumberedChunk& numbered);
@@ -146,7 +148,7 @@ private:
     SpaceReserve& reserve_;
     Hooks hooks_;
     DiskTime time_;
-    const record::Replay& replay_;
+    const record::RecoveryPlan& plan_;
 
     using steady_time = std::chrono::steady_clock::time_point;
 
@@ -155,8 +157,7 @@ private:
     steady_time last_sync_, last_model_real_, last_look_at_space_;
     RawTime last_model_;
     std::optional<steady_time> retry_at_;  ///< Set while the archive is in trouble.
-    std::optional<record::JournalHeader>
-        undescribed_;  ///< Session whose metadata is to be written.
+    std::deque<record::JournalHeader> undescribed_;  ///< Sessions whose metadata are to be written.
     std::atomic<bool> are_marks_true_{true};
     std::optional<record::SessionId> marked_;  ///< Session of the writer's records.
 

@@ -19,15 +19,19 @@ bool ArchiveThread::recover() noexcept {
     record::RecoveryReport report;
     reserve_.tend();
     try {
+        report.journal = plan_.cut;
         if (!replay(report)) return false;
+        hooks_.recovered(report);
     } catch (const std::exception& error) {
+        // What the kernel dropped after a failed sync cannot be told from what it kept.
+        const auto* const failure = dynamic_cast<const std::system_error*>(&error);
+        if (failure == nullptr || !record::is_disk_full(failure->code())) are_marks_true_ = false;
         note_fault(error.what());
         retry_at_ = time_.now() + time_.retry_interval;
         return false;
     }
     retry_at_.reset();
     if (report.chunks_lost > 0) are_marks_true_ = false;
-    hooks_.recovered(report);
     const std::lock_guard lock(mutex_);
     status_.counters = archiver_->counters();
     status_.is_faulty = false;
@@ -38,26 +42,39 @@ bool ArchiveThread::recover() noexcept {
 bool ArchiveThread::replay(record::RecoveryReport& report) {
     {
         const std::lock_guard lock(mutex_);
-        open_archive(replay_.codes);
+        open_archive(codes_);
         outbox_.entries.clear();
+        outbox_.bytes = 0;
         archiver_ = std::make_unique<record::Archiver>(outbox_);
         session_.reset();
         ended_.clear();
     }
     const auto take = [this](const record::JournalChunk& chunk) { return take_again(chunk); };
-    if (!record::replay_journal(files_, archive_, replay_, *writer_, take, report)) return false;
-    const bool is_other_archive = replay_.codes != codes_;
-    {
-        const std::lock_guard lock(mutex_);
-        outbox_.session = marked_ = session_;
-        if (is_other_archive) archiver_->close_records();  // Nothing can go on there.
+    for (const record::Replay& part : plan_.replays) {
+        {
+            const std::lock_guard lock(mutex_);
+            open_archive(part.codes);
+        }
+        if (!record::replay_journal(files_, archive_, part, *writer_, take, report)) return false;
+        if (&part != &plan_.replays.back() || part.codes != codes_) close_replayed();
     }
-    if (!is_other_archive) return true;
-    write_replayed();
+    // No mark yet where nothing goes on; it is with the first records of the session that does.
     static_cast<void>(writer_->sync());
     const std::lock_guard lock(mutex_);
+    outbox_.session = marked_ = session_;
+    if (plan_.replays.empty() || plan_.replays.back().codes == codes_) return true;
     open_archive(codes_);
     return true;
+}
+
+/// Other codes are another archive: nothing can go on there.
+void ArchiveThread::close_replayed() {
+    {
+        const std::lock_guard lock(mutex_);
+        archiver_->close_records();
+    }
+    write_replayed();
+    static_cast<void>(writer_->sync());
 }
 
 void ArchiveThread::open_archive(const record::StationCodes& codes) {

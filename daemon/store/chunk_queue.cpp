@@ -47,6 +47,11 @@ std::optional<NumberedChunk> ChunkQueue::take_front() {
     return chunk;
 }
 
+bool ChunkQueue::is_half_full() const {
+    const std::lock_guard lock(mutex_);
+    return bytes_ >= capacity_bytes_ / 2;
+}
+
 void ChunkQueue::close() {
     const std::lock_guard lock(mutex_);
     is_closed_ = true;

@@ -36,6 +36,8 @@ public:
     /// Does not wait.
     [[nodiscard]] std::optional<NumberedChunk> try_pop();
 
+    [[nodiscard]] bool is_half_full() const;
+
     /// No chunk will follow; one that does is dropped.
     void close();
 
@@ -43,7 +45,7 @@ private:
     std::optional<NumberedChunk> take_front();
 
     std::size_t capacity_bytes_;
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<NumberedChunk> chunks_;
     std::size_t bytes_ = 0;

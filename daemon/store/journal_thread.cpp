@@ -272,6 +272,10 @@ void JournalThread::sync() {
     on_disk([this] { writer_.sync(); });
     is_dirty_ = false;
     faults_running_ = 0;
+    {
+        const std::lock_guard lock(mutex_);
+        status_.is_faulty = false;
+    }
     progress_.journal_synced(last_chunk_);
 }
 
@@ -291,7 +295,7 @@ void JournalThread::on_disk(const std::function<void()>& operation) {
         try {
             operation();
         } catch (const std::system_error& error) {
-            if (error.code() != std::errc::no_space_on_device || !reserve_.give_up()) throw;
+            if (!record::is_disk_full(error.code()) || !reserve_.give_up()) throw;
             operation();
         }
     } catch (...) {

@@ -35,7 +35,7 @@ void SpaceReserve::make() {
         state_ = State::present;
         return;
     } catch (const std::system_error& error) {
-        if (error.code() != std::errc::no_space_on_device) {
+        if (!record::is_disk_full(error.code())) {
             state_ = State::unavailable;
             const std::lock_guard lock(trouble_mutex_);
             trouble_ = error.what();

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "daemon/store/assess.hpp"
+#include "protocol/record/time_gate.hpp"
 
 namespace a351::daemon {
 namespace {
@@ -19,8 +20,9 @@ Store::Store(record::FileLayer& files, StoreOptions options, const HostClock& cl
       lock_(files, options_.root),
       keeper_(files, options_.root / "journal", options_.keeper),
       reserve_(files, options_.root / "state" / "reserve", options_.reserve_bytes),
-      replay_(plan_replay()),
-      known_stream_(record::stream_end(replay_.segments)),
+      plan_(plan_recovery()),
+      known_stream_(plan_.replays.empty() ? std::nullopt
+                                          : record::stream_end(plan_.replays.back().segments)),
       profile_(wire::find_profile(options_.station.profile)),
       journal_(files, options_.root, clock, reads, chunks_, progress_, reserve_, options_.time),
       archive_(files, options_.root / "archive", options_.station.codes, clock, chunks_, progress_,
@@ -28,7 +30,7 @@ Store::Store(record::FileLayer& files, StoreOptions options, const HostClock& cl
                {.post = [this](record::JournalChunk chunk) { journal_.post(std::move(chunk)); },
                 .session_began = [this](const record::JournalHeader& header) { describe(header); },
                 .recovered = [this](const record::RecoveryReport& report) { go_on(report); }},
-               options_.time, replay_) {}
+               options_.time, plan_) {}
 
 Store::~Store() { stop(); }
 
@@ -60,12 +62,12 @@ std::optional<Instant> Store::at(UtcTime utc) { return archive_.at(utc); }
 void Store::commit(const record::Event& event) { journal_.commit(event, options_.commit_patience); }
 
 /// On a full disk the reserve is given up for it: a day in the field must go on.
-record::Replay Store::plan_replay() {
+record::RecoveryPlan Store::plan_recovery() {
     const auto journal = options_.root / "journal";
     try {
         return record::begin_recovery(files_, journal);
     } catch (const std::system_error& error) {
-        if (error.code() != std::errc::no_space_on_device || !reserve_.give_up()) throw;
+        if (!record::is_disk_full(error.code()) || !reserve_.give_up()) throw;
         return record::begin_recovery(files_, journal);
     }
 }
@@ -75,7 +77,10 @@ void Store::go_on(const record::RecoveryReport& report) {
     if (is_started_) keeper_.start();  // Not before: it renames what the replay reads.
 }
 
+/// Trouble with it is shown, and does not hold up the archive; the next header tries again.
 void Store::describe(const record::JournalHeader& header) {
+    // A host without a clock knows no epoch.
+    if (header.clock.realtime < record::TimeGate::kEarliest) return;
     record::StationDescription description = options_.station;
     // The first samples stand for instants before their header by the filter's delay.
     description.start = header.clock.realtime - description.group_delay;
@@ -83,10 +88,14 @@ void Store::describe(const record::JournalHeader& header) {
     description.serial_number = header.serial_number;
     description.firmware = header.firmware;
     description.declared_rate_hz = header.declared_rate_hz;
-    if (const auto trouble = describe_station(files_, options_.root, description)) {
-        const std::lock_guard lock(metadata_mutex_);
-        metadata_trouble_ = *trouble;
+    std::optional<std::string> trouble;
+    try {
+        trouble = describe_station(files_, options_.root, description);
+    } catch (const std::exception& error) {
+        trouble = error.what();
     }
+    const std::lock_guard lock(metadata_mutex_);
+    metadata_trouble_ = trouble.value_or("");
 }
 
 void Store::fill(Status& status) {
@@ -114,6 +123,7 @@ void Store::fill(Status& status) {
         complain(status, Status::Level::warning,
                  "archive: the last run's journal is being brought in");
     }
+    status.more_counters["archive_conflicts"] = archive.conflicts;
     const JournalStatus journal = journal_.status();
     status.more_counters["journal_bytes"] = journal.bytes_written;
     status.more_counters["journal_faults"] = journal.faults;

@@ -77,7 +77,7 @@ public:
     void fill(Status& status);
 
 private:
-    record::Replay plan_replay();
+    record::RecoveryPlan plan_recovery();
     void go_on(const record::RecoveryReport& report);
     void describe(const record::JournalHeader& header);
 
@@ -86,7 +86,7 @@ private:
     DataRootLock lock_;
     JournalKeeper keeper_;
     SpaceReserve reserve_;
-    record::Replay replay_;
+    record::RecoveryPlan plan_;
     std::optional<record::StreamEnd> known_stream_;
     const wire::DeviceProfile* profile_;
     Progress progress_;

@@ -52,26 +52,36 @@ ArchiveWriter::Held ArchiveWriter::describe(const DecodedRecord& record) {
             last_sample_of(record) + from_seconds(0.5 / record.rate_hz())};
 }
 
-void ArchiveWriter::begin_replay(UtcTime since) {
-    for (const auto& name : channels_in(archive_, codes_)) {
-        Channel& channel = channels_[name];
+void ArchiveWriter::begin_replay() { is_replaying_ = true; }
+
+void ArchiveWriter::end_replay() {
+    is_replaying_ = false;
+    for (auto& [name, channel] : channels_) {
         channel.held.clear();
-        const auto oldest = sds_file(archive_, codes_, name, since);
-        for (const auto& day_file : day_files(archive_, codes_, name)) {
-            if (day_file < oldest) continue;
-            files_.open_append(day_file)->sync();
-            load(channel, day_file, since);
-        }
+        channel.days_read.clear();
     }
 }
 
-void ArchiveWriter::load(Channel& channel, const std::filesystem::path& day_file, UtcTime since) {
+/// With what the archive holds of the day of `start`, if it was not read before.
+ArchiveWriter::Channel& ArchiveWriter::replayed(const std::string& name, UtcTime start) const {
+    Channel& channel = channels_[name];
+    const auto day_file = sds_file(archive_, codes_, name, start);
+    if (is_replaying_ && channel.days_read.insert(day_file).second &&
+        std::filesystem::exists(day_file))
+        load(channel, day_file);
+    return channel;
+}
+
+void ArchiveWriter::load(Channel& channel, const std::filesystem::path& day_file) const {
+    files_.open_append(day_file)->sync();
+    for (auto directory = day_file.parent_path(); directory != archive_.parent_path();
+         directory = directory.parent_path())
+        files_.sync_directory(directory);
     auto in = open_day_file(day_file);
     std::array<std::byte, kRecordSize> bytes{};
     while (read_record(in, bytes)) {
         const auto record = decode_record(bytes);
-        if (record && record->header.start >= since)
-            channel.held.emplace(record->header.start, describe(*record));
+        if (record) channel.held.emplace(record->header.start, describe(*record));
     }
 }
 
@@ -84,34 +94,35 @@ void ArchiveWriter::reopen() {
     for (auto& [name, channel] : channels_) channel.sequence.reset();
 }
 
-std::optional<std::size_t> ArchiveWriter::samples_held(const std::string& channel,
+std::optional<std::size_t> ArchiveWriter::samples_held(const std::string& name,
                                                        UtcTime start) const {
-    const auto found = channels_.find(channel);
-    if (found == channels_.end()) return std::nullopt;
-    const auto held = found->second.held.find(start);
-    if (held == found->second.held.end()) return std::nullopt;
+    if (!is_replaying_) return std::nullopt;
+    const Channel& channel = replayed(name, start);
+    const auto held = channel.held.find(start);
+    if (held == channel.held.end()) return std::nullopt;
     return held->second.sample_count;
 }
 
-bool ArchiveWriter::pass_over(Channel& channel, const PackedRecord& record) {
-    if (channel.held.empty()) return false;
+ArchiveWriter::Found ArchiveWriter::find(const std::string& name,
+                                         const PackedRecord& record) const {
+    if (!is_replaying_) return Found::nothing;
+    Channel& channel = replayed(name, record.start);
+    if (channel.held.empty()) return Found::nothing;
     if (channel.held.rbegin()->second.end <= record.start) {
         channel.held.clear();
-        return false;
+        return Found::nothing;
     }
     const Held made = describe(*decode_record(record.bytes));
     const auto after = channel.held.lower_bound(record.start);
     if (after != channel.held.end() && after->first == record.start) {
         const bool is_same = after->second.sample_count == made.sample_count &&
                              after->second.samples_hash == made.samples_hash;
-        ++(is_same ? records_passed_over_ : replay_conflicts_);
-        return true;
+        return is_same ? Found::same : Found::other;
     }
     const bool overlaps =
         (after != channel.held.end() && after->first < made.end) ||
         (after != channel.held.begin() && std::prev(after)->second.end > record.start);
-    if (overlaps) ++replay_conflicts_;
-    return overlaps;
+    return overlaps ? Found::other : Found::nothing;
 }
 
 int ArchiveWriter::newest_sequence(const std::string& channel) const {
@@ -130,8 +141,15 @@ int ArchiveWriter::newest_sequence(const std::string& channel) const {
 
 void ArchiveWriter::record(const std::string& name, const PackedRecord& record,
                            std::int64_t last_index) {
+    const Found found = find(name, record);
+    if (found == Found::other) {
+        ++replay_conflicts_;
+        return;
+    }
     Channel& channel = channels_[name];
-    if (!pass_over(channel, record)) {
+    if (found == Found::same) {
+        ++records_passed_over_;
+    } else {
         if (!channel.sequence) channel.sequence = newest_sequence(name);
         const int sequence = *channel.sequence % kLargestSequence + 1;
         PackedRecord numbered = record;

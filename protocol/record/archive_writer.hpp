@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,10 +21,11 @@ public:
     ArchiveWriter(FileLayer& files, std::filesystem::path archive, StationCodes codes);
 
     /// From now on nothing is written that the archive already holds: the journal is being
-    /// replayed.  Each channel is past that with its first record behind all that was held.  What is
-    /// held is synced first, for the writer before may not have done so.
-    /// @param since  no sample of the replay is older; to be given with a margin.
-    void begin_replay(UtcTime since);
+    /// replayed.  The day files that it comes to are read and synced first, for the writer before
+    /// may not have done so.
+    void begin_replay();
+    /// What comes is new, whatever its times.
+    void end_replay();
 
     /// What comes is of another session: sync() speaks of nothing older.
     void begin_session();
@@ -32,7 +34,8 @@ public:
     void reopen();
 
     /// In a replay, a record that the archive holds with the same start and samples is passed over.
-    /// So is one that overlaps others: that is a conflict, and the archive is right.
+    /// So is one that overlaps others: that is a conflict, and the archive is right; sync() does not
+    /// speak of it.
     /// @throws std::system_error  the archive cannot be written.
     void record(const std::string& channel, const PackedRecord& record,
                 std::int64_t last_index) override;
@@ -63,11 +66,14 @@ private:
     struct Channel {
         std::optional<int> sequence;  // of the newest record
         std::optional<Newest> newest;
-        std::map<UtcTime, Held> held;  // by start, until the replay is past it
+        std::set<std::filesystem::path> days_read;  // in the replay
+        std::map<UtcTime, Held> held;               // by start, until the replay is past it
     };
+    enum class Found { nothing, same, other };
 
-    void load(Channel& channel, const std::filesystem::path& day_file, UtcTime since);
-    [[nodiscard]] bool pass_over(Channel& channel, const PackedRecord& record);
+    Channel& replayed(const std::string& name, UtcTime start) const;
+    void load(Channel& channel, const std::filesystem::path& day_file) const;
+    [[nodiscard]] Found find(const std::string& name, const PackedRecord& record) const;
     [[nodiscard]] int newest_sequence(const std::string& channel) const;
     static Held describe(const DecodedRecord& record);
 
@@ -75,7 +81,8 @@ private:
     std::filesystem::path archive_;
     StationCodes codes_;
     std::unique_ptr<SdsWriter> sds_;
-    std::map<std::string, Channel> channels_;
+    bool is_replaying_ = false;
+    mutable std::map<std::string, Channel> channels_;  ///< Days are read when they are asked for.
     std::uint64_t records_written_ = 0;
     std::uint64_t records_passed_over_ = 0;
     std::uint64_t replay_conflicts_ = 0;

@@ -3,12 +3,14 @@
 /// The few file operations that durability rests on, behind an interface so that a test can fail
 /// the n-th of them.  Every failure is a std::system_error whose text names operation and path.
 
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
+#include <system_error>
 
 namespace a351::record {
 
@@ -52,5 +54,11 @@ void place_file(FileLayer& files, const std::filesystem::path& file,
 /// The same, and the directory is synced.
 void replace_file(FileLayer& files, const std::filesystem::path& file,
                   std::span<const std::byte> content);
+
+/// There is no space, or none within the quota.
+[[nodiscard]] inline bool is_disk_full(const std::error_code& error) noexcept {
+    return error == std::errc::no_space_on_device ||
+           error == std::error_code(EDQUOT, std::generic_category());
+}
 
 }  // namespace a351::record

@@ -22,21 +22,25 @@ struct RecoveryReport {
     std::uint64_t chunks_lost = 0;          ///< Of the journal, that could not be understood.
 };
 
-/// What of the journal is brought into the archive at start: all from the first segment of the
-/// session that the newest MARK names, for older sessions were complete in the archive when it was
-/// written.  Without a MARK, the whole journal.
+/// A part of the journal that goes into one archive.
 struct Replay {
     std::vector<std::filesystem::path> segments;
-    UtcTime earliest = UtcTime::max();  ///< By the clock of their headers.
-    StationCodes codes;                 ///< Of the last one.
-    std::optional<MarkChunk> mark;      ///< The newest.
-    std::optional<JournalDamage> cut;   ///< Torn tail of the newest segment.
+    StationCodes codes;             ///< Of all of them.
+    std::optional<MarkChunk> mark;  ///< The newest, when its session is among these.
+};
+
+/// What of the journal is brought into the archive at start, the oldest first: all from the first
+/// segment of the session that the newest MARK names, for older sessions were complete in the
+/// archive when it was written.  Without a MARK, the whole journal.
+struct RecoveryPlan {
+    std::vector<Replay> replays;
+    std::optional<JournalDamage> cut;  ///< Torn tail of the newest segment.
 };
 
 /// Cuts a torn tail of the journal, syncs its newest segment, and fixes what is to be replayed:
 /// what is journaled from now on does not belong to it.
 /// @throws std::system_error  a file cannot be read or written.
-[[nodiscard]] Replay begin_recovery(FileLayer& files, const std::filesystem::path& journal);
+[[nodiscard]] RecoveryPlan begin_recovery(FileLayer& files, const std::filesystem::path& journal);
 
 /// Cuts torn tails of the archive, then gives the replayed chunks to `take`, which archives them
 /// through `writer`, as it must whatever follows.  In the end the archive holds every sample that
@@ -47,7 +51,8 @@ struct Replay {
 /// shutdown before this one.
 ///
 /// @param take  false: no more of it.  InputError from it costs the chunk, which is counted.
-/// @return  whether it came to the end; `report` is whole only then.
+/// @param report  is added to.
+/// @return  whether it came to the end.
 /// @throws std::system_error  a file cannot be read or written; to be begun anew with another
 ///         writer.
 [[nodiscard]] bool replay_journal(FileLayer& files, const std::filesystem::path& archive,

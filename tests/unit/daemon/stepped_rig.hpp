@@ -60,6 +60,12 @@ struct SteppedRig : Rig {
         }
     }
 
+    /// Somebody sets the clock; frames go on as they did.
+    void set_clock_back(Nanoseconds by) {
+        set(utc - by);
+        first = clock.raw() + kPeriod - fed * kPeriod;
+    }
+
     [[nodiscard]] record::Event note(const std::string& text) const {
         record::Event event;
         event.type = "note";
@@ -84,6 +90,22 @@ private:
         clock = HostClock(ClockScale{1e-15, now, host_realtime()});
     }
 };
+
+/// Samples of sessions that lie over each other in time, as the records come.
+inline std::vector<std::int32_t> recorded_counts(const std::filesystem::path& root,
+                                                 const char* channel) {
+    std::vector<std::int32_t> counts;
+    for (const auto& file : record::day_files(root / "archive", {}, channel)) {
+        const auto bytes = record::read_bytes(file);
+        for (std::size_t at = 0; at < bytes.size(); at += record::kRecordSize) {
+            const auto decoded =
+                record::decode_record(std::span(bytes).subspan(at, record::kRecordSize));
+            REQUIRE(decoded);
+            counts.insert(counts.end(), decoded->samples.begin(), decoded->samples.end());
+        }
+    }
+    return counts;
+}
 
 inline std::vector<std::int32_t> stepped_counts(int frames, std::size_t axis) {
     std::vector<std::int32_t> counts;

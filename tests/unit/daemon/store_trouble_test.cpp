@@ -1,6 +1,6 @@
 #include <fstream>
 
-#include "tests/unit/daemon/store_rig.hpp"
+#include "tests/unit/daemon/stepped_rig.hpp"
 
 using namespace a351;
 using namespace a351::daemon;
@@ -235,4 +235,23 @@ TEST_CASE_METHOD(Rig, "what the archive cannot take stays a fault, and the journ
     CHECK_FALSE(store.stop());
     CHECK(status_of(store).level == Status::Level::fault);
     CHECK(read_journal(root).bytes == bytes);
+}
+
+TEST_CASE_METHOD(SteppedRig, "a session after a restart with the clock set back is archived whole",
+                 "[daemon][store]") {
+    {
+        Store store(files, options(), clock, reads);
+        begin_session(1);
+        advance(store, std::chrono::seconds(60));
+        CHECK(store.stop());
+    }
+    set_clock_back(std::chrono::seconds(40));
+    {
+        Store store(files, options(), clock, reads);
+        begin_session(2);
+        advance(store, std::chrono::seconds(30));
+        CHECK(store.stop());
+        CHECK(status_of(store).more_counters.at("archive_conflicts") == 0);
+    }
+    CHECK(recorded_counts(root, "BNZ") == stepped_counts(fed, 2));
 }

@@ -54,16 +54,18 @@ public:
     }
 
     /// Samples of a channel in the order of its files; empty if a record is damaged.
-    [[nodiscard]] std::vector<std::int32_t> counts(const std::string& channel) const {
+    [[nodiscard]] std::vector<std::int32_t> counts(const std::string& channel,
+                                                   const StationCodes& codes = {}) const {
         std::vector<std::int32_t> all;
-        for (const auto& record : records(channel))
+        for (const auto& record : records(channel, codes))
             all.insert(all.end(), record.samples.begin(), record.samples.end());
         return all;
     }
 
-    [[nodiscard]] std::vector<DecodedRecord> records(const std::string& channel) const {
+    [[nodiscard]] std::vector<DecodedRecord> records(const std::string& channel,
+                                                     const StationCodes& codes = {}) const {
         std::vector<DecodedRecord> all;
-        for (const auto& file : day_files(archive(), {}, channel)) {
+        for (const auto& file : day_files(archive(), codes, channel)) {
             const auto bytes = test::read_bytes(file);
             for (std::size_t at = 0; at < bytes.size(); at += kRecordSize) {
                 const auto size = std::min(kRecordSize, bytes.size() - at);

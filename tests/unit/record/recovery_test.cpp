@@ -43,21 +43,26 @@ struct Recovered : RecoveryReport {
 /// As the daemon does at start, when no more samples come.
 Recovered recover(FileLayer& files, const std::filesystem::path& root) {
     Recovered report;
-    const Replay replay = begin_recovery(files, root / "journal");
-    ArchiveWriter writer(files, root / "archive", replay.codes);
-    Archiver archiver(writer);
-    const auto take = [&](const JournalChunk& chunk) {
-        archiver.take(chunk);
-        return true;
-    };
-    const bool is_whole = replay_journal(files, root / "archive", replay, writer, take, report);
-    CHECK(is_whole);
-    archiver.close_records();
-    static_cast<void>(writer.sync());
-    report.records_added = writer.records_written();
-    report.records_confirmed = writer.records_passed_over();
-    report.records_conflicting = writer.replay_conflicts();
-    report.replayed = archiver.counters();
+    const RecoveryPlan plan = begin_recovery(files, root / "journal");
+    report.journal = plan.cut;
+    for (const Replay& replay : plan.replays) {
+        ArchiveWriter writer(files, root / "archive", replay.codes);
+        Archiver archiver(writer);
+        const auto take = [&](const JournalChunk& chunk) {
+            archiver.take(chunk);
+            return true;
+        };
+        RecoveryReport part;
+        const bool is_whole = replay_journal(files, root / "archive", replay, writer, take, part);
+        CHECK(is_whole);
+        archiver.close_records();
+        static_cast<void>(writer.sync());
+        report.archive.insert(report.archive.end(), part.archive.begin(), part.archive.end());
+        report.records_added += writer.records_written();
+        report.records_confirmed += writer.records_passed_over();
+        report.records_conflicting += writer.replay_conflicts();
+        report.replayed = archiver.counters();
+    }
     return report;
 }
 
@@ -246,4 +251,22 @@ TEST_CASE("sessions that were not archived and synced before the newest mark are
     const auto again = counts;
     counts.insert(counts.end(), again.begin(), again.end());
     CHECK(root.counts("BNZ") == counts);
+}
+
+TEST_CASE("sessions under other codes are recovered too, each into its archive",
+          "[record][recovery]") {
+    JournalStream first(1), second(2, 100s);
+    first.frames(0, 2'000);
+    StationCodes other;
+    other.station = "B351";
+    std::get<JournalHeader>(second.chunks.front()).codes = other;
+    for (std::int64_t k = 0; k < 1'000; ++k) second.bytes(frame_of(values_of(k)), 100s + due(k));
+    second.flush();
+    DataRoot root;
+    auto chunks = first.chunks;
+    chunks.insert(chunks.end(), second.chunks.begin(), second.chunks.end());
+    root.write_journal(chunks);
+    CHECK(recover(posix_files(), root.path()).records_conflicting == 0);
+    CHECK(root.counts("BNZ") == expected(0, 2'000));
+    CHECK(root.counts("BNZ", other) == expected(0, 1'000));
 }
