@@ -77,7 +77,9 @@ with Scratch() as scratch:
     status = session.status()
     report, counters = session.end()
     table.note(9, "unplugged and without power",
-               f"{counters['sessions']} sessions, {counters['samples_missing']} samples missing",
+               f"{counters['sessions']} sessions, {len(report['runs'])} runs, {counters['link_adoptions']} adopted, "
+               f"{counters['samples_missing']} samples missing, archive "
+               f"{[int(one['missing']) for one in session.counted().values()]}",
                counters["sessions"] == len(report["runs"]) == 2 and counters["link_adoptions"] == 0
                and status["session"] != first and not status["device"]["assumed"] and is_archive_true(session))
 
