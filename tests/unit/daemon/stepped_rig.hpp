@@ -91,22 +91,6 @@ private:
     }
 };
 
-/// Samples of sessions that lie over each other in time, as the records come.
-inline std::vector<std::int32_t> recorded_counts(const std::filesystem::path& root,
-                                                 const char* channel) {
-    std::vector<std::int32_t> counts;
-    for (const auto& file : record::day_files(root / "archive", {}, channel)) {
-        const auto bytes = record::read_bytes(file);
-        for (std::size_t at = 0; at < bytes.size(); at += record::kRecordSize) {
-            const auto decoded =
-                record::decode_record(std::span(bytes).subspan(at, record::kRecordSize));
-            REQUIRE(decoded);
-            counts.insert(counts.end(), decoded->samples.begin(), decoded->samples.end());
-        }
-    }
-    return counts;
-}
-
 inline std::vector<std::int32_t> stepped_counts(int frames, std::size_t axis) {
     std::vector<std::int32_t> counts;
     for (int i = 0; i < frames; ++i) counts.push_back(SteppedRig::counts(i, axis));

@@ -202,18 +202,23 @@ inline std::vector<std::int32_t> archived_counts(const std::filesystem::path& ro
 }
 
 /// As the records are, whether they overlap or not.
-inline std::size_t samples_in_records(const std::filesystem::path& root, const char* channel) {
-    std::size_t count = 0;
+inline std::vector<std::int32_t> recorded_counts(const std::filesystem::path& root,
+                                                 const char* channel) {
+    std::vector<std::int32_t> counts;
     for (const auto& file : record::day_files(root / "archive", {}, channel)) {
         const auto bytes = record::read_bytes(file);
         for (std::size_t at = 0; at < bytes.size(); at += record::kRecordSize) {
             const auto decoded =
                 record::decode_record(std::span(bytes).subspan(at, record::kRecordSize));
             REQUIRE(decoded);
-            count += decoded->samples.size();
+            counts.insert(counts.end(), decoded->samples.begin(), decoded->samples.end());
         }
     }
-    return count;
+    return counts;
+}
+
+inline std::size_t samples_in_records(const std::filesystem::path& root, const char* channel) {
+    return recorded_counts(root, channel).size();
 }
 
 inline std::vector<std::int32_t> expected_counts(int frames) {
