@@ -46,7 +46,7 @@ struct Status {
     Nanoseconds timing_uncertainty{0};
     std::optional<timing::MeasuredRate> measured_rate;
     std::optional<double> declared_rate_hz;  ///< Of the configuration.
-    std::string rate_advice;                 ///< What to do about the declared rate; empty: nothing.
+    std::string rate_advice;                 ///< What to do about the declared one; or empty.
 
     std::string port;
     std::string link_state;  ///< searching, handshake, sampling, waiting, stopped.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "daemon/source/handshake_driver.hpp"
+#include "daemon/source/step_watch.hpp"
 #include "protocol/wire/burst_decoder.hpp"
 #include "protocol/wire/commands.hpp"
 
@@ -30,27 +31,6 @@ constexpr milliseconds kSilence{50};
 constexpr seconds kLongestDrain{1};
 constexpr std::array kHandshakeBackOff{seconds(1), seconds(2), seconds(5), seconds(10),
                                        seconds(30)};
-
-/// Whether the counter keeps to a step that is not that of the rate asked for.
-class StepWatch {
-public:
-    explicit StepWatch(std::uint16_t expected) : expected_(expected) {}
-
-    [[nodiscard]] bool is_altered(std::uint16_t count) {
-        const auto step = static_cast<std::uint16_t>(count - std::exchange(last_count_, count));
-        const bool goes_on = step == std::exchange(last_step_, step) && step != expected_;
-        times_ = goes_on ? times_ + 1 : 0;
-        return times_ >= kStepsToBelieve;
-    }
-
-private:
-    // Losses and stuck counters of some frames are no other rate.
-    static constexpr int kStepsToBelieve = 20;
-
-    std::uint16_t expected_;
-    std::uint16_t last_count_ = 0, last_step_ = 0;
-    int times_ = 0;
-};
 
 /// The configured rate, then the others that carry the frames.
 std::vector<int> bauds_of(const LinkOptions& options) {

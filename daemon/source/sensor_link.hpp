@@ -1,8 +1,8 @@
 #pragma once
 /// @file
-/// The reader thread: finds the port, adopts the stream that goes on there or brings the sensor into
-/// sampling, reads and stamps what comes, and starts again when the port goes, the sensor falls
-/// silent, its bytes are no frames or its counter tells of another rate.
+/// The reader thread: finds the port, adopts the stream that goes on there or brings the sensor
+/// into sampling, reads and stamps what comes, and starts again when the port goes, the sensor
+/// falls silent, its bytes are no frames or its counter tells of another rate.
 /// While sampling it allocates nothing, logs nothing and touches no disk.
 
 #include <array>

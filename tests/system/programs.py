@@ -17,6 +17,18 @@ IS_LONG = os.environ.get("A351_LONG") == "1"
 IS_SANITIZED = bool(os.environ.get("A351_PRESET_SANITIZE"))
 SKIPPED = 77
 
+# Ends the scenario of a test: one site, a steady ambient.
+ONE_SITE = """[[site]]
+name = "here"
+longitude_deg = 140.0
+latitude_deg = 36.0
+altitude_m = 0.0
+gravity_mgal = 979900.0
+[[ambient]]
+at_h = 0.0
+degc = 25.0
+"""
+
 
 def run(*command, check=True, env=None, cwd=None):
     """Runs a program to its end; prints what it said when it failed unexpectedly."""

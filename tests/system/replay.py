@@ -8,7 +8,7 @@ import subprocess
 import sys
 import time
 
-from programs import BIN, IS_SANITIZED, TOOLS, TOP, Scratch, daemon_config, daemon_status, demand, run
+from programs import BIN, IS_SANITIZED, ONE_SITE, TOOLS, TOP, Scratch, daemon_config, daemon_status, demand, run
 
 LOGS = TOP / "tests" / "golden" / "logs"
 sys.dont_write_bytecode = True
@@ -97,16 +97,7 @@ name = "midnight"
 [schedule]
 start_utc = "2017-07-15T23:55:00Z"
 duration_h = 1.0
-[[site]]
-name = "here"
-longitude_deg = 140.0
-latitude_deg = 36.0
-altitude_m = 0.0
-gravity_mgal = 979900.0
-[[ambient]]
-at_h = 0.0
-degc = 25.0
-"""
+""" + ONE_SITE
 
 # By frames made: kind, its keys.
 FAULTS = [(1000, "flip_bit", "count = 3"), (1500, "lose_frames", "count = 7"), (2000, "drop_bytes", "bytes = 5"),

@@ -14,7 +14,7 @@ import sys
 import time
 
 from emulated_session import Session, wait_for
-from programs import IS_SANITIZED, SKIPPED, Scratch, demand
+from programs import IS_SANITIZED, ONE_SITE, SKIPPED, Scratch, demand
 
 # Ten minutes before a midnight, and as long after it: two day files of each channel.
 SCENARIO = """base = "quiet"
@@ -22,16 +22,7 @@ name = "midnight"
 [schedule]
 start_utc = "2017-07-15T23:50:00Z"
 duration_h = 10.0
-[[site]]
-name = "here"
-longitude_deg = 140.0
-latitude_deg = 36.0
-altitude_m = 0.0
-gravity_mgal = 979900.0
-[[ambient]]
-at_h = 0.0
-degc = 25.0
-"""
+""" + ONE_SITE
 START = "2017-07-15T23:50:00Z"
 SPEED = 20 if IS_SANITIZED else 100
 FRAMES = 20 * 60 * 50

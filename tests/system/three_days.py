@@ -1,6 +1,6 @@
 """Three days of a sensor 20 ppm fast behind a 16 ms adapter: one trace in readers, and times as they are stated."""
 
-from programs import BIN, IS_SANITIZED, TOOLS, Scratch, demand, run
+from programs import BIN, IS_SANITIZED, ONE_SITE, TOOLS, Scratch, demand, run
 
 SCENARIO = """base = "quiet"
 name = "three-days"
@@ -16,16 +16,7 @@ latency_timer_ppm = 30.0
 usb_poll_ms = 1.0
 jitter_ms = 0.3
 stall_per_h = 1.0
-[[site]]
-name = "here"
-longitude_deg = 140.0
-latitude_deg = 36.0
-altitude_m = 0.0
-gravity_mgal = 979900.0
-[[ambient]]
-at_h = 0.0
-degc = 25.0
-"""
+""" + ONE_SITE
 
 
 def fields(line):
