@@ -2,6 +2,13 @@
 
 from programs import BIN, IS_SANITIZED, ONE_SITE, TOOLS, Scratch, demand, run
 
+try:
+    import numpy
+    import obspy
+except ImportError:
+    obspy = None
+    print("ObsPy is not installed: traces are joined by libmseed alone")
+
 SCENARIO = """base = "quiet"
 name = "three-days"
 [schedule]
@@ -29,6 +36,18 @@ def joined(root, channel):
     return result
 
 
+def merged_by_obspy(root, channel):
+    """Of the channel's day files: traces, samples that are there, and whether they are those of the files in order."""
+    stream = obspy.Stream()
+    for file in sorted(root.glob(f"archive/*/*/*/{channel}.D/*")):
+        stream += obspy.read(str(file))
+    days = [trace.data for trace in stream]
+    stream.merge()
+    print(root.name, f"ObsPy {obspy.__version__}:", stream)
+    data = numpy.ma.compressed(stream[0].data)
+    return len(stream), len(data), numpy.array_equal(data, numpy.concatenate(days))
+
+
 def survey(scratch, hours):
     """A day's root and the same re-timed."""
     root, better = scratch / f"live-{hours}", scratch / f"re-timed-{hours}"
@@ -46,6 +65,9 @@ with Scratch() as scratch:
             demand(f"{root.name}: {channel}: the days are one trace", found["traces"] == "1")
             demand(f"{root.name}: {channel}: no sample is lost in merging",
                    found["samples"] == found["recorded"] and int(found["samples"]) > 0.9999 * hours * 3600 * 50)
+            if obspy:
+                demand(f"{root.name}: {channel}: merged by ObsPy they are one, with every sample",
+                       merged_by_obspy(root, channel) == (1, int(found["samples"]), True))
             demand(f"{root.name}: {channel}: it ends where its start and rate put it, within 10 ms",
                    abs(float(found["end_error_s"])) < 0.010)
 
