@@ -169,6 +169,7 @@ std::optional<OvenLinkOptions> read_oven(TomlTable table, const PortAddress& sen
     oven.line.parity = table.choice_or("parity", "E", {"E", "O", "N"}).front();
     // H175-E1, section 1: 1 ... 99; 0 would address all.
     oven.line.unit = static_cast<int>(table.integer_or("unit", 1, 1, 99));
+    oven.line.is_rs485 = table.boolean_or("rs485", false);
     oven.poll_interval = from_seconds(table.number_or("poll_s", 1.0, 0.1, 3600.0));
     oven.decimals = static_cast<int>(table.integer_or("decimals", 1, 0, oven::kMostDecimals));
     if (is_enabled && oven.line.port.empty()) {

@@ -45,7 +45,7 @@ ModbusLine::Answer answer_of_others(const Frame& frame) {
 
 ModbusLine::Answer answer_in(const Frame& frame, std::size_t size, std::size_t count) {
     if (size == kFrameOverhead && frame[1] == (kReadRegisters | kException)) {
-        return {OvenOutcome::exception, {}, "exception " + std::to_string(frame[2])};
+        return {OvenOutcome::exception, {}, "exception " + std::to_string(frame[2]), frame[2]};
     }
     if (frame[1] != kReadRegisters || size != kFrameOverhead + 2 * count || frame[2] != 2 * count) {
         return {OvenOutcome::malformed, {}, "the answer does not fit the question"};
@@ -135,6 +135,11 @@ ModbusLine::ModbusLine(const Settings& settings)
     if (tcgetattr(connection_->lock, &kept) != 0 ||
         (kept.c_cflag & (PARENB | PARODD)) != parity_bits(settings.parity)) {
         throw PortError(PortError::Kind::settings, description_ + ": does not keep this parity");
+    }
+    if (settings.is_rs485 &&
+        modbus_rtu_set_serial_mode(connection_->context, MODBUS_RTU_RS485) != 0) {
+        throw PortError(PortError::Kind::settings,
+                        description_ + ": its driver does not switch an RS-485 line");
     }
     modbus_set_slave(connection_->context, settings.unit);
     using std::chrono::microseconds;

@@ -20,11 +20,13 @@ public:
         int baud = 9600;                  ///< One that libmodbus knows; others it takes for 9600.
         char parity = 'E';                ///< E, O or N.
         int unit = 1;                     ///< 1 ... 99.
+        bool is_rs485 = false;  ///< The kernel's driver turns the line round (TIOCSRS485).
     };
     struct Answer {
         record::OvenOutcome outcome = record::OvenOutcome::no_port;
         std::vector<std::uint16_t> words;  ///< As many as were asked for if answered, else none.
         std::string trouble;               ///< Why it is not answered, in words.
+        std::uint8_t exception = 0;        ///< Its code, if that is the outcome.
     };
 
     /// No read takes longer.

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "daemon/source/port.hpp"
-#include "protocol/oven/registers.hpp"
 
 namespace a351::daemon {
 namespace {
@@ -18,6 +17,8 @@ using std::chrono::steady_clock;
 constexpr milliseconds kShortestRealInterval{100};
 // H175-E1, section 2: 2 ms at least between an answer and the next request.
 constexpr milliseconds kPause{10};
+// Modbus Application Protocol V1.1b3, section 7.
+constexpr std::uint8_t kIllegalDataAddress = 2;
 constexpr int kPollsUntilStale = 3;
 constexpr int kDecimalTries = 3;
 // Of instrument time.
@@ -156,14 +157,32 @@ ModbusLine::Answer OvenLink::read_monitors() {
     try {
         if (!line_) {
             line_ = std::make_unique<ModbusLine>(options_.line);
+            is_four_byte_ = false;
             decimal_tries_left_ = kDecimalTries;
             const std::lock_guard lock(mutex_);
             status_.port = line_->description();
         }
-        return line_->read(oven::kFirstMonitor, oven::kMonitorCount);
+        ModbusLine::Answer answer = read_variables(oven::kFirstMonitor, oven::kMonitorCount);
+        if (answer.exception != kIllegalDataAddress || is_four_byte_) return answer;
+        is_four_byte_ = true;
+        std::this_thread::sleep_for(kPause);
+        ModbusLine::Answer other = read_variables(oven::kFirstMonitor, oven::kMonitorCount);
+        if (other.outcome == OvenOutcome::answered) return other;
+        is_four_byte_ = false;
+        return answer;
     } catch (const PortError& error) {
         return {OvenOutcome::no_port, {}, error.what()};
     }
+}
+
+// The low words of four-byte mode are what two-byte mode shows.
+ModbusLine::Answer OvenLink::read_variables(oven::Address first, std::size_t count) {
+    if (!is_four_byte_) return line_->read(first.two_byte, count);
+    ModbusLine::Answer answer = line_->read(first.four_byte, 2 * count);
+    if (answer.outcome != OvenOutcome::answered) return answer;
+    for (std::size_t i = 0; i < count; ++i) answer.words[i] = answer.words[2 * i + 1];
+    answer.words.resize(count);
+    return answer;
 }
 
 // Only a controller that answers is asked, so that a silent one costs one time-out; what it does
@@ -172,7 +191,7 @@ void OvenLink::ask_decimals() {
     if (decimal_tries_left_ == 0) return;
     --decimal_tries_left_;
     std::this_thread::sleep_for(kPause);
-    const ModbusLine::Answer answer = line_->read(oven::kDecimalPoint, 1);
+    const ModbusLine::Answer answer = read_variables(oven::kDecimalPoint, 1);
     if (answer.outcome == OvenOutcome::answered) {
         decimal_tries_left_ = 0;
         const bool is_known = answer.words.front() <= oven::kMostDecimals;

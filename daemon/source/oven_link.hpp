@@ -19,6 +19,7 @@
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/modbus_line.hpp"
 #include "protocol/oven/controller_values.hpp"
+#include "protocol/oven/registers.hpp"
 #include "protocol/record/journal.hpp"
 
 namespace a351::daemon {
@@ -70,6 +71,7 @@ private:
     void run() noexcept;
     [[nodiscard]] bool poll();
     [[nodiscard]] ModbusLine::Answer read_monitors();
+    [[nodiscard]] ModbusLine::Answer read_variables(oven::Address first, std::size_t count);
     void ask_decimals();
     void note(const record::OvenChunk& poll, const std::string& trouble);
     void wait_until(std::chrono::steady_clock::time_point instant);
@@ -81,6 +83,7 @@ private:
     Nanoseconds real_interval_;
     Nanoseconds stale_after_;  ///< Of instrument time.
     std::unique_ptr<ModbusLine> line_;
+    bool is_four_byte_ = false;  ///< The mode, in this connection.
     int decimals_;
     int decimal_tries_left_ = 0;  ///< In this connection; 0 once it is answered or refused.
     std::size_t failures_in_a_row_ = 0;

@@ -21,7 +21,7 @@ struct ControllerValues {
     std::uint16_t status = 0;
 };
 
-/// @param registers  from kFirstMonitor on.
+/// @param registers  from kFirstMonitor on, as in two-byte mode.
 /// @param decimals   of process value and set point: a setting of the controller, 1 for a K couple
 ///                   with a resolution of 0.1 degC.
 /// @return           std::nullopt unless there are kMonitorCount registers.

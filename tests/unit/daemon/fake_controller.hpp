@@ -31,6 +31,7 @@ public:
     std::atomic<Manner> manner{Manner::good};           ///< For 2000h.
     std::atomic<Manner> decimals_manner{Manner::good};  ///< For 2410h.
     std::atomic<std::uint16_t> decimals{1};
+    std::atomic<bool> is_four_byte{false};  ///< Knows 0000h and 0420h, refuses 2000h and 2410h.
     std::atomic<int> polls{0}, decimal_requests{0};
     std::atomic<int> other_requests{0};  ///< Other functions, addresses or counts.
 
@@ -65,6 +66,7 @@ private:
     }
 
     Bytes answer_to(const Bytes& request) {
+        if (is_four_byte) return answer_in_four_bytes(request);
         if (request == sim::sealed(frame({0x01, 0x03, 0x20, 0x00, 0x00, 0x05}))) {
             ++polls;
             return spoil(manner, frame({0x01, 0x03, 0x0A, 0x01, 0xA9, 0x01, 0x00, 0x01, 0xA9, 0x00,
@@ -78,6 +80,23 @@ private:
         }
         ++other_requests;
         return {};
+    }
+
+    Bytes answer_in_four_bytes(const Bytes& request) {
+        if (request == sim::sealed(frame({0x01, 0x03, 0x00, 0x00, 0x00, 0x0A}))) {
+            ++polls;  // -1.5 degC, a set point of 42.5, 25.0 %
+            return spoil(manner, frame({0x01, 0x03, 0x14, 0xFF, 0xFF, 0xFF, 0xF1, 0x00,
+                                        0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0xA9, 0x00,
+                                        0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0xFA}));
+        }
+        if (request == sim::sealed(frame({0x01, 0x03, 0x04, 0x20, 0x00, 0x02}))) {
+            ++decimal_requests;
+            Bytes answer = frame({0x01, 0x03, 0x04, 0x00, 0x00});
+            sim::append_word(answer, decimals);
+            return spoil(decimals_manner, answer);
+        }
+        ++other_requests;
+        return spoil(Manner::refused, {});
     }
 
     static Bytes spoil(Manner how, Bytes answer) {

@@ -123,7 +123,9 @@ TEST_CASE("each way of not answering has its own counter, and the next answer is
     }
     CHECK(handed_on == rig.link.status().polls);
     CHECK(rig.count(OvenOutcome::answered) + rig.count(outcome) == rig.polls().size());
-    CHECK(rig.controller.other_requests == 0);
+    // Refused, it is asked for the addresses of four-byte mode.
+    const auto refused = manner == Manner::refused ? rig.count(OvenOutcome::exception) : 0;
+    CHECK(rig.controller.other_requests == static_cast<int>(refused));
 }
 
 TEST_CASE("one lost answer is no change of state, a last answer that has grown old is",
@@ -166,6 +168,24 @@ TEST_CASE("decimals that are not told, or cannot be, leave the configured ones a
     CHECK(rig.controller.decimal_requests <= 3);
     CHECK(rig.count(OvenOutcome::answered) == rig.polls().size());
     for (const OvenChunk& poll : rig.polls()) CHECK(poll.decimals == 1);
+}
+
+TEST_CASE("a controller of four-byte mode is read as one of two-byte mode", "[daemon][oven_link]") {
+    Rig rig;
+    rig.controller.is_four_byte = true;
+    rig.link.start();
+    REQUIRE(rig.reaches(OvenOutcome::answered, 5));
+    const auto status = rig.link.status();
+    CHECK(status.values->process_value == DegC(-1.5));
+    CHECK(status.values->set_point == DegC(42.5));
+    CHECK(status.decimals == 1);
+    CHECK(rig.polls().back().registers == std::vector<std::uint16_t>{0xFFF1, 0x0100, 425, 0, 250});
+    CHECK(rig.controller.other_requests == 1);  // 2000h, once
+
+    // Another one takes its place.
+    rig.controller.is_four_byte = false;
+    REQUIRE(rig.reaches(OvenOutcome::answered, 5));
+    CHECK(rig.link.status().values->process_value == DegC(42.5));
 }
 
 TEST_CASE("a controller that comes back under another name is found through its link",
@@ -212,9 +232,11 @@ TEST_CASE("what came unasked is not taken for the answer", "[daemon][oven_link]"
     FakeController controller;
     ModbusLine line({.port = controller.path(), .parity = 'N'});
     controller.manner = Manner::babble;  // libmodbus reads eight of its 64 bytes.
-    CHECK(line.read(oven::kFirstMonitor, oven::kMonitorCount).outcome == OvenOutcome::bad_crc);
+    CHECK(line.read(oven::kFirstMonitor.two_byte, oven::kMonitorCount).outcome ==
+          OvenOutcome::bad_crc);
     controller.manner = Manner::good;
-    CHECK(line.read(oven::kFirstMonitor, oven::kMonitorCount).words.size() == oven::kMonitorCount);
+    CHECK(line.read(oven::kFirstMonitor.two_byte, oven::kMonitorCount).words.size() ==
+          oven::kMonitorCount);
 }
 
 TEST_CASE("a port that echoes does so no more, even after it was closed", "[daemon][oven_link]") {
@@ -232,6 +254,8 @@ TEST_CASE("a port that echoes does so no more, even after it was closed", "[daem
 TEST_CASE("what is no port, or does not take the settings, is refused", "[daemon][oven_link]") {
     const Pty pty;  // It carries no parity, and does not say so when it is asked for one.
     CHECK_NOTHROW(ModbusLine({.port = pty.path(), .parity = 'N'}));
+    CHECK_THROWS_WITH(ModbusLine({.port = pty.path(), .parity = 'N', .is_rs485 = true}),
+                      Catch::EndsWith("its driver does not switch an RS-485 line"));
     CHECK_THROWS_WITH(ModbusLine({.port = pty.path(), .parity = 'E'}),
                       Catch::EndsWith("baud 8E1: does not keep this parity"));
     CHECK_THROWS_AS(ModbusLine({.port = "/dev/null"}), PortError);
