@@ -1,7 +1,9 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <random>
@@ -9,47 +11,58 @@
 #include <vector>
 
 #include "protocol/record/file_bytes.hpp"
-#include "protocol/record/file_layer.hpp"
+#include "tests/unit/record/forwarding_files.hpp"
 
 namespace a351::test {
 
 /// The real files, and a copy of what a power cut would leave of them: of a page that was not synced
-/// nobody knows whether it reached the disk, nor of a file whose directory was not synced.
-class ForgetfulFiles : public record::FileLayer {
+/// nobody knows whether it reached the disk, nor of a file or directory whose parent was not synced.
+class ForgetfulFiles : public ForwardingFiles {
 public:
+    /// Operations until the process is killed: none has an effect from then on.
+    std::atomic<int> operations_left{std::numeric_limits<int>::max()};
+
     std::unique_ptr<record::AppendFile> open_append(const std::filesystem::path& file) override {
+        count();
         const std::lock_guard lock(mutex_);
         if (!std::filesystem::exists(file)) unsynced_names_.insert(file);
         return std::make_unique<File>(*this, file, files_.open_append(file));
     }
     void create_directories(const std::filesystem::path& directory) override {
-        files_.create_directories(directory);
+        if (std::filesystem::exists(directory)) return;
+        create_directories(directory.parent_path());
+        count();
+        {
+            const std::lock_guard lock(mutex_);
+            std::filesystem::create_directory(directory);
+            unsynced_names_.insert(directory);
+        }
+        sync_directory(directory.parent_path());
     }
     void sync_directory(const std::filesystem::path& directory) override {
+        count();
         const std::lock_guard lock(mutex_);
         files_.sync_directory(directory);
         std::erase_if(unsynced_names_,
                       [&](const auto& file) { return file.parent_path() == directory; });
     }
     void truncate(const std::filesystem::path& file, std::uint64_t size) override {
+        count();
         const std::lock_guard lock(mutex_);
         files_.truncate(file, size);
         synced_size_[file] = size;
     }
     void rename(const std::filesystem::path& from, const std::filesystem::path& to) override {
+        count();
         const std::lock_guard lock(mutex_);
         files_.rename(from, to);
         synced_size_[to] = synced_size_[from];
         unsynced_names_.erase(from);
         unsynced_names_.insert(to);
     }
-    void remove(const std::filesystem::path& file) override { files_.remove(file); }
-    void allocate(const std::filesystem::path& file, std::uint64_t size) override {
-        files_.allocate(file, size);
-    }
-    [[nodiscard]] std::optional<std::uint64_t> free_bytes(
-        const std::filesystem::path& directory) const override {
-        return files_.free_bytes(directory);
+    void remove(const std::filesystem::path& file) override {
+        count();
+        files_.remove(file);
     }
 
     /// What is found of `root` after a cut just now.
@@ -57,40 +70,45 @@ public:
              std::mt19937_64& random) {
         const std::lock_guard lock(mutex_);
         std::filesystem::copy(root, found, std::filesystem::copy_options::recursive);
+        for (const auto& name : unsynced_names_)
+            if (random() % 2 == 0)
+                std::filesystem::remove_all(found / std::filesystem::relative(name, root));
         std::vector<std::filesystem::path> copies;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(found))
             if (entry.is_regular_file()) copies.push_back(entry.path());
         for (const auto& copy : copies) {
             const auto original = root / std::filesystem::relative(copy, found);
-            if (unsynced_names_.contains(original) && random() % 2 == 0)
-                std::filesystem::remove(copy);
-            else
-                lose_pages(copy, synced_size_[original], random);
+            lose_pages(copy, synced_size_[original], random);
         }
     }
 
 private:
-    class File : public record::AppendFile {
+    class File : public ForwardingFile {
     public:
         File(ForgetfulFiles& owner, std::filesystem::path path,
              std::unique_ptr<record::AppendFile> file)
-            : owner_(owner), path_(std::move(path)), file_(std::move(file)) {}
+            : ForwardingFile(std::move(file)), owner_(owner), path_(std::move(path)) {}
         void append(std::span<const std::byte> bytes) override {
+            owner_.count();
             const std::lock_guard lock(owner_.mutex_);
             file_->append(bytes);
         }
         void sync() override {
+            owner_.count();
             const std::lock_guard lock(owner_.mutex_);
             file_->sync();
             owner_.synced_size_[path_] = file_->size();
         }
-        [[nodiscard]] std::uint64_t size() const override { return file_->size(); }
 
     private:
         ForgetfulFiles& owner_;
         std::filesystem::path path_;
-        std::unique_ptr<record::AppendFile> file_;
     };
+
+    void count() {
+        if (operations_left-- <= 0)
+            throw std::system_error(EIO, std::generic_category(), "the process is gone");
+    }
 
     /// A size between the synced one and the last; of the pages in between any may be zeros.
     static void lose_pages(const std::filesystem::path& file, std::uint64_t synced,
@@ -110,7 +128,6 @@ private:
                   static_cast<std::streamsize>(bytes.size()));
     }
 
-    record::FileLayer& files_ = record::posix_files();
     std::mutex mutex_;
     std::map<std::filesystem::path, std::uint64_t> synced_size_;
     std::set<std::filesystem::path> unsynced_names_;

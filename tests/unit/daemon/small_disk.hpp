@@ -4,12 +4,12 @@
 #include <map>
 #include <system_error>
 
-#include "protocol/record/file_layer.hpp"
+#include "tests/unit/record/forwarding_files.hpp"
 
 namespace a351::test {
 
 /// The real files, of which only so many bytes fit.  For one thread.
-class SmallDisk : public record::FileLayer {
+class SmallDisk : public ForwardingFiles {
 public:
     explicit SmallDisk(std::uint64_t capacity) : capacity_(capacity) {}
 
@@ -17,17 +17,12 @@ public:
     void fill_up_to(std::uint64_t free) { others_ = capacity_ - used() - free; }
     void empty() { others_ = 0; }
     int error_of_allocate = 0;
+    int error_when_full = ENOSPC;
 
     std::unique_ptr<record::AppendFile> open_append(const std::filesystem::path& file) override {
         auto opened = files_.open_append(file);
         sizes_[file] = opened->size();
         return std::make_unique<File>(*this, file, std::move(opened));
-    }
-    void create_directories(const std::filesystem::path& directory) override {
-        files_.create_directories(directory);
-    }
-    void sync_directory(const std::filesystem::path& directory) override {
-        files_.sync_directory(directory);
     }
     void truncate(const std::filesystem::path& file, std::uint64_t size) override {
         files_.truncate(file, size);
@@ -54,21 +49,18 @@ public:
     }
 
 private:
-    class File : public record::AppendFile {
+    class File : public ForwardingFile {
     public:
         File(SmallDisk& disk, std::filesystem::path path, std::unique_ptr<record::AppendFile> file)
-            : disk_(disk), path_(std::move(path)), file_(std::move(file)) {}
+            : ForwardingFile(std::move(file)), disk_(disk), path_(std::move(path)) {}
         void append(std::span<const std::byte> bytes) override {
             disk_.take(path_, bytes.size());
             file_->append(bytes);
         }
-        void sync() override { file_->sync(); }
-        [[nodiscard]] std::uint64_t size() const override { return file_->size(); }
 
     private:
         SmallDisk& disk_;
         std::filesystem::path path_;
-        std::unique_ptr<record::AppendFile> file_;
     };
 
     [[nodiscard]] std::uint64_t used() const {
@@ -78,11 +70,10 @@ private:
     }
     void take(const std::filesystem::path& file, std::uint64_t size) {
         if (used() + others_ + size > capacity_)
-            throw std::system_error(ENOSPC, std::generic_category(), "small disk");
+            throw std::system_error(error_when_full, std::generic_category(), "small disk");
         sizes_[file] += size;
     }
 
-    record::FileLayer& files_ = record::posix_files();
     std::uint64_t capacity_;
     std::uint64_t others_ = 0;
     std::map<std::filesystem::path, std::uint64_t> sizes_;

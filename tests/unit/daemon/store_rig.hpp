@@ -18,6 +18,7 @@
 #include "protocol/wire/burst_frame.hpp"
 #include "tests/unit/daemon/fake_sensor.hpp"
 #include "tests/unit/daemon/temporary_directory.hpp"
+#include "tests/unit/record/forwarding_files.hpp"
 
 namespace a351::daemon {
 
@@ -25,49 +26,28 @@ inline constexpr int kFrames = 2000;
 inline constexpr Nanoseconds kPeriod = std::chrono::milliseconds(20);
 
 /// Files whose journal can be made to hang or fail, and whose archive can be made to fail.
-class TroubledFiles : public record::FileLayer {
+class TroubledFiles : public test::ForwardingFiles {
 public:
     std::atomic<bool> does_sync_hang{false};
     std::atomic<bool> does_sync_fail{false};
     std::atomic<bool> does_append_fail{false};
     std::atomic<bool> does_archive_fail{false};
+    std::atomic<bool> does_archive_sync_fail{false};
     std::atomic<int> hanging{0};
 
     std::unique_ptr<record::AppendFile> open_append(const std::filesystem::path& file) override {
-        if (file.extension() != ".a351j") {
-            const bool is_archive = file.string().find("/archive/") != std::string::npos;
-            if (is_archive && does_archive_fail)
-                throw std::system_error(ENOSPC, std::generic_category());
-            return files_.open_append(file);
-        }
-        return std::make_unique<File>(*this, files_.open_append(file));
-    }
-    void create_directories(const std::filesystem::path& directory) override {
-        files_.create_directories(directory);
-    }
-    void sync_directory(const std::filesystem::path& directory) override {
-        files_.sync_directory(directory);
-    }
-    void truncate(const std::filesystem::path& file, std::uint64_t size) override {
-        files_.truncate(file, size);
-    }
-    void rename(const std::filesystem::path& from, const std::filesystem::path& to) override {
-        files_.rename(from, to);
-    }
-    void remove(const std::filesystem::path& file) override { files_.remove(file); }
-    void allocate(const std::filesystem::path& file, std::uint64_t size) override {
-        files_.allocate(file, size);
-    }
-    [[nodiscard]] std::optional<std::uint64_t> free_bytes(
-        const std::filesystem::path& directory) const override {
-        return files_.free_bytes(directory);
+        if (file.extension() == ".a351j")
+            return std::make_unique<JournalFile>(*this, files_.open_append(file));
+        if (file.string().find("/archive/") == std::string::npos) return files_.open_append(file);
+        if (does_archive_fail) throw std::system_error(ENOSPC, std::generic_category());
+        return std::make_unique<ArchiveFile>(*this, files_.open_append(file));
     }
 
 private:
-    class File : public record::AppendFile {
+    class JournalFile : public test::ForwardingFile {
     public:
-        File(TroubledFiles& owner, std::unique_ptr<record::AppendFile> file)
-            : owner_(owner), file_(std::move(file)) {}
+        JournalFile(TroubledFiles& owner, std::unique_ptr<record::AppendFile> file)
+            : ForwardingFile(std::move(file)), owner_(owner) {}
         void append(std::span<const std::byte> bytes) override {
             if (owner_.does_append_fail) throw std::system_error(ENOSPC, std::generic_category());
             file_->append(bytes);
@@ -80,14 +60,24 @@ private:
             if (owner_.does_sync_fail) throw std::system_error(EIO, std::generic_category());
             file_->sync();
         }
-        [[nodiscard]] std::uint64_t size() const override { return file_->size(); }
 
     private:
         TroubledFiles& owner_;
-        std::unique_ptr<record::AppendFile> file_;
     };
 
-    record::FileLayer& files_ = record::posix_files();
+    class ArchiveFile : public test::ForwardingFile {
+    public:
+        ArchiveFile(TroubledFiles& owner, std::unique_ptr<record::AppendFile> file)
+            : ForwardingFile(std::move(file)), owner_(owner) {}
+        void sync() override {
+            if (owner_.does_archive_sync_fail)
+                throw std::system_error(EIO, std::generic_category(), "sync of the archive");
+            file_->sync();
+        }
+
+    private:
+        TroubledFiles& owner_;
+    };
 };
 
 inline Status status_of(Store& store) {

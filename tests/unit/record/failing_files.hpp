@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "protocol/record/file_layer.hpp"
+#include "tests/unit/record/forwarding_files.hpp"
 
 namespace a351::test {
 
@@ -25,7 +25,7 @@ struct Fault {
 
 /// The real files, of which one or all from one on fail.  Nothing is synced to the medium: nobody
 /// looks there, and thousands of syncs take minutes.  For any number of threads.
-class FailingFiles : public record::FileLayer {
+class FailingFiles : public ForwardingFiles {
 public:
     explicit FailingFiles(int fail_at = 0) { fault_.at = fail_at; }
 
@@ -66,19 +66,15 @@ public:
         std::ofstream(file, std::ios::app).close();
         std::filesystem::resize_file(file, size);
     }
-    [[nodiscard]] std::optional<std::uint64_t> free_bytes(
-        const std::filesystem::path& directory) const override {
-        return files_.free_bytes(directory);
-    }
 
 private:
     enum class Operation { append, sync, takes_space, other };
 
-    class File : public record::AppendFile {
+    class File : public ForwardingFile {
     public:
         File(FailingFiles& files, std::filesystem::path path,
              std::unique_ptr<record::AppendFile> file)
-            : files_(files), path_(std::move(path)), file_(std::move(file)) {}
+            : ForwardingFile(std::move(file)), files_(files), path_(std::move(path)) {}
         void append(std::span<const std::byte> bytes) override {
             try {
                 files_.count(Operation::append);
@@ -99,7 +95,6 @@ private:
             }
             synced_ = size();
         }
-        [[nodiscard]] std::uint64_t size() const override { return file_->size(); }
 
     private:
         void drop_unsynced() const {
@@ -110,7 +105,6 @@ private:
 
         FailingFiles& files_;
         std::filesystem::path path_;
-        std::unique_ptr<record::AppendFile> file_;
         std::uint64_t synced_ = file_->size();
     };
 
@@ -140,7 +134,6 @@ private:
                                 "operation made to fail");
     }
 
-    record::FileLayer& files_ = record::posix_files();
     struct {
         std::atomic<int> at = 0;
         Fault::Kind kind = Fault::Kind::any;
