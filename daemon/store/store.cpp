@@ -24,6 +24,7 @@ Store::Store(record::FileLayer& files, StoreOptions options, const HostClock& cl
       known_stream_(plan_.replays.empty() ? std::nullopt
                                           : record::stream_end(plan_.replays.back().segments)),
       profile_(wire::find_profile(options_.station.profile)),
+      chunks_(options_.queue_bytes),
       journal_(files, options_.root, clock, reads, chunks_, progress_, reserve_, options_.time),
       archive_(files, options_.root / "archive", options_.station.codes, clock, chunks_, progress_,
                reserve_,

@@ -37,6 +37,7 @@ struct StoreOptions {
     record::StationDescription station = {};
     DiskTime time = {};
     std::uint64_t reserve_bytes = SpaceReserve::kSize_bytes;
+    std::size_t queue_bytes = ChunkQueue::kCapacityBytes;
     JournalKeeper::Options keeper = {};
     /// How long an event waits for its turn.
     std::chrono::milliseconds commit_patience{10'000};

@@ -158,7 +158,10 @@ void SdsWriter::append(const std::string& channel, const PackedRecord& record) {
             // Comes into being whole: readers fail on a day file that is empty.
             files_.create_directories(path.parent_path());
             place_file(files_, path, record.bytes);
-            new_entries_.insert(path.parent_path());
+            // All above it too: who made them may have been killed before their sync.
+            for (auto directory = path.parent_path(); directory != archive_.parent_path();
+                 directory = directory.parent_path())
+                new_entries_.insert(directory);
             return;
         }
         open_[channel] = {path, files_.open_append(path), false};

@@ -100,6 +100,7 @@ TEST_CASE("a file system that cannot promise space is said, and holds up nothing
 
 TEST_CASE_METHOD(SmallRig, "on a full disk the journal goes on in the reserve, the archive waits",
                  "[daemon][store][reserve]") {
+    disk.error_when_full = GENERATE(ENOSPC, EDQUOT);  // No space, or none within the quota.
     Store store(disk, options(), clock, reads);
     begin_session();
     advance(store, seconds(60));

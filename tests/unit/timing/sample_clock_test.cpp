@@ -326,6 +326,19 @@ TEST_CASE("the rate of the sensor is measured as well as it says", "[timing][sam
     }
 }
 
+TEST_CASE("the uncertainty of the rate counts both ends of its span", "[timing][sample_clock]") {
+    World world;
+    world.max_error_us = 20'000;
+    for (std::int64_t k = 0; k < 50 * 600; ++k) world.frame(k, 0s);
+    const auto measured = world.clock.measured_rate();
+    REQUIRE(measured);
+    // Each end is as uncertain as the host's clock at least.
+    const double stated_s =
+        1e-6 * measured->uncertainty_ppm * std::chrono::duration<double>(measured->span).count();
+    CHECK(stated_s >= 2 * 0.020);
+    CHECK(stated_s < 2 * 0.025);
+}
+
 TEST_CASE("the rate is not measured across a jump of the times", "[timing][sample_clock]") {
     World world;
     for (std::int64_t k = 0; k < 50 * 600; ++k) world.frame(k, 0s);

@@ -1,0 +1,201 @@
+// What the archive owes the journal when its disk fails, or the process dies, at the start.
+
+#include <fstream>
+
+#include "protocol/text/text_file.hpp"
+#include "tests/unit/daemon/forgetful_files.hpp"
+#include "tests/unit/daemon/stepped_rig.hpp"
+#include "tests/unit/record/failing_files.hpp"
+
+using namespace a351;
+using namespace a351::daemon;
+using std::chrono::seconds;
+
+namespace {
+
+bool has_reason(const Status& status, const std::string& part) {
+    for (const std::string& reason : status.reasons)
+        if (reason.find(part) != std::string::npos) return true;
+    return false;
+}
+
+/// The last two records of each day file: what the kernel dropped after a failed sync.
+void zero_newest_records(const std::filesystem::path& root) {
+    for (const char* channel : {"BN1", "BN2", "BNZ", "BK1"}) {
+        for (const auto& file : record::day_files(root / "archive", {}, channel)) {
+            const auto lost = std::min(std::filesystem::file_size(file), 2 * record::kRecordSize);
+            std::fstream out(file, std::ios::binary | std::ios::in | std::ios::out);
+            out.seekp(-static_cast<std::streamoff>(lost), std::ios::end);
+            for (std::size_t i = 0; i < lost; ++i) out.put('\0');
+        }
+    }
+}
+
+struct RecoveryRig : SteppedRig {
+    std::filesystem::path crashed = directory.path() / "crashed";
+
+    /// A session of 60 s that ends in a crash.
+    [[nodiscard]] StoreOptions crash() {
+        test::FailingFiles unharmed;
+        Store store(unharmed, options(), clock, reads);
+        begin_session(1);
+        advance(store, seconds(60));
+        std::filesystem::copy(root, crashed, std::filesystem::copy_options::recursive);
+        StoreOptions again = options();
+        again.root = crashed;
+        return again;
+    }
+    void check_archived_once(const std::filesystem::path& found) {
+        CHECK(recorded_counts(found, "BN1") == stepped_counts(fed, 0));
+        CHECK(recorded_counts(found, "BNZ") == stepped_counts(fed, 2));
+    }
+};
+
+}  // namespace
+
+TEST_CASE_METHOD(Rig, "a replay that keeps failing is given up before the journal has to wait",
+                 "[daemon][store][recovery]") {
+    StoreOptions again = options();
+    again.root = directory.path() / "crashed";
+    again.queue_bytes = std::size_t{256} << 10;  // About 6 000 frames.
+    {
+        Store store(files, options(), clock, reads);
+        store.start();
+        begin_session(1);
+        feed(kFrames);
+        REQUIRE(eventually([&] { return status_of(store).journaled == kFrames - 1; }));
+        std::filesystem::copy(root, again.root, std::filesystem::copy_options::recursive);
+    }
+    files.does_archive_fail = true;
+    {
+        Store store(files, again, clock, reads);
+        store.start();
+        begin_session(2);
+        feed(kFrames);
+        REQUIRE(eventually([&] { return status_of(store).more_counters["archive_faults"] > 1; }));
+        CHECK_FALSE(has_reason(status_of(store), "given up until the next start"));
+        feed(2 * kFrames);
+        REQUIRE(eventually(
+            [&] { return has_reason(status_of(store), "given up until the next start"); }));
+        feed(4 * kFrames);  // More than the queue holds.
+        REQUIRE(eventually([&] { return reads.fill() == 0; }));
+        const Status status = status_of(store);
+        CHECK(status.level == Status::Level::fault);
+        CHECK(status.more_counters.at("archive_waits") == 0);
+        CHECK_FALSE(store.stop());
+    }
+    CHECK(read_journal(again.root).bytes == bytes);
+    files.does_archive_fail = false;
+    const auto report = recover(files, again, clock);
+    CHECK(report.records_conflicting == 0);
+    CHECK(recorded_counts(again.root, "BNZ") == expected_counts(fed));
+}
+
+TEST_CASE_METHOD(RecoveryRig, "after a failed sync of the archive nothing is marked, and replayed",
+                 "[daemon][store][recovery]") {
+    {
+        Store store(files, options(), clock, reads);
+        begin_session();
+        advance(store, seconds(20));
+        files.does_archive_sync_fail = true;
+        advance(store, seconds(20));
+        REQUIRE(status_of(store).more_counters.at("archive_faults") > 0);
+        files.does_archive_sync_fail = false;
+        advance(store, seconds(60));
+        const Status status = status_of(store);
+        CHECK(status.level == Status::Level::warning);
+        CHECK(has_reason(status, "nothing more is called archived"));
+        CHECK_FALSE(status.archived);
+        CHECK(store.stop());
+    }
+    CHECK(read_journal(root).marks.empty());
+    zero_newest_records(root);
+    recover(files, options(), clock);
+    check_archived_once(root);
+}
+
+TEST_CASE_METHOD(RecoveryRig, "after a failed sync of a replay nothing is marked, and replayed",
+                 "[daemon][store][recovery]") {
+    const StoreOptions again = crash();
+    const auto marks_before = read_journal(crashed).marks.size();
+    {
+        Store store(files, again, clock, reads);
+        begin_session(2);
+        files.does_archive_sync_fail = true;
+        advance(store, seconds(5));
+        REQUIRE(status_of(store).more_counters.at("archive_faults") > 0);
+        files.does_archive_sync_fail = false;
+        advance(store, seconds(60));
+        const Status status = status_of(store);
+        CHECK_FALSE(has_reason(status, "is being brought in"));
+        CHECK(has_reason(status, "nothing more is called archived"));
+        CHECK(store.stop());
+    }
+    CHECK(read_journal(crashed).marks.size() == marks_before);
+    recover(files, again, clock);
+    check_archived_once(crashed);
+}
+
+TEST_CASE("what a replay that was killed wrote survives a power cut after the next",
+          "[daemon][store][recovery]") {
+    std::mt19937_64 random(5);
+    bool is_replayed = false;
+    int kills = 0;
+    for (int n = 0; !is_replayed; n += 1, ++kills) {
+        RecoveryRig rig;
+        {
+            test::FailingFiles unharmed;
+            Store store(unharmed, rig.options(), rig.clock, rig.reads);
+            rig.begin_session(1);
+            rig.advance(store, seconds(20));  // No MARK yet.
+            std::filesystem::copy(rig.root, rig.crashed, std::filesystem::copy_options::recursive);
+        }
+        std::filesystem::remove_all(rig.crashed / "archive");  // As a power cut may leave it.
+        std::filesystem::create_directory(rig.crashed / "archive");
+        StoreOptions again = rig.options();
+        again.root = rig.crashed;
+        test::ForgetfulFiles forgetful;
+        again.recovered = [&](const auto&) { is_replayed = true; };
+        {
+            Store store(forgetful, again, rig.clock, rig.reads);
+            forgetful.operations_left = n;
+            store.step();
+        }
+        forgetful.operations_left = std::numeric_limits<int>::max();
+        again.recovered = [](const auto&) {};
+        {
+            Store store(forgetful, again, rig.clock, rig.reads);
+            rig.begin_session(2);
+            rig.advance(store, seconds(5));
+            REQUIRE(store.stop());
+        }
+        const auto found = rig.directory.path() / "found";
+        forgetful.cut(rig.crashed, found, random);
+        INFO("killed after " << n << " operations of the replay");
+        REQUIRE(read_journal(found).marks.back().session.bytes[0] == 2);
+        again.root = found;
+        recover(record::posix_files(), again, rig.clock);
+        REQUIRE(recorded_counts(found, "BNZ") == stepped_counts(rig.fed, 2));
+        REQUIRE(recorded_counts(found, "BN1") == stepped_counts(rig.fed, 0));
+    }
+    std::printf("replays killed: %d\n", kills);
+}
+
+TEST_CASE_METHOD(RecoveryRig, "a clock of 1970 begins no epoch of the station metadata",
+                 "[daemon][store][recovery]") {
+    const auto file = root / "metadata" / "station.xml";
+    Store store(files, options(), clock, reads);
+    const auto since_1970 = std::chrono::floor<std::chrono::days>(utc.time_since_epoch());
+    begin_session(1, "A351", since_1970);
+    advance(store, seconds(10));
+    CHECK_FALSE(std::filesystem::exists(file));
+    begin_session(2);  // Somebody set the clock.
+    const UtcTime begun = utc;
+    advance(store, seconds(10));
+    REQUIRE(std::filesystem::exists(file));
+    const auto xml = text::read_text_file(file);
+    CHECK_THAT(xml, !Catch::Contains("1970"));
+    const auto start = begun - options().station.group_delay;
+    CHECK_THAT(xml, Catch::Contains("startDate=\"" + to_rfc3339(start, 6) + "\""));
+    CHECK(store.stop());
+}
