@@ -1,157 +1,174 @@
-"""kill -9 in the middle of a day at 20x: what was journaled stays, the day goes on, nothing doubles.
+"""kill -9 at random instants, of start and recovery too: what was published as journaled stays, nothing is altered or doubled.
 
-The stream is adopted when the counter tells it: at 20x what the killed daemon had read but not
-written may be more than the second of signal within which that is sure, then the sensor is
-configured anew.  Either is right.
+Every session has one emulator and many lives of the daemon.  At 20x; and a few kills at factor 1, where the bound is
+the real one.  The stream is adopted when the counter tells it: at 20x what the killed daemon had read but not written
+may be more than the second of signal within which that is sure, then the sensor is configured anew.  Either is right.
 """
 
+import collections
 import datetime
 import random
 import signal
-import subprocess
 import threading
 import time
 
-from programs import BIN, IS_LONG, Scratch, compare_truth, daemon_config, daemon_status, demand, read_json, run
+from emulated_session import INTACT, Session, wait_for
+from programs import IS_LONG, TOOLS, Scratch, daemon_status, demand, run
 
-SPEED = 20
+RATE_HZ = 50
+LOSS_S = 0.2  # Before a kill, of real time.
 
-
-def wait_for_samples(port, count, seconds=30):
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        state = daemon_status(port)
-        if state and (state.get("journaled") or 0) >= count:
-            return state
-        time.sleep(0.05)
-    demand(f"{count} samples are journaled within {seconds} s", False)
+Life = collections.namedtuple("Life", "killed_ns phase")  # Simulated time of its end, what it did then.
+Part = collections.namedtuple("Part", "session began_ns samples")  # Behind a header of the journal.
+Gap = collections.namedtuple("Gap", "kills is_adopted before_kill whole")
 
 
-def wait_for_more(port, session, journaled, count):
-    """`count` samples behind those of a session, or in another one."""
-    state = wait_for_samples(port, 1)
-    wait_for_samples(port, count + (journaled if state["session"] == session else 0))
+class Killed(Session):
+    """A session whose daemon is killed again and again."""
+
+    def __init__(self, scratch, speed):
+        self.speed, self.lives, self.published = speed, [], set()
+        super().__init__(scratch, speed=speed)
+
+    def simulated_ns(self):
+        start, host = (datetime.datetime.fromisoformat(part) for part in self.clock.split("@")[1].split(","))
+        epoch = datetime.datetime.fromtimestamp(0, datetime.timezone.utc)
+        seconds = time.time() - (host - epoch).total_seconds()
+        return round(((start - epoch).total_seconds() + self.speed * seconds) * 1e9)
+
+    def kill_after(self, seconds):
+        """Watches the daemon that runs until then."""
+        timer = threading.Timer(seconds, self.daemon.kill)
+        timer.start()
+        while self.daemon.poll() is None:
+            state = daemon_status(self.port)
+            if state and state["journaled"] is not None:
+                self.published.add((state["session"], state["journaled"]))
+            time.sleep(0.02)
+        killed_ns = self.simulated_ns()
+        timer.join()
+        if self.daemon.returncode != -signal.SIGKILL:
+            demand(f"nothing but the kill ends the daemon: {self.daemon.returncode}, {self.said_by_last()}", False)
+        if not self.is_archive_whole():
+            demand("right after a kill the archive is whole records, but for its very end", False)
+        self.lives.append(Life(killed_ns, self.phase()))
+
+    def phase(self):
+        """By what the last life said."""
+        said = self.said_by_last()
+        if "page at" not in said:
+            return "start"
+        return "recording" if "records added" in said else "recovery"
+
+    def start_again(self):
+        self.log.close()
+        self.log = open(self.scratch / "a351d.log", "w")
+        self.daemon = self.start_daemon()
+
+    def said_by_last(self):
+        return (self.scratch / "a351d.log").read_text()
+
+    def files(self):
+        return {file: file.read_bytes() for file in sorted((self.scratch / "data" / "archive").rglob("*.D.*"))}
+
+    def is_archive_whole(self):
+        return all(data[at:at + 6].isdigit() and data[at + 6:at + 7] == b"D" for data in self.files().values()
+                   for at in range(0, len(data) // 512 * 512, 512))
+
+    def recovery_adds_nothing(self):
+        before = self.files()
+        self.start_again()
+        wait_for("the journal is replayed", lambda: "records added" in self.said_by_last())
+        self.daemon.send_signal(signal.SIGTERM)
+        demand("a daemon without its sensor ends cleanly", self.daemon.wait(timeout=30) == 0)
+        said = [line for line in self.said_by_last().splitlines() if "recovery" in line]
+        demand(f"after a clean end a start adds nothing and disagrees with nothing: {said}",
+               len(said) == 1 and " 0 records added" in said[0])
+        demand(f"the archive of {len(before)} files stays as it is", len(before) > 4 and self.files() == before)
+
+    def journal(self):
+        parts = []
+        for line in run(TOOLS / "journal-samples", self.scratch / "data" / "journal").stdout.splitlines():
+            words = line.split()
+            if len(words) == 2:
+                parts.append(Part(words[0], int(words[1]), []))
+            else:
+                parts[-1].samples.append(tuple(map(int, words)))
+        return parts
+
+    def archive_is_journal(self, parts):
+        """Each sample of the journal once, in its order."""
+        out = self.scratch / "counts"
+        out.mkdir()
+        run(TOOLS / "archive-samples", self.scratch / "data" / "archive", out)
+        samples = [sample for part in parts for sample in part.samples]
+        for place, channel in enumerate(("BN1", "BN2", "BNZ", "BK1"), start=2):
+            demand(f"{channel}: the archive holds the {len(samples)} samples of the journal, bit for bit",
+                   [int(line) for line in open(out / channel)] == [sample[place] for sample in samples])
+        held = {(part.session, sample[0]) for part in parts for sample in part.samples}
+        demand(f"all {len(self.published)} indices that were published as journaled are among them",
+               len(self.published) > len(self.lives) / 4 and self.published <= held)
+
+    def gaps(self, parts):
+        """What of the truth the journal lacks, between two parts of it."""
+        rows = [row for row in self.rows() if row[8] == INTACT]
+        at, before, gaps = 0, Part(None, 0, []), []
+        for part in parts:
+            for sample in part.samples:
+                first = at
+                while at < len(rows) and (rows[at][5], *rows[at][1:5]) != sample[1:]:
+                    at += 1
+                if at == len(rows):
+                    demand(f"sample {sample} of the journal was sent, after the one before it", False)
+                if at > first:
+                    gaps.append(self.gap(before, part, rows[first:at], rows[at][6]))
+                before = part
+                at += 1
+        demand(f"nothing is missing in the end: {len(rows) - at}", at == len(rows))
+        return gaps
+
+    def gap(self, before, after, missing, next_run):
+        kills = [life.killed_ns for life in self.lives if before.began_ns < life.killed_ns < after.began_ns]
+        if not kills:
+            demand(f"samples are missing at a kill, not elsewhere: {len(missing)}", False)
+        is_adopted = before.session == after.session
+        if not is_adopted and any(row[6] == next_run for row in missing):
+            demand("a new session misses nothing of its run", False)
+        return Gap(len(kills), is_adopted, sum(row[0] < kills[0] for row in missing), len(missing))
 
 
-def archive_is_whole(archive):
-    """There are day files of four sampled channels, and all are of whole records or, at their very end, the start of one."""
-    files = list(archive.rglob("*.D.*"))
-    for file in files:
-        data = file.read_bytes()
-        whole = len(data) // 512
-        for i in range(whole):
-            if not (data[i * 512:i * 512 + 6].isdigit() and data[i * 512 + 6:i * 512 + 7] == b"D"):
-                return False
-    return sum(not file.name.split(".")[3].startswith("L") for file in files) == 4
-
-
-def archived(archive):
-    """The records of each channel, day after day."""
-    channels = {}
-    for file in sorted(archive.rglob("*.D.*")):
-        channels.setdefault(file.name.split(".")[3], bytearray()).extend(file.read_bytes())
-    return channels
-
-
-def recoveries(scratch):
-    return [line for line in (scratch / "a351d.log").read_text().splitlines() if "recovery" in line]
-
-
-def compare_recovery(daemon, port, scratch):
-    """Another start replays the last session into the archive, all of whose channels must be as the journal has them."""
-    before = archived(scratch / "data" / "archive")
-    with open(scratch / "a351d.log", "a") as log:
-        third = subprocess.Popen(daemon, cwd=scratch, stderr=log)
-        while len(recoveries(scratch)) < 3 and third.poll() is None:
-            time.sleep(0.05)
-        third.send_signal(signal.SIGTERM)
-        demand("a daemon without its sensor ends cleanly", third.wait(timeout=30) == 0)
-    said = recoveries(scratch)
-    print(*said, sep="\n")
-    demand("recovery finds nothing in the archive that disagrees with the journal",
-           len(said) == 3 and not any("disagree" in line for line in said))
-    demand("after a clean end there is nothing to add", "0 records added" in said[2])
-    demand(f"the archive stays as it is: {sorted(before)}",
-           {"LCE", "LCQ", "LK1"} < set(before) and archived(scratch / "data" / "archive") == before)
-
-
-def round_of(number, scratch):
+def session_of_kills(number, kills, speed):
+    """A third of the kills within half a second: 2 ms are before the page, 20 ms in the replay of the journal."""
     generator = random.Random(number)
-    port = generator.randrange(20000, 40000)
-    (scratch / "a351d.toml").write_text(daemon_config(port))
-    plan = run(BIN / "a351-sim", "plan", "--scenario", "tsukuba", "--seed", number, "--out", scratch)
-    start = dict(part.split("=", 1) for part in plan.stdout.split())["start_utc"]
-    host = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%S.%fZ")
-    clock = f"scaled:{SPEED}@{start},{host}"
-    sim = subprocess.Popen([BIN / "a351-sim", "device", "--link", "sensor", "--scenario", "tsukuba",
-                            "--seed", str(number), "--clock", clock, "--truth", "truth.bin",
-                            "--report", "report.json"], cwd=scratch, stderr=subprocess.DEVNULL)
-    daemon = [BIN / "a351d", "--config", "a351d.toml", "--clock", clock]
-    with open(scratch / "a351d.log", "w") as log:
-        first = subprocess.Popen(daemon, cwd=scratch, stderr=log)
-        session = wait_for_samples(port, 2000)["session"]
-        time.sleep(generator.uniform(0.0, 1.5))
-        last_published = 0
-        stop = threading.Event()
-
-        def watch():
-            nonlocal last_published
-            while not stop.is_set():
-                state = daemon_status(port)
-                if state:
-                    last_published = max(last_published, state.get("journaled") or 0)
-
-        watcher = threading.Thread(target=watch)
-        watcher.start()
-        time.sleep(0.5)
-        killed = time.monotonic()
-        first.send_signal(signal.SIGKILL)
-        first.wait()
-        stop.set()
-        watcher.join()
-        demand("the archive is readable right after the kill",
-               archive_is_whole(scratch / "data" / "archive"))
-        second = subprocess.Popen(daemon, cwd=scratch, stderr=log)
-        wait_for_samples(port, 1)
-        down_s = time.monotonic() - killed
-        wait_for_more(port, session, last_published, 2000)
-        second.send_signal(signal.SIGTERM)
-        demand("the restarted daemon ends cleanly", second.wait(timeout=30) == 0)
-    sim.send_signal(signal.SIGTERM)
-    sim.wait(timeout=30)
-    compare_recovery(daemon, port, scratch)
-
-    report = read_json(scratch / "report.json")
-    print("emulator:", report, "last published journaled:", last_published)
-    runs = report["runs"]
-    is_adopted = len(runs) == 1
-    print("the stream was adopted" if is_adopted else "the sensor was configured anew")
-    demand("the emulator saw one run of sampling, or two", len(runs) in (1, 2))
-    channels = compare_truth(scratch / "data" / "archive", scratch / "truth.bin")
-    for name, counted in channels.items():
-        demand(f"{name}: nothing altered or duplicated",
-               counted["altered"] == counted["duplicated"] == 0)
-        kept = counted["archived"]
-        first_run = counted["first_missing"]
-        if is_adopted:
-            demand(f"{name}: at most one gap", counted["missing_runs"] <= 1)
-        else:
-            demand(f"{name}: one gap, from the last chunk written to the last frame the emulator "
-                   "sent before the restart",
-                   counted["missing_runs"] == 1
-                   and first_run + counted["missing"] == runs[0]["frames"])
-        demand(f"{name}: times within 0.2 s of the truth ({counted['largest_time_error_s']:.3f})",
-               counted["largest_time_error_s"] < 0.2)
-        # Before the kill at most 0.2 s of real time; after it no more than the daemon was away, and
-        # nothing where the terminal held it for the next one.
-        bound = (0.2 + (0.0 if is_adopted else down_s)) * 50 * SPEED
-        demand(f"{name}: {counted['missing']:.0f} missing within the {bound:.0f} of 0.2 s and "
-               f"{down_s:.2f} s of absence", counted["missing"] <= bound)
-        demand(f"{name}: {first_run:.0f} samples of the first run are there, {last_published + 1} "
-               "were published as journaled",
-               counted["missing"] == 0 or first_run >= last_published + 1)
-
-
-for number in range(1, 21 if IS_LONG else 3):
     with Scratch() as scratch:
-        round_of(number, scratch)
+        session = Killed(scratch, speed)
+        for kill in range(kills):
+            is_early = generator.random() < 1 / 3
+            session.kill_after(0.5 * 0.004 ** generator.random() if is_early else generator.uniform(0.5, 4.0))
+            session.start_again()
+        session.wait_for_frames(500)
+        session.end()
+        session.recovery_adds_nothing()
+        parts = session.journal()
+        session.archive_is_journal(parts)
+        for name, counted in session.counted().items():
+            demand(f"{name}: nothing altered or duplicated, times within 0.2 s of the truth",
+                   counted["altered"] == counted["duplicated"] == 0 and counted["largest_time_error_s"] < 0.2)
+        gaps = session.gaps(parts)
+        bound = LOSS_S * RATE_HZ * speed
+        demand(f"no more than {bound:.0f} samples are missing before a kill, in all where the stream was adopted",
+               all((gap.whole if gap.is_adopted else gap.before_kill) <= bound * gap.kills for gap in gaps))
+        phases = collections.Counter(life.phase for life in session.lives)
+        print(f"#{number}, factor {speed}: {kills} kills ({dict(phases)}), "
+              f"{len({part.session for part in parts})} sessions of sampling, {len(gaps)} gaps; "
+              f"largest loss before a kill {max((gap.before_kill for gap in gaps), default=0)} of {bound:.0f} samples, "
+              f"of an adopted stream {max((gap.whole for gap in gaps if gap.is_adopted), default=0)}", flush=True)
+        return phases
+
+
+begin = time.monotonic()
+phases = collections.Counter()
+for number in range(1, 16 if IS_LONG else 3):
+    phases += session_of_kills(number, kills=20 if IS_LONG else 10, speed=20)
+session_of_kills(100, kills=20 if IS_LONG else 5, speed=1)
+print(f"{sum(phases.values())} kills at factor 20: {dict(phases)}; {time.monotonic() - begin:.0f} s")

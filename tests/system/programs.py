@@ -1,6 +1,7 @@
 """What the system tests share: the programs under test, a scratch directory, and small readers."""
 
 import csv
+import http.client
 import json
 import os
 import pathlib
@@ -60,7 +61,7 @@ def daemon_status(port):
     try:
         with urllib.request.urlopen(f"http://127.0.0.1:{port}/api/status", timeout=2) as reply:
             return json.load(reply)
-    except OSError:
+    except (OSError, http.client.HTTPException):  # The latter when it dies in its answer.
         return None
 
 

@@ -1,0 +1,40 @@
+// Prints what a journal holds, in order: a line `SESSION UTC_NS` for every header, by the clock of which it was written,
+// and a line `INDEX COUNT X Y Z TEMPERATURE` for every sample.
+//   journal-samples JOURNAL
+
+#include <iostream>
+
+#include "protocol/record/archiver.hpp"
+#include "protocol/record/journal_reader.hpp"
+
+namespace {
+
+using namespace a351;
+
+class Printer final : public record::ArchiveSink {
+public:
+    void record(const std::string&, const record::PackedRecord&, std::int64_t) override {}
+    void sample(const record::Sample& sample) override {
+        const wire::BurstValues& values = sample.values;
+        std::cout << sample.index << ' ' << values.count << ' ' << values.axes[0] << ' '
+                  << values.axes[1] << ' ' << values.axes[2] << ' ' << values.temperature << '\n';
+    }
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::cerr << "usage: journal-samples JOURNAL\n";
+        return 2;
+    }
+    Printer printer;
+    record::Archiver archiver(printer);
+    record::JournalSequence chunks(record::journal_segments(argv[1]));
+    while (const auto chunk = chunks.next()) {
+        if (const auto* const header = std::get_if<record::JournalHeader>(&*chunk))
+            std::cout << header->session.to_hex() << ' '
+                      << header->clock.realtime.time_since_epoch().count() << '\n';
+        archiver.take(*chunk);
+    }
+}
