@@ -29,6 +29,12 @@ RawTime HostClock::raw() const {
     return RawTime(read_clock(CLOCK_MONOTONIC_RAW));
 }
 
+Nanoseconds HostClock::slept() const {
+    if (scale_) return Nanoseconds(0);
+    const Nanoseconds raw = read_clock(CLOCK_MONOTONIC_RAW);
+    return read_clock(CLOCK_BOOTTIME) - raw;
+}
+
 timing::ClockReading HostClock::read() const {
     timing::ClockReading reading;
     if (scale_) {
@@ -43,13 +49,14 @@ timing::ClockReading HostClock::read() const {
     for (int i = 0; i < kBrackets; ++i) {
         const Nanoseconds before = read_clock(CLOCK_MONOTONIC_RAW);
         const Nanoseconds realtime = read_clock(CLOCK_REALTIME);
+        const Nanoseconds boottime = read_clock(CLOCK_BOOTTIME);
         const Nanoseconds width = read_clock(CLOCK_MONOTONIC_RAW) - before;
         if (width >= narrowest) continue;
         narrowest = width;
         reading.raw = RawTime(before + width / 2);
         reading.realtime = UtcTime(realtime);
+        reading.boottime = boottime;
     }
-    reading.boottime = read_clock(CLOCK_BOOTTIME);
     timex kernel{};
     const int state = adjtimex(&kernel);
     reading.is_synchronised =

@@ -19,7 +19,10 @@ public:
     [[nodiscard]] RawTime raw() const;
     [[nodiscard]] UtcTime now() const;
 
-    /// All clocks; `realtime` belongs to `raw` within half of the narrowest of five brackets.
+    /// Boot time less raw time: grows by what the host sleeps.
+    [[nodiscard]] Nanoseconds slept() const;
+
+    /// All clocks; they belong to `raw` within half of the narrowest of five brackets.
     [[nodiscard]] timing::ClockReading read() const;
 
     /// How long a span of instrument time lasts in reality.

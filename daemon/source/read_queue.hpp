@@ -23,6 +23,7 @@ public:
         rx,       ///< What one read() returned.
         tx,       ///< What was sent.
         session,  ///< What follows belongs to a new session: take_session().
+        woken,    ///< The host slept before what follows.
     };
     struct Item {
         Kind kind = Kind::rx;

@@ -7,6 +7,7 @@
 
 #include "daemon/source/handshake_driver.hpp"
 #include "daemon/source/step_watch.hpp"
+#include "protocol/timing/host_clock_rules.hpp"
 #include "protocol/wire/burst_decoder.hpp"
 #include "protocol/wire/commands.hpp"
 
@@ -287,9 +288,12 @@ SensorLink::End SensorLink::read_stream() {
     auto last_byte = steady_clock::now();
     auto last_frame = last_byte;
     has_frames_ = false;
+    Nanoseconds slept = clock_.slept();
     while (!stop_) {
         const auto count = port_->read(bytes, kStopCheck);
         const RawTime time = clock_.raw();
+        const Nanoseconds slept_before = std::exchange(slept, clock_.slept());
+        if (slept - slept_before > timing::kShortestSleep) push(ReadQueue::Kind::woken, time, {});
         if (!count) return End::gone;
         const auto now = steady_clock::now();
         if (*count > 0) {

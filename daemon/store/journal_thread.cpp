@@ -175,6 +175,10 @@ void JournalThread::write_reads() {
                 write(std::move(tx));
                 break;
             }
+            case ReadQueue::Kind::woken:
+                reads_.pop();
+                if (has_segment_) write_clock();
+                break;
             case ReadQueue::Kind::session: {
                 record::JournalHeader header = reads_.take_session();
                 reads_.pop();
@@ -184,14 +188,17 @@ void JournalThread::write_reads() {
         }
     }
     write_rx();
-    const auto now = time_.now();
-    if (has_segment_ && now - last_clock_real_ >= kShortestClockInterval &&
+    if (has_segment_ && time_.now() - last_clock_real_ >= kShortestClockInterval &&
         clock_.raw() - last_clock_ >= kClockInterval) {
-        const timing::ClockReading reading = clock_.read();
-        last_clock_ = reading.raw;
-        last_clock_real_ = now;
-        write(reading);
+        write_clock();
     }
+}
+
+void JournalThread::write_clock() {
+    const timing::ClockReading reading = clock_.read();
+    last_clock_ = reading.raw;
+    last_clock_real_ = time_.now();
+    write(reading);
 }
 
 void JournalThread::write(record::JournalChunk chunk) {

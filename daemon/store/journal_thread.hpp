@@ -84,6 +84,7 @@ private:
     void go_round(Phase phase) noexcept;
     void work();
     void write_reads();
+    void write_clock();
     [[nodiscard]] std::optional<record::JournalChunk> next_posted();
     void write(record::JournalChunk chunk);
     void retry_unwritten();

@@ -1,21 +1,24 @@
 """Faults of the host, of fault-list.md: its clock is set or slewed while the daemon runs on it (with faketime, where
-that is installed), and its log cannot be written."""
+that is installed), it starts in 1970, it sleeps, and its log cannot be written."""
 
 import datetime
 import os
 import shutil
+import signal
+import struct
 import time
 
-from emulated_session import INTACT, Session
+from emulated_session import INTACT, Session, gaps_of
 from fault_table import FaultTable
 from miniseed_headers import headers
-from programs import BIN, IS_SANITIZED, Scratch, run
+from programs import BIN, IS_SANITIZED, TOOLS, Scratch, run
 
 FAKETIME = shutil.which("faketime")
 SLEW = 500e-6
 BEFORE_S, AFTER_S = 8, 16  # A clock that nobody synchronises is believed a minute after it was set.
 STEP_S = 0.050             # What the mapping to UTC takes for one: host_clock_rules.hpp.
 LARGEST_ERROR_S = 0.0045   # As three_days.py allows a live archive.
+SLEEP_S = 40               # More than the counter's 16.384 s twice.
 SCENARIO = '''base = "indoor"
 name = "now"
 [schedule]
@@ -31,16 +34,33 @@ def scratch_directory():
     return scratches[-1].__enter__()
 
 
+def session_on_host(scratch, library, **environment):
+    now = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
+    (scratch / "now.toml").write_text(SCENARIO.replace("START", now))
+    return Session(scratch, speed=1, scenario="now.toml", start=now, on_host_clock=True,
+                   env={**os.environ, "LD_PRELOAD": str(library), **environment})
+
+
 def session_with_clock(clock):
     """On the host's clock as that file says; raw and boot clocks stay what they are."""
     scratch = scratch_directory()
-    now = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
-    (scratch / "now.toml").write_text(SCENARIO.replace("START", now))
     (scratch / "clock").write_text(clock)
     library = run(FAKETIME, "-m", "-f", "+0", "printenv", "LD_PRELOAD").stdout.strip()
-    return Session(scratch, speed=1, scenario="now.toml", start=now, on_host_clock=True,
-                   env={**os.environ, "LD_PRELOAD": library, "FAKETIME_TIMESTAMP_FILE": str(scratch / "clock"),
-                        "FAKETIME_NO_CACHE": "1", "FAKETIME_DONT_FAKE_MONOTONIC": "1"})
+    return session_on_host(scratch, library, FAKETIME_TIMESTAMP_FILE=str(scratch / "clock"), FAKETIME_NO_CACHE="1",
+                           FAKETIME_DONT_FAKE_MONOTONIC="1")
+
+
+def set_clocks(scratch, slept_s=0.0, ahead_s=0.0, is_synchronised=True, state=0):
+    """Of tests/support/host_clocks.cpp, at one instant for all who read them."""
+    (scratch / "clocks.new").write_bytes(
+        struct.pack("=4q", round(slept_s * 1e9), round(ahead_s * 1e9), is_synchronised, state))
+    (scratch / "clocks.new").rename(scratch / "clocks")
+
+
+def session_on_clocks(**clocks):
+    scratch = scratch_directory()
+    set_clocks(scratch, **clocks)
+    return session_on_host(scratch, TOOLS / "libhost-clocks.so", A351_HOST_CLOCKS=str(scratch / "clocks"))
 
 
 def errors_s(session, root):
@@ -85,6 +105,53 @@ def clocks_set():
                ahead_s > 2 * LARGEST_ERROR_S and spread_s < LARGEST_ERROR_S and values_are_true(slewed))
 
 
+def start_in_1970():
+    return session_on_clocks(ahead_s=-time.time(), is_synchronised=False)
+
+
+def end_in_1970(session):
+    session.wait_for_frames(50 * BEFORE_S)
+    before = session.status()["counters"]["frames"]
+    years = [path.name for path in (session.scratch / "data" / "archive").glob("*")]
+    set_clocks(session.scratch)
+    time.sleep(AFTER_S)
+    session.end()
+    records = headers(sorted((session.scratch / "data" / "archive").rglob("*.BNZ.D.*")))
+    withheld = len(session.truth()) - sum(record.samples for record in records)
+    run(BIN / "a351-correct", "retime", session.scratch / "data", "--out", session.scratch / "re-timed")
+    errors = errors_s(session, session.scratch / "re-timed")
+    largest_s = max((abs(error) for _, error in errors), default=9e9)
+    table.note(27, "host starts in 1970", f"archived then: {years}; {withheld} of "
+               f"{withheld + sum(record.samples for record in records)} samples withheld; re-timed, all are within "
+               f"{1e3 * largest_s:.2f} ms",
+               years == [] and before <= withheld < before + 50 * 4
+               and all(record.start_us > 1e15 for record in records) and largest_s < LARGEST_ERROR_S)
+
+
+def fall_asleep(session):
+    """The raw clock stands still, the sensor does not; what it sends is lost."""
+    session.wait_for_frames(50 * BEFORE_S)
+    session.order(f"silence seconds={SLEEP_S}")
+    session.daemon.send_signal(signal.SIGSTOP)
+    return time.monotonic()
+
+
+def wake(session, since):
+    time.sleep(max(0.0, SLEEP_S - (time.monotonic() - since)))
+    slept_s = time.monotonic() - since
+    set_clocks(session.scratch, slept_s=slept_s)
+    session.daemon.send_signal(signal.SIGCONT)
+    time.sleep(AFTER_S)
+    _, counters = session.end()
+    gaps, missing = gaps_of(session.truth())
+    errors = errors_s(session, session.scratch / "data")
+    largest_s = max((abs(error) for _, error in errors), default=9e9)
+    table.note(28, f"host sleeps for {slept_s:.1f} s", f"{counters['gaps']} gaps of {counters['samples_missing']}, truth "
+               f"{gaps} of {missing}; {len(errors)} records within {1e3 * largest_s:.2f} ms",
+               (counters["gaps"], counters["samples_missing"]) == (gaps, missing) == (1, missing)
+               and counters["sessions"] == 1 and largest_s < LARGEST_ERROR_S)
+
+
 def start_with_lost_logs():
     reader, gone = os.pipe()
     os.close(reader)
@@ -103,6 +170,11 @@ def logs_lost(sessions):
 
 
 without_log = start_with_lost_logs()
+if not IS_SANITIZED:
+    in_1970, sleeper = start_in_1970(), session_on_clocks()
+    asleep_since = fall_asleep(sleeper)
+    end_in_1970(in_1970)
+    wake(sleeper, asleep_since)
 if FAKETIME and not IS_SANITIZED:
     clocks_set()
 else:
