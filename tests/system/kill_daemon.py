@@ -1,8 +1,10 @@
-"""kill -9 at random instants, of start and recovery too: what was published as journaled stays, nothing is altered or doubled.
+"""kill -9 at random instants, of start and recovery too: what was published as journaled stays, nothing is altered.
 
 Every session has one emulator and many lives of the daemon.  At 20x; and a few kills at factor 1, where the bound is
 the real one.  The stream is adopted when the counter tells it: at 20x what the killed daemon had read but not written
 may be more than the second of signal within which that is sure, then the sensor is configured anew.  Either is right.
+
+A kill loses nothing that was handed to the kernel, so the data may lie in memory; a disk that stalls is another test's.
 """
 
 import collections
@@ -109,8 +111,9 @@ class Killed(Session):
         demand(f"all {len(self.published)} indices that were published as journaled are among them",
                len(self.published) > len(self.lives) / 4 and self.published <= held)
 
-    def gaps(self, parts):
-        """What of the truth the journal lacks, between two parts of it."""
+    def gaps(self, parts, late_s):
+        """What of the truth the journal lacks, between two parts of it.  A frame with which the emulator was late had
+        not been sent yet at the kill."""
         rows = [row for row in self.rows() if row[8] == INTACT]
         at, before, gaps = 0, Part(None, 0, []), []
         for part in parts:
@@ -121,48 +124,56 @@ class Killed(Session):
                 if at == len(rows):
                     demand(f"sample {sample} of the journal was sent, after the one before it", False)
                 if at > first:
-                    gaps.append(self.gap(before, part, rows[first:at], rows[at][6]))
+                    gaps.append(self.gap(before, part, rows[first:at], rows[at][6], late_s))
                 before = part
                 at += 1
         demand(f"nothing is missing in the end: {len(rows) - at}", at == len(rows))
         return gaps
 
-    def gap(self, before, after, missing, next_run):
+    def gap(self, before, after, missing, next_run, late_s):
         kills = [life.killed_ns for life in self.lives if before.began_ns < life.killed_ns < after.began_ns]
         if not kills:
             demand(f"samples are missing at a kill, not elsewhere: {len(missing)}", False)
         is_adopted = before.session == after.session
         if not is_adopted and any(row[6] == next_run for row in missing):
             demand("a new session misses nothing of its run", False)
-        return Gap(len(kills), is_adopted, sum(row[0] < kills[0] for row in missing), len(missing))
+        sent_until = kills[0] - 1e9 * self.speed * late_s
+        return Gap(len(kills), is_adopted, sum(row[0] < sent_until for row in missing), len(missing))
 
 
 def session_of_kills(number, kills, speed):
     """A third of the kills within half a second: 2 ms are before the page, 20 ms in the replay of the journal."""
     generator = random.Random(number)
-    with Scratch() as scratch:
+    with Scratch(in_memory=True) as scratch:
         session = Killed(scratch, speed)
         for kill in range(kills):
             is_early = generator.random() < 1 / 3
             session.kill_after(0.5 * 0.004 ** generator.random() if is_early else generator.uniform(0.5, 4.0))
             session.start_again()
         session.wait_for_frames(500)
-        session.end()
+        report, _ = session.end()
+        late_s = report["largest_lateness_real_s"]
         session.recovery_adds_nothing()
         parts = session.journal()
         session.archive_is_journal(parts)
         for name, counted in session.counted().items():
-            demand(f"{name}: nothing altered or duplicated, times within 0.2 s of the truth",
-                   counted["altered"] == counted["duplicated"] == 0 and counted["largest_time_error_s"] < 0.2)
-        gaps = session.gaps(parts)
+            demand(f"{name}: nothing altered or duplicated, times within 0.2 s of the truth, of real time",
+                   counted["altered"] == counted["duplicated"] == 0
+                   and counted["largest_time_error_s"] < (0.2 + late_s) * speed)
+        gaps = session.gaps(parts, late_s)
         bound = LOSS_S * RATE_HZ * speed
-        demand(f"no more than {bound:.0f} samples are missing before a kill, in all where the stream was adopted",
-               all((gap.whole if gap.is_adopted else gap.before_kill) <= bound * gap.kills for gap in gaps))
+        too_large = [gap for gap in gaps if gap.before_kill > bound]
+        demand(f"no more than {bound:.0f} samples are missing before a kill: {too_large}", too_large == [])
+        # A life that is killed before it writes takes with it what the terminal had kept for it.
+        once = [gap for gap in gaps if gap.is_adopted and gap.kills == 1]
+        too_large = [gap for gap in once if gap.whole > bound + late_s * RATE_HZ * speed]
+        demand(f"nor in all, after one kill, where the stream was adopted: {too_large}", too_large == [])
         phases = collections.Counter(life.phase for life in session.lives)
         print(f"#{number}, factor {speed}: {kills} kills ({dict(phases)}), "
               f"{len({part.session for part in parts})} sessions of sampling, {len(gaps)} gaps; "
               f"largest loss before a kill {max((gap.before_kill for gap in gaps), default=0)} of {bound:.0f} samples, "
-              f"of an adopted stream {max((gap.whole for gap in gaps if gap.is_adopted), default=0)}", flush=True)
+              f"in all, of an adopted stream, {max((gap.whole for gap in once), default=0)}; "
+              f"the emulator was late by up to {late_s:.3f} s", flush=True)
         return phases
 
 

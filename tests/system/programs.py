@@ -17,6 +17,7 @@ TOP = pathlib.Path(__file__).resolve().parents[2]
 IS_LONG = os.environ.get("A351_LONG") == "1"
 IS_SANITIZED = bool(os.environ.get("A351_PRESET_SANITIZE"))
 SKIPPED = 77
+MEMORY = pathlib.Path("/dev/shm")
 
 # Ends the scenario of a test: one site, a steady ambient.
 ONE_SITE = """[[site]]
@@ -92,8 +93,13 @@ def demand(claim, is_true):
 class Scratch:
     """A directory that goes when the test succeeded and stays to be looked at when it did not."""
 
+    def __init__(self, in_memory=False):
+        """@param in_memory  where there is room for it: no disk can stall."""
+        has_room = in_memory and MEMORY.is_dir() and shutil.disk_usage(MEMORY).free > 1 << 30
+        self.parent = MEMORY if has_room else None
+
     def __enter__(self):
-        self.path = pathlib.Path(tempfile.mkdtemp(prefix="a351-"))
+        self.path = pathlib.Path(tempfile.mkdtemp(prefix="a351-", dir=self.parent))
         return self.path
 
     def __exit__(self, kind, value, trace):
