@@ -51,6 +51,8 @@ public:
     /// The header of the `session` item at the front.
     [[nodiscard]] record::JournalHeader take_session();
 
+    [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
+
     /// Bytes in use, stamps included.
     [[nodiscard]] std::size_t fill() const noexcept;
 

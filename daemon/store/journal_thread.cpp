@@ -17,6 +17,8 @@ constexpr milliseconds kShortestClockInterval{100};
 // Together with 12 bytes per stamp below the largest chunk.
 constexpr std::size_t kMostBytes = std::size_t{48} << 10;
 constexpr std::size_t kMostReads = 1000;
+// Polls of the oven during some three hours of a bad disk.
+constexpr std::size_t kMostPosted = 10'000;
 
 }  // namespace
 
@@ -71,6 +73,7 @@ bool JournalThread::finish() {
 
 void JournalThread::post(record::JournalChunk chunk) {
     const std::lock_guard lock(mutex_);
+    if (posted_.size() == kMostPosted) posted_.pop_front();
     posted_.push_back(std::move(chunk));
 }
 
@@ -136,6 +139,7 @@ void JournalThread::go_round(Phase phase) noexcept {
 }
 
 void JournalThread::work() {
+    make_room();
     if (may_try_again()) {
         retry_unwritten();
         write_reads();
@@ -143,6 +147,18 @@ void JournalThread::work() {
     }
     carry_out_commits();
     if (is_dirty_ && may_try_again() && time_.now() - last_sync_ >= kSyncInterval) sync();
+}
+
+/// The header of a session stays: it waits to be written in the place of what came before it.
+void JournalThread::make_room() {
+    if (faults_running_ < 2) return;
+    std::uint64_t dropped = 0;
+    for (; reads_.fill() > reads_.capacity() / 8 * 7; ++dropped) {
+        if (reads_.front()->kind == ReadQueue::Kind::session) unwritten_ = reads_.take_session();
+        reads_.pop();
+    }
+    const std::lock_guard lock(mutex_);
+    status_.reads_dropped += dropped;
 }
 
 std::optional<record::JournalChunk> JournalThread::next_posted() {

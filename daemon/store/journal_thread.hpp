@@ -2,7 +2,8 @@
 /// @file
 /// The journal thread: what was read goes to disk within 100 ms and survives a power cut after
 /// one second, both of real time.  It waits for the disk, and for the archive
-/// thread when ChunkQueue is full.  What a full disk refuses costs the reserve first.
+/// thread when ChunkQueue is full.  What a full disk refuses costs the reserve first; of what it
+/// refuses for longer than the queue of reads can hold, the newest is kept.
 
 #include <atomic>
 #include <chrono>
@@ -38,6 +39,7 @@ struct JournalStatus {
     std::uint64_t bytes_written = 0;
     std::uint64_t archive_waits = 0;            ///< Times it had to wait for the archive.
     std::uint64_t events_refused = 0;           ///< That the event log did not take.
+    std::uint64_t reads_dropped = 0;            ///< That the disk refused for too long.
     std::chrono::milliseconds longest_sync{0};  ///< Or write; one under way counts.
     std::chrono::milliseconds present_sync{0};  ///< The one under way; 0: none.
 };
@@ -83,6 +85,7 @@ private:
     void run() noexcept;
     void go_round(Phase phase) noexcept;
     void work();
+    void make_room();
     void write_reads();
     void write_clock();
     [[nodiscard]] std::optional<record::JournalChunk> next_posted();

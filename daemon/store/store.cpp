@@ -129,6 +129,7 @@ void Store::fill(Status& status) {
     status.more_counters["journal_bytes"] = journal.bytes_written;
     status.more_counters["journal_faults"] = journal.faults;
     status.more_counters["events_refused"] = journal.events_refused;
+    status.more_counters["reads_dropped"] = journal.reads_dropped;
     status.more_counters["archive_faults"] = archive.faults;
     status.more_counters["archive_records"] = archive.records;
     status.more_counters["archive_records_waiting"] = archive.records_waiting;
@@ -142,6 +143,11 @@ void Store::fill(Status& status) {
     if (journal.is_faulty) complain(status, Status::Level::fault, "journal: " + journal.trouble);
     if (archive.is_faulty) complain(status, Status::Level::fault, "archive: " + archive.trouble);
 
+    if (journal.reads_dropped > 0) {
+        complain(status, Status::Level::fault,
+                 "journal: the disk refused for longer than memory reaches; reads lost: " +
+                     std::to_string(journal.reads_dropped));
+    }
     if (archive.chunks_lost > 0) {
         complain(status, Status::Level::fault,
                  "archive: chunks that it could not take: " + std::to_string(archive.chunks_lost) +

@@ -96,6 +96,8 @@ struct Rig {
     int fed = 0;
     std::vector<std::byte> bytes;
 
+    explicit Rig(std::size_t queue_bytes = ReadQueue::kCapacity) : reads(queue_bytes) {}
+
     [[nodiscard]] StoreOptions options() const {
         StoreOptions options;
         options.root = root;

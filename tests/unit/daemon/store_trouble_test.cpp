@@ -1,4 +1,5 @@
 #include <fstream>
+#include <set>
 
 #include "tests/unit/daemon/stepped_rig.hpp"
 
@@ -82,6 +83,60 @@ TEST_CASE_METHOD(Rig, "what a full disk refused is kept and written when there i
     CHECK(store.stop());
     CHECK(read_journal(root).bytes == bytes);
     CHECK(archived_counts(root, "BNZ") == expected_counts(300));
+}
+
+struct SmallQueueRig : Rig {
+    SmallQueueRig() : Rig(std::size_t{16} << 10) {}  // some 340 reads
+};
+
+TEST_CASE_METHOD(SmallQueueRig, "of what a disk refuses for too long the newest is kept",
+                 "[daemon][store]") {
+    Store store(files, options(), clock, reads);
+    record_first(store);
+
+    files.does_append_fail = true;
+    for (int i = 0; i < 50; ++i) {
+        feed(20);
+        REQUIRE(eventually([&] { return reads.fill() <= reads.capacity() / 8 * 7; }));
+    }
+    files.does_append_fail = false;
+    REQUIRE(eventually([&] { return status_of(store).journaled == 1099; }));
+    const Status status = status_of(store);
+    CHECK(status.level == Status::Level::fault);
+    CHECK(store.stop());
+
+    const auto archived = archived_counts(root, "BNZ");
+    const auto all = expected_counts(1100);
+    const std::size_t dropped = all.size() - archived.size();
+    CHECK(status.more_counters.at("reads_dropped") == dropped);
+    CHECK(dropped < 850);
+    const auto [before_gap, gap] = std::mismatch(archived.begin(), archived.end(), all.begin());
+    CHECK(before_gap - archived.begin() >= 100);
+    CHECK(std::equal(before_gap, archived.end(), gap + static_cast<std::ptrdiff_t>(dropped)));
+}
+
+TEST_CASE_METHOD(SmallQueueRig, "a session that begins while the disk refuses is kept too",
+                 "[daemon][store]") {
+    Store store(files, options(), clock, reads);
+    record_first(store);
+
+    files.does_append_fail = true;
+    for (int i = 0; i < 50; ++i) {
+        if (i == 20) begin_session(43);
+        feed(20);
+        REQUIRE(eventually([&] { return reads.fill() <= reads.capacity() / 8 * 7; }));
+    }
+    files.does_append_fail = false;
+    REQUIRE(eventually([&] { return reads.fill() == 0; }));
+    CHECK(store.stop());
+    record::JournalSequence chunks(record::journal_segments(root / "journal"));
+    std::set<std::uint8_t> sessions;
+    while (const auto chunk = chunks.next()) {
+        if (const auto* header = std::get_if<record::JournalHeader>(&*chunk))
+            sessions.insert(header->session.bytes[0]);
+    }
+    CHECK(sessions == std::set<std::uint8_t>{42, 43});
+    CHECK(archived_counts(root, "BNZ").back() == expected_counts(1100).back());
 }
 
 TEST_CASE_METHOD(Rig, "after a crash the next start completes the archive", "[daemon][store]") {
