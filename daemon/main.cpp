@@ -69,6 +69,7 @@ record::JournalHeader header_of(const Config& config, const HostClock& clock) {
     header.burst_ctrl = config.sensor.settings.layout.burst_ctrl();
     header.baud = config.sensor.baud;
     header.declared_rate_hz = config.storage.declared_rate_hz;
+    if (config.oven) header.oven_interval = archived_interval(*config.oven, clock);
     return header;
 }
 

@@ -78,6 +78,13 @@ const char* to_text(OvenOutcome outcome) noexcept {
     return "";
 }
 
+std::chrono::seconds archived_interval(const OvenLinkOptions& options, const HostClock& clock) {
+    const auto interval =
+        std::max(options.poll_interval, clock.instrument_span(kShortestRealInterval));
+    return std::clamp(std::chrono::ceil<seconds>(interval), record::kShortestOvenInterval,
+                      record::kLongestOvenInterval);
+}
+
 OvenLink::OvenLink(OvenLinkOptions options, const HostClock& clock, Hook hook)
     : options_(std::move(options)),
       clock_(clock),
@@ -120,8 +127,8 @@ bool OvenLink::is_stale(RawTime now) const {
 }
 
 void OvenLink::run() noexcept {
+    auto due = steady_clock::now();  // One poll's delay is not the next one's.
     while (!stop_) {
-        const auto begun = steady_clock::now();
         bool is_answered = false;
         try {
             is_answered = poll();
@@ -131,13 +138,16 @@ void OvenLink::run() noexcept {
         }
         if (is_answered) {
             failures_in_a_row_ = 0;
-            wait_until(std::max(begun + real_interval_, steady_clock::now() + kPause));
+            due = std::max<steady_clock::time_point>(due + real_interval_,
+                                                     steady_clock::now() + kPause);
+            wait_until(due);
             continue;
         }
         line_.reset();
         const Nanoseconds back_off = kBackOff[std::min(failures_in_a_row_++, kBackOff.size() - 1)];
-        wait_until(steady_clock::now() +
-                   std::max<Nanoseconds>(kShortestRealBackOff, clock_.real_span(back_off)));
+        due = steady_clock::now() +
+              std::max<Nanoseconds>(kShortestRealBackOff, clock_.real_span(back_off));
+        wait_until(due);
     }
     line_.reset();
 }

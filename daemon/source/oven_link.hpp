@@ -31,6 +31,10 @@ struct OvenLinkOptions {
     int decimals = 1;  ///< Of a controller that does not tell, 0 ... 3.
 };
 
+/// Whole seconds of instrument time that no two polls in a row exceed.
+[[nodiscard]] std::chrono::seconds archived_interval(const OvenLinkOptions& options,
+                                                     const HostClock& clock);
+
 struct OvenLinkStatus {
     enum class State {
         searching,  ///< The port is not there or cannot be had.

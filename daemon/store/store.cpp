@@ -89,6 +89,7 @@ void Store::describe(const record::JournalHeader& header) {
     description.serial_number = header.serial_number;
     description.firmware = header.firmware;
     description.declared_rate_hz = header.declared_rate_hz;
+    description.oven_interval = header.oven_interval;
     std::optional<std::string> trouble;
     try {
         trouble = describe_station(files_, options_.root, description);

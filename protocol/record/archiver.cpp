@@ -44,8 +44,7 @@ const wire::DeviceProfile& profile_of(const JournalHeader& header) {
 
 wire::BurstLayout layout_of(const JournalHeader& header) {
     const auto layout = wire::BurstLayout::from_burst_ctrl(header.burst_ctrl);
-    if (!layout || header.baud <= 0 ||
-        !profile_of(header).has_output_rate(header.output_rate_hz)) {
+    if (!layout || header.baud <= 0 || !profile_of(header).has_output_rate(header.output_rate_hz)) {
         throw InputError("journal: impossible settings: burst_ctrl " +
                          std::to_string(header.burst_ctrl) + ", baud " +
                          std::to_string(header.baud) + ", output_rate_hz " +
@@ -178,6 +177,7 @@ private:
         record_header_.location = header.codes.location;
         record_header_.nominal_rate = Hertz(header.output_rate_hz);
         record_header_.declared_rate_hz = header.declared_rate_hz;
+        slow_.use_oven_interval(header.oven_interval);
         observe_clock(header.clock);
     }
 

@@ -45,6 +45,9 @@ struct RepeatedChunks {
     bool operator==(const RepeatedChunks&) const = default;
 };
 
+/// Of the oven's channels in the archive.
+inline constexpr std::chrono::seconds kShortestOvenInterval{1}, kLongestOvenInterval{3600};
+
 /// Heads every segment: a reader needs nothing but the file.
 struct JournalHeader {
     SessionId session;
@@ -64,6 +67,7 @@ struct JournalHeader {
     std::uint16_t burst_ctrl = 0;
     int baud = 0;
     std::optional<double> declared_rate_hz;  ///< For blockette 100; absent until commissioned.
+    std::chrono::seconds oven_interval{1};   ///< From sample to sample of the oven's channels.
     timing::ClockReading clock;
     /// What the first chunks of this segment repeat, because its sync failed there.
     std::optional<RepeatedChunks> repeats;

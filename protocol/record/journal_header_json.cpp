@@ -52,6 +52,9 @@ JournalHeader header_from_json(const Json& json) {
     if (json.contains("declared_rate_hz")) {
         header.declared_rate_hz = json.at("declared_rate_hz").get<double>();
     }
+    header.oven_interval = std::chrono::seconds(json.value("oven_interval_s", 1));
+    if (header.oven_interval < kShortestOvenInterval || header.oven_interval > kLongestOvenInterval)
+        throw std::invalid_argument("oven_interval_s");
     header.clock = clock_from_json(json.at("clock"));
     if (json.contains("repeats")) {
         const Json& repeats = json.at("repeats");
@@ -82,6 +85,8 @@ std::string header_to_json(const JournalHeader& header) {
     if (header.is_device_assumed) json["device_assumed"] = true;
     if (!header.port.empty()) json["port"] = header.port;
     if (header.declared_rate_hz) json["declared_rate_hz"] = *header.declared_rate_hz;
+    if (header.oven_interval != kShortestOvenInterval)
+        json["oven_interval_s"] = header.oven_interval.count();
     json["clock"] = clock_to_json(header.clock);
     if (header.repeats) {
         json["repeats"] = {{"segment", header.repeats->segment},

@@ -156,6 +156,11 @@ bool is_blockette(std::span<const std::byte> bytes, std::size_t at, int type, st
     return get<std::uint16_t>(bytes, at) == type && get<std::uint16_t>(bytes, at + 2) == next;
 }
 
+/// A whole number of Hz, or minus the seconds from sample to sample.
+bool is_rate(int factor, int multiplier) {
+    return factor > 0 ? multiplier == 1 : factor < -1 && multiplier == -1;
+}
+
 /// Whether every field that fixes the record's shape is as pack_record() writes it.  libmseed
 /// follows offsets and counts without checking all of them, so damage has to end here.
 bool is_layout_ours(std::span<const std::byte> bytes) {
@@ -176,8 +181,8 @@ bool is_layout_ours(std::span<const std::byte> bytes) {
            get<std::uint16_t>(bytes, kQualityAt) == ('D' << 8 | ' ') &&
            is_text_of(bytes, kStationAt, kYearAt - kStationAt, is_code_character) &&
            is_start_time(bytes) && sample_count >= 1 && sample_count <= most_samples &&
-           get<std::int16_t>(bytes, kRateFactorAt) > 0 &&
-           get<std::int16_t>(bytes, kRateMultiplierAt) == 1 &&
+           is_rate(get<std::int16_t>(bytes, kRateFactorAt),
+                   get<std::int16_t>(bytes, kRateMultiplierAt)) &&
            get<std::uint8_t>(bytes, kActivityFlagsAt) == 0 &&
            get<std::int32_t>(bytes, kCorrectionAt) == 0 &&
            get<std::uint16_t>(bytes, kDataOffsetAt) == data_at &&
@@ -209,7 +214,8 @@ RecordHeader header_of(std::span<const std::byte> bytes, const MSRecord& record)
     header.channel = record.channel;
     header.sequence = record.sequence_number;
     header.start = UtcTime(std::chrono::microseconds(record.starttime));
-    header.nominal_rate = Hertz(get<std::int16_t>(bytes, kRateFactorAt));
+    const double factor = get<std::int16_t>(bytes, kRateFactorAt);
+    header.nominal_rate = Hertz(factor > 0.0 ? factor : -1.0 / factor);
     if (record.Blkt100) header.declared_rate_hz = get_float(bytes, kBlockette100At + 4);
     const auto io = get<std::uint8_t>(bytes, kClockFlagsAt);
     const auto quality = get<std::uint8_t>(bytes, kQualityFlagsAt);

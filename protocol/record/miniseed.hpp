@@ -22,7 +22,7 @@ struct RecordHeader {
     std::string network, station, location, channel;
     int sequence = 1;                        ///< 1 ... 999999.
     UtcTime start;                           ///< Of the first sample; kept to 1 us.
-    Hertz nominal_rate;                      ///< Whole number of Hz, in the fixed header.
+    Hertz nominal_rate;                      ///< Fixed header: whole, or 1 / whole number.
     std::optional<double> declared_rate_hz;  ///< Blockette 100, as the nearest 32-bit float.
     bool is_clock_locked = false;            ///< I/O and clock flags, bit 5.
     bool starts_series = false;              ///< ... bit 3.

@@ -9,6 +9,9 @@ namespace {
 // more was set.
 constexpr std::chrono::seconds kMostJitter{2};
 
+// Polls wander by milliseconds; rounded to a second that is one second.
+constexpr std::chrono::seconds kMostAside{1};
+
 std::int32_t hundredths(Percent value) {
     return static_cast<std::int32_t>(std::lround(100.0 * value.value()));
 }
@@ -19,28 +22,19 @@ std::int32_t thousandths(DegC value) {
 }  // namespace
 
 void OvenChannels::add(const RecordContext& context, const OvenSample& sample) {
+    std::chrono::sys_seconds second = sample.second;
     if (newest_) {
-        const auto behind = *newest_ - sample.second;
-        const bool is_had = behind.count() == 0 && !unsettled_;
-        if (is_had || (behind.count() > 0 && behind <= kMostJitter)) return;
-        if (behind.count() != 0) store(context);
+        const auto expected = *newest_ + interval_;
+        if (interval_ > kMostAside && std::chrono::abs(second - expected) <= kMostAside)
+            second = expected;
+        if (second < expected && *newest_ - second <= kMostJitter) return;
     }
-    newest_ = sample.second;
-    unsettled_ = sample;
-}
-
-void OvenChannels::settle(const RecordContext& context, std::chrono::sys_seconds second) {
-    if (unsettled_ && unsettled_->second <= second) store(context);
-}
-
-void OvenChannels::store(const RecordContext& context) {
-    if (!unsettled_) return;
-    const auto& [second, values, index] = *unsettled_;
+    newest_ = second;
+    const auto& values = sample.values;
     if (values.process_value)
-        temperature_.add(context, {second, thousandths(*values.process_value), index});
-    set_point_.add(context, {second, thousandths(values.set_point), index});
-    heating_.add(context, {second, hundredths(values.heating), index});
-    unsettled_.reset();
+        temperature_.add(context, {second, thousandths(*values.process_value), sample.index});
+    set_point_.add(context, {second, thousandths(values.set_point), sample.index});
+    heating_.add(context, {second, hundredths(values.heating), sample.index});
 }
 
 void OvenChannels::pass(const RecordContext& context, UtcTime now) {

@@ -10,32 +10,36 @@
 
 namespace a351::record {
 
-/// What the oven's controller answered, at the nearest UTC second.
+/// What the oven's controller answered.
 struct OvenSample {
-    std::chrono::sys_seconds second;
+    std::chrono::sys_seconds second;  ///< Of UTC, the nearest.
     oven::ControllerValues values;
     std::int64_t index = 0;  ///< Of the newest sample of the sensor then.
 };
 
-/// LK2 process value, LK3 set point in 0.001 degC, LYH heating in 0.01 %.  Of two answers in one
-/// second the later one counts, unless the second was settled between them.  A process value that
-/// its status makes unbelievable is missing.
+/// LK2 process value, LK3 set point in 0.001 degC, LYH heating in 0.01 %.  Samples are `interval`
+/// apart; one that comes up to 1 s beside its place, as polls do, stands on it.  Of several answers
+/// within an interval the first one counts; after a pause the next one begins a new row.  A process
+/// value that its status makes unbelievable is missing.
 class OvenChannels {
 public:
-    void add(const RecordContext& context, const OvenSample& sample);
+    explicit OvenChannels(std::chrono::seconds interval)
+        : interval_(interval),
+          temperature_(kOvenTemperature, interval),
+          set_point_(kOvenSetPoint, interval),
+          heating_(kOvenHeating, interval) {}
 
-    /// No more is awaited for this second and those before.
-    void settle(const RecordContext& context, std::chrono::sys_seconds second);
+    [[nodiscard]] std::chrono::seconds interval() const noexcept { return interval_; }
+
+    void add(const RecordContext& context, const OvenSample& sample);
 
     void pass(const RecordContext& context, UtcTime now);
     void close(const RecordContext& context, bool ends_series);
 
 private:
-    void store(const RecordContext& context);
-
+    std::chrono::seconds interval_;
     std::optional<std::chrono::sys_seconds> newest_;
-    std::optional<OvenSample> unsettled_;  ///< Of `newest_`.
-    SecondPacker temperature_{kOvenTemperature}, set_point_{kOvenSetPoint}, heating_{kOvenHeating};
+    SecondPacker temperature_, set_point_, heating_;
 };
 
 }  // namespace a351::record

@@ -9,12 +9,15 @@ using std::chrono::days;
 using std::chrono::floor;
 using std::chrono::seconds;
 
-SecondPacker::SecondPacker(std::string_view code) : code_(code) {
-    counts_.reserve(static_cast<std::size_t>(kMostRecordAge.count()) + 1);
+SecondPacker::SecondPacker(std::string_view code, seconds interval)
+    : code_(code),
+      interval_(interval),
+      most_age_(std::min<seconds>(kMostRecordAge.count() * interval, std::chrono::hours(1))) {
+    counts_.reserve(static_cast<std::size_t>(most_age_ / interval_) + 1);
 }
 
 void SecondPacker::add(const RecordContext& context, const SecondSample& sample) {
-    const auto next = first_ + seconds(counts_.size());
+    const auto next = first_ + interval_ * counts_.size();
     const bool is_next_day = floor<days>(sample.second) != floor<days>(first_);
     if (sample.second != next || is_next_day) close(context, false);
     if (counts_.empty()) {
@@ -27,7 +30,7 @@ void SecondPacker::add(const RecordContext& context, const SecondSample& sample)
 }
 
 void SecondPacker::pass(const RecordContext& context, UtcTime now) {
-    if (!counts_.empty() && now - first_ >= kMostRecordAge) close(context, false);
+    if (!counts_.empty() && now - first_ >= most_age_) close(context, false);
 }
 
 void SecondPacker::close(const RecordContext& context, bool ends_series) {
@@ -37,7 +40,7 @@ void SecondPacker::close(const RecordContext& context, bool ends_series) {
 void SecondPacker::pack_one(const RecordContext& context, bool ends_series) {
     RecordHeader header = context.header;
     header.channel = code_;
-    header.nominal_rate = Hertz(1.0);
+    header.nominal_rate = Hertz(1.0 / static_cast<double>(interval_.count()));
     header.declared_rate_hz.reset();
     header.start = first_;
     set_timing(header, *context.clock.time_of(first_index_));
@@ -53,7 +56,7 @@ void SecondPacker::pack_one(const RecordContext& context, bool ends_series) {
     has_started_ = true;
     counts_.erase(counts_.begin(),
                   counts_.begin() + static_cast<std::ptrdiff_t>(packed.sample_count));
-    first_ += seconds(packed.sample_count);
+    first_ += interval_ * packed.sample_count;
 }
 
 }  // namespace a351::record

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The samples of one 1 Hz channel that are not in a record yet, and where its records end.
+/// The samples of one slow channel that are not in a record yet, and where its records end.
 
 #include <chrono>
 #include <cstdint>
@@ -18,11 +18,13 @@ struct SecondSample {
     std::int64_t index = 0;  ///< Of the sensor's sample it was known with.
 };
 
-/// A record ends before a second that is missing or goes back, at UTC midnight and when its first
-/// sample is 60 s old.  The nominal rate is the true one: no blockette 100.
+/// A record ends before a sample that is missing or goes back, at UTC midnight and when its first
+/// sample is old: 60 s, or 60 samples but not more than an hour.  The nominal rate is the true one:
+/// no blockette 100.
 class SecondPacker {
 public:
-    explicit SecondPacker(std::string_view code);
+    explicit SecondPacker(std::string_view code,
+                          std::chrono::seconds interval = std::chrono::seconds(1));
 
     void add(const RecordContext& context, const SecondSample& sample);
 
@@ -36,6 +38,7 @@ private:
     void pack_one(const RecordContext& context, bool ends_series);
 
     std::string code_;
+    std::chrono::seconds interval_, most_age_;
     std::vector<std::int32_t> counts_;
     std::chrono::sys_seconds first_;
     std::int64_t first_index_ = 0, last_index_ = 0;

@@ -38,7 +38,13 @@ void SlowChannels::begin_run(std::string reference, bool has_temperature) {
     sensor_temperature_ = SecondPacker(kSensorTemperature);
     timing_quality_ = SecondPacker(kTimingQuality);
     clock_error_ = SecondPacker(kClockError);
-    oven_ = OvenChannels();
+    oven_ = OvenChannels(oven_.interval());
+}
+
+void SlowChannels::use_oven_interval(std::chrono::seconds interval) {
+    if (interval == oven_.interval()) return;
+    oven_.close(context_, true);
+    oven_ = OvenChannels(interval);
 }
 
 void SlowChannels::add(std::int64_t index, std::int32_t temperature_counts) {
@@ -91,7 +97,6 @@ void SlowChannels::look(std::int64_t index, bool is_entered) {
 }
 
 void SlowChannels::finish(const Second& second) {
-    oven_.settle(context_, second.begin);
     const auto time = *context_.clock.time_of(second.last_index);
     timing_quality_.add(
         context_, {second.begin, timing_quality_percent(time.uncertainty), second.last_index});

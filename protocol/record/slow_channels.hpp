@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The derived channels of 1 Hz: means and states at whole UTC seconds, from the samples and what
+/// The derived channels: means and states at whole UTC seconds, from the samples and what
 /// is known of their times.  A pure function of the journal, as are the samples.
 
 #include <chrono>
@@ -23,7 +23,7 @@ namespace a351::record {
 ///     LCQ  timing quality of the last sample of that second, as known when it was over
 ///     LCE  time of a sample minus what start and rate of its record say, in us; the last sample at
 ///          or before s, the records those of the first channel of the layout
-///     LK2, LK3, LYH  the oven's answer nearest to s: OvenChannels
+///     LK2, LK3, LYH  the oven's answer nearest to s, at the oven's interval: OvenChannels
 ///
 /// LK1 and LCQ have a second when its samples were met from the one before to the one after, by the
 /// clock's fixed times: not the first and the last of a run, nor one in which the times jump.  So a
@@ -35,6 +35,9 @@ public:
 
     /// Indices begin at 0.  @param reference  channel whose records LCE is told of.
     void begin_run(std::string reference, bool has_temperature);
+
+    /// From sample to sample of the oven's channels, from now on.
+    void use_oven_interval(std::chrono::seconds interval);
 
     void add(std::int64_t index, std::int32_t temperature_counts);
 
@@ -87,7 +90,7 @@ private:
     std::vector<WaitingPoll> waiting_polls_;
     std::optional<Second> second_;
     SecondPacker sensor_temperature_, timing_quality_, clock_error_;
-    OvenChannels oven_;
+    OvenChannels oven_{kShortestOvenInterval};
 };
 
 }  // namespace a351::record

@@ -23,8 +23,8 @@ constexpr const char* kAcceleration = "m/s**2";
 constexpr const char* kTemperature = "degC";
 /// The sensitivity is stated at this frequency; the response is flat up to the filter's edge.
 constexpr double kReferenceFrequency_hz = 1.0;
-/// That of a channel of 1 Hz must lie below 0.5 Hz.
-constexpr double kSlowReferenceFrequency_hz = 0.1;
+/// That of a slow channel must lie below half its rate.
+constexpr double kSlowRatePerReferenceFrequency = 10.0;
 
 std::string to_text(double value) {
     std::array<char, 32> buffer{};
@@ -160,7 +160,7 @@ pugi::xml_node add_sampled_channel(pugi::xml_node station, const StationDescript
     return channel;
 }
 
-/// A derived channel of 1 Hz.
+/// A derived channel.
 struct SlowChannel {
     std::string_view code;
     const char* content;
@@ -184,9 +184,12 @@ void add_slow_channel(pugi::xml_node station, const StationDescription& descript
                       const SlowChannel& slow) {
     auto channel = add_channel(station, description, slow.code);
     add_comment(channel, slow.content);
-    add_place(channel, description, Orientation{}, 1.0);
+    const double rate_hz =
+        slow.is_of_oven ? 1.0 / static_cast<double>(description.oven_interval.count()) : 1.0;
+    add_place(channel, description, Orientation{}, rate_hz);
     if (slow.is_of_sensor) add_sensor(channel, description);
-    add_gain_response(channel, slow.counts_per_unit, slow.unit, kSlowReferenceFrequency_hz);
+    add_gain_response(channel, slow.counts_per_unit, slow.unit,
+                      rate_hz / kSlowRatePerReferenceFrequency);
 }
 
 }  // namespace

@@ -28,7 +28,8 @@ struct StationDescription {
     std::string filter;
     Nanoseconds group_delay{0};
     std::optional<double> declared_rate_hz;
-    bool has_oven = false;  ///< Its channels are in the archive.
+    bool has_oven = false;                  ///< Its channels are in the archive.
+    std::chrono::seconds oven_interval{1};  ///< From sample to sample of them.
 };
 
 /// With all channels beginning their first epoch at `start`.

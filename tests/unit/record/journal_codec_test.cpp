@@ -78,6 +78,11 @@ TEST_CASE("a header comes back field by field", "[record][journal]") {
     CHECK(read->clock == header.clock);
     auto uncommissioned = header;
     uncommissioned.declared_rate_hz.reset();
+    uncommissioned.oven_interval = std::chrono::seconds(10);
+    CHECK(parse_header(header_to_json(uncommissioned))->oven_interval == std::chrono::seconds(10));
+    uncommissioned.oven_interval = std::chrono::seconds(0);  // No archive can be made of it.
+    CHECK_FALSE(parse_header(header_to_json(uncommissioned)));
+    uncommissioned.oven_interval = std::chrono::seconds(1);
     CHECK_FALSE(parse_header(header_to_json(uncommissioned))->declared_rate_hz);
     const auto as_asked = parse_header(header_to_json(test::journal_header()));
     CHECK_FALSE(as_asked->is_device_assumed);

@@ -61,6 +61,19 @@ TEST_CASE("an oven adds its channels", "[record][station_xml]") {
     CHECK(metadata.channels[7].unit == "%");
 }
 
+TEST_CASE("the oven's channels have the rate of their samples", "[record][station_xml]") {
+    auto station = description();
+    station.has_oven = true;
+    CHECK_THAT(to_station_xml(station), !Catch::Contains("<SampleRate>0.1<"));
+    station.oven_interval = std::chrono::seconds(10);
+    const auto text = to_station_xml(station);
+    std::size_t seen = 0;
+    for (auto at = text.find("<SampleRate>0.1<"); at != std::string::npos; ++seen)
+        at = text.find("<SampleRate>0.1<", at + 1);
+    CHECK(seen == 3);
+    CHECK_THAT(text, Catch::Contains("<Frequency>0.01<"));  // below half the rate
+}
+
 TEST_CASE("the clock's drift is that of the declared rate", "[record][station_xml]") {
     CHECK_THAT(to_station_xml(description()), !Catch::Contains("ClockDrift"));
     auto station = description();
