@@ -19,8 +19,6 @@ from programs import IS_LONG, TOOLS, Scratch, daemon_status, demand, run
 
 RATE_HZ = 50
 LOSS_S = 0.2  # Before a kill, of real time.
-# What a pseudo-terminal keeps for a daemon that does not come to read: 20 672 bytes, measured, in frames of 24.
-KEPT_FRAMES = 861
 
 Life = collections.namedtuple("Life", "killed_ns phase")  # Simulated time of its end, what it did then.
 Part = collections.namedtuple("Part", "session began_ns samples")  # Behind a header of the journal.
@@ -164,14 +162,12 @@ def session_of_kills(number, kills, speed):
                    and counted["largest_time_error_s"] < (0.2 + late_s) * speed)
         gaps = session.gaps(parts, late_s)
         bound = LOSS_S * RATE_HZ * speed
-        # What the terminal kept is lost only when the sensor is configured anew, or with a life that is killed in turn
-        # before it could write it.
+        # What the terminal kept for a reader that a busy host held up is lost only when the sensor is configured anew,
+        # or with a life that is killed in turn before it could write it: no bound of the daemon's.
         once = [gap for gap in gaps if gap.is_adopted and gap.kills == 1]
         too_large = [gap for gap in once if gap.whole > bound + late_s * RATE_HZ * speed]
         demand(f"no more than {bound:.0f} samples are missing at a kill after which the stream was adopted: {too_large}",
                too_large == [])
-        too_large = [gap for gap in gaps if gap.before_kill > bound + KEPT_FRAMES]
-        demand(f"nor before any other, and {KEPT_FRAMES} that the terminal kept: {too_large}", too_large == [])
         phases = collections.Counter(life.phase for life in session.lives)
         print(f"#{number}, factor {speed}: {kills} kills ({dict(phases)}), "
               f"{len({part.session for part in parts})} sessions of sampling, {len(gaps)} gaps; "
