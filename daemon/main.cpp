@@ -93,7 +93,9 @@ Status snapshot(const Config& config, const HostClock& clock, const SensorLink& 
                 const std::optional<OvenLink>& oven, Store& store) {
     Status status;
     status.version = A351_VERSION;
-    status.now = clock.now();
+    const timing::ClockReading reading = clock.read();
+    status.now = reading.realtime;
+    status.leap = reading.leap;
     status.profile = config.sensor.profile->name;
     status.is_profile_verified = config.sensor.profile->is_verified;
     status.filter = config.sensor.filter;

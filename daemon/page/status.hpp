@@ -44,6 +44,7 @@ struct Status {
 
     timing::TimingState timing_state = timing::TimingState::unlocked;
     Nanoseconds timing_uncertainty{0};
+    timing::LeapSecond leap = timing::LeapSecond::none;  ///< Announced by the host.
     std::optional<timing::MeasuredRate> measured_rate;
     std::optional<double> declared_rate_hz;  ///< Of the configuration.
     std::string rate_advice;                 ///< What to do about the declared one; or empty.

@@ -61,6 +61,8 @@ timing::ClockReading HostClock::read() const {
     const int state = adjtimex(&kernel);
     reading.is_synchronised =
         state >= 0 && state != TIME_ERROR && (kernel.status & STA_UNSYNC) == 0;
+    if (state == TIME_INS) reading.leap = timing::LeapSecond::inserted;
+    if (state == TIME_DEL) reading.leap = timing::LeapSecond::removed;
     reading.max_error_us = kernel.maxerror;
     reading.estimated_error_us = kernel.esterror;
     return reading;

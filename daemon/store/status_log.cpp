@@ -37,6 +37,10 @@ void StatusLog::note(const Status& status, Instant now) {
     if (rate_advice_.empty() && !status.rate_advice.empty())
         log_->info("rate: {}", status.rate_advice);
     rate_advice_ = status.rate_advice;
+    if (status.leap != leap_ && status.leap != timing::LeapSecond::none)
+        log_->info("clock: a leap second is {} at the end of this UTC day",
+                   status.leap == timing::LeapSecond::inserted ? "inserted" : "removed");
+    leap_ = status.leap;
     note_reasons(status, now);
     note_counter("gaps", status.counters.gaps, now);
     note_counter("checksum errors", status.counters.checksum_errors, now);

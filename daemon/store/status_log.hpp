@@ -43,6 +43,7 @@ private:
     std::string oven_state_;
     std::string reserve_;
     std::string rate_advice_;
+    timing::LeapSecond leap_ = timing::LeapSecond::none;
     std::map<std::string, Trouble> troubles_;
     std::map<std::string, Counter> counters_;
 };

@@ -119,7 +119,9 @@ struct PayloadWriter {
         put<std::int64_t>(out, clock.raw.time_since_epoch().count());
         put<std::int64_t>(out, clock.boottime.count());
         put<std::int64_t>(out, clock.realtime.time_since_epoch().count());
-        put<std::uint8_t>(out, clock.is_synchronised ? 1 : 0);
+        const auto leap = static_cast<unsigned>(clock.leap);
+        put<std::uint8_t>(
+            out, static_cast<std::uint8_t>((clock.is_synchronised ? 1U : 0U) | leap << 1U));
         put<std::int64_t>(out, clock.max_error_us);
         put<std::int64_t>(out, clock.estimated_error_us);
         return ChunkType::clock;
@@ -192,11 +194,12 @@ std::optional<JournalChunk> decode_clock(Fields fields) {
     clock.raw = RawTime(fields.take_nanoseconds());
     clock.boottime = fields.take_nanoseconds();
     clock.realtime = UtcTime(fields.take_nanoseconds());
-    const auto synchronised = fields.take<std::uint8_t>();
-    clock.is_synchronised = synchronised == 1;
+    const auto state = fields.take<std::uint8_t>();
+    clock.is_synchronised = (state & 1U) != 0;
+    clock.leap = static_cast<timing::LeapSecond>(state >> 1U);
     clock.max_error_us = fields.take<std::int64_t>();
     clock.estimated_error_us = fields.take<std::int64_t>();
-    if (!fields.is_used_up() || synchronised > 1) return std::nullopt;
+    if (!fields.is_used_up() || clock.leap > timing::LeapSecond::removed) return std::nullopt;
     return clock;
 }
 

@@ -9,12 +9,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json clock_to_json(const timing::ClockReading& clock) {
-    return {{"raw_ns", clock.raw.time_since_epoch().count()},
-            {"boottime_ns", clock.boottime.count()},
-            {"realtime_ns", clock.realtime.time_since_epoch().count()},
-            {"synchronised", clock.is_synchronised},
-            {"max_error_us", clock.max_error_us},
-            {"estimated_error_us", clock.estimated_error_us}};
+    Json json = {{"raw_ns", clock.raw.time_since_epoch().count()},
+                 {"boottime_ns", clock.boottime.count()},
+                 {"realtime_ns", clock.realtime.time_since_epoch().count()},
+                 {"synchronised", clock.is_synchronised},
+                 {"max_error_us", clock.max_error_us},
+                 {"estimated_error_us", clock.estimated_error_us}};
+    if (clock.leap != timing::LeapSecond::none) json["leap"] = static_cast<int>(clock.leap);
+    return json;
 }
 
 timing::ClockReading clock_from_json(const Json& json) {
@@ -25,6 +27,9 @@ timing::ClockReading clock_from_json(const Json& json) {
     clock.is_synchronised = json.at("synchronised").get<bool>();
     clock.max_error_us = json.at("max_error_us").get<std::int64_t>();
     clock.estimated_error_us = json.at("estimated_error_us").get<std::int64_t>();
+    const int leap = json.value("leap", 0);
+    if (leap < 0 || leap > 2) throw std::invalid_argument("leap");
+    clock.leap = static_cast<timing::LeapSecond>(leap);
     return clock;
 }
 

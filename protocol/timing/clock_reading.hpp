@@ -6,6 +6,9 @@
 
 namespace a351::timing {
 
+/// What the kernel will do at the end of the UTC day.
+enum class LeapSecond : std::uint8_t { none = 0, inserted = 1, removed = 2 };
+
 /// The host's clocks read together, and what the kernel says of its synchronisation.
 struct ClockReading {
     RawTime raw;                          ///< CLOCK_MONOTONIC_RAW.
@@ -14,6 +17,7 @@ struct ClockReading {
     bool is_synchronised = false;         ///< adjtimex: neither TIME_ERROR nor STA_UNSYNC.
     std::int64_t max_error_us = 0;        ///< adjtimex maxerror.
     std::int64_t estimated_error_us = 0;  ///< adjtimex esterror.
+    LeapSecond leap = LeapSecond::none;   ///< adjtimex: TIME_INS, TIME_DEL.
 
     bool operator==(const ClockReading&) const = default;
 };

@@ -48,6 +48,9 @@ RawTime UtcHistory::awake(RawTime raw) const {
 void UtcHistory::observe(const ClockReading& reading) {
     if (last_ && reading.raw <= last_->raw) return;
     notice_sleep(reading);
+    const UtcTime midnight = std::chrono::ceil<std::chrono::days>(reading.realtime);
+    if (reading.leap != LeapSecond::none && (leaps_.empty() || leaps_.back() != midnight))
+        leaps_.push_back(midnight);
     if (is_synchronised_ && !reading.is_synchronised) return;
     if (reading.is_synchronised && !is_synchronised_) {
         pairs_.clear();
@@ -104,6 +107,14 @@ UtcHistory::Point UtcHistory::beyond(Pairs::const_iterator pair, RawTime awake,
 }
 
 UtcHistory::Point UtcHistory::at(RawTime raw) const {
+    Point point = between(raw);
+    for (const UtcTime leap : leaps_)
+        if (abs(point.utc - leap) <= kLeapDoubt)
+            point.error = std::max(point.error, kUnknownClockError);
+    return point;
+}
+
+UtcHistory::Point UtcHistory::between(RawTime raw) const {
     const RawTime awake = this->awake(raw);
     const std::size_t sleeps = sleeps_before(raw);
     const auto after = std::upper_bound(pairs_.begin(), pairs_.end(), awake,

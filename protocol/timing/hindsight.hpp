@@ -21,6 +21,8 @@ namespace a351::timing {
 /// the time between are a step; the jump is put at the later one.  A clock that was set and set back
 /// within a minute was not set.
 ///
+/// Within 2 minutes of an announced leap second the error is 1 s at least.
+///
 /// What the host slept, by boottime, is added to its raw clock; a time that a sleep parts from the
 /// reading it rests on is good to 1 s.
 class UtcHistory {
@@ -57,10 +59,12 @@ private:
     [[nodiscard]] std::size_t sleeps_before(RawTime raw) const;
     [[nodiscard]] RawTime awake(RawTime raw) const;
     void join(Pair& pair);
+    [[nodiscard]] Point between(RawTime raw) const;
     [[nodiscard]] Point beyond(Pairs::const_iterator pair, RawTime awake, std::size_t sleeps) const;
 
     bool is_synchronised_ = false;
     std::optional<ClockReading> last_;
+    std::vector<UtcTime> leaps_;  ///< Midnights announced.
     std::vector<Sleep> sleeps_;
     Pairs pairs_;
 };

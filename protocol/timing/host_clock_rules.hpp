@@ -15,6 +15,10 @@ inline constexpr Nanoseconds kShortestSleep = std::chrono::milliseconds(100);
 /// A clock that departs by more, beyond what slewing explains, was set.
 inline constexpr Nanoseconds kClockStep = std::chrono::milliseconds(50);
 
+/// Around the midnight of an announced leap second times may be a second off: in its minute, and in
+/// records, of up to a minute, that reach into it.
+inline constexpr Nanoseconds kLeapDoubt = std::chrono::minutes(2);
+
 /// Of a clock that was never synchronised, or that only a battery clock carried through a sleep.
 inline constexpr Nanoseconds kUnknownClockError = std::chrono::seconds(1);
 

@@ -26,6 +26,8 @@ std::optional<Nanoseconds> UtcMapping::observe(const ClockReading& reading) {
     const Nanoseconds offset = reading.realtime.time_since_epoch() - reading.raw.time_since_epoch();
     const bool slept = std::exchange(has_slept_, false);
     if (slept) awake_since_ = reading.raw;
+    if (reading.leap != LeapSecond::none)
+        leap_at_ = std::chrono::ceil<std::chrono::days>(reading.realtime);
     if (!last_) {
         follow(reading, offset);
         return std::nullopt;
@@ -38,6 +40,11 @@ std::optional<Nanoseconds> UtcMapping::observe(const ClockReading& reading) {
         doubted_.reset();
         follow(reading, offset);
         return std::nullopt;
+    }
+    if (!doubted_ && !slept && is_leap(reading, departure)) {
+        recent_.clear();
+        follow(reading, offset);
+        return departure;
     }
     if (!doubted_ || abs(offset - doubted_->offset) > kClockStep) doubted_ = {reading.raw, offset};
     doubted_->offset = offset;
@@ -52,6 +59,14 @@ std::optional<Nanoseconds> UtcMapping::observe(const ClockReading& reading) {
     recent_.clear();
     follow(reading, offset);
     return departure;
+}
+
+/// Announced by the last reading: this one comes after it.
+bool UtcMapping::is_leap(const ClockReading& reading, Nanoseconds departure) const noexcept {
+    if (last_->leap == LeapSecond::none || abs(reading.realtime - *leap_at_) > kLeapDoubt)
+        return false;
+    const Nanoseconds step = seconds(last_->leap == LeapSecond::inserted ? -1 : 1);
+    return abs(departure - step) <= kClockStep;
 }
 
 void UtcMapping::follow(const ClockReading& reading, Nanoseconds offset) {
@@ -99,7 +114,8 @@ Nanoseconds UtcMapping::error_at(RawTime raw) const {
                from_seconds(std::abs(slope()) * std::chrono::duration<double>(carried).count());
     };
     if (!last_synchronised_ || is_just_awake(last_->raw)) return error(*last_, kUnknownClockError);
-    return error(*last_synchronised_, Nanoseconds(0));
+    const bool is_near_leap = leap_at_ && abs(at(raw) - *leap_at_) <= kLeapDoubt;
+    return error(*last_synchronised_, is_near_leap ? kUnknownClockError : Nanoseconds(0));
 }
 
 }  // namespace a351::timing

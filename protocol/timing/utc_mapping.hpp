@@ -20,6 +20,9 @@ namespace a351::timing {
 /// the 60 s, and is followed at once when it is synchronised for the first time, unless it woke up
 /// within the last minute.
 ///
+/// The second that the host's clock is set back or ahead by at the end of a day for which the kernel
+/// announced it is no doubt: it is followed at once.  Within 2 minutes of it the error is 1 s at least.
+///
 /// Error: the kernel's maximum error.  Held, or without synchronisation: that of the last
 /// synchronised reading + 100 ppm of the time since (a host's crystal) + the rate that is carried on
 /// since the last reading that was followed.  Never synchronised, or awake for less than a minute
@@ -54,12 +57,14 @@ private:
     [[nodiscard]] double slope() const;
     [[nodiscard]] Nanoseconds offset_at(RawTime raw) const;
     [[nodiscard]] bool is_just_awake(RawTime raw) const noexcept;
+    [[nodiscard]] bool is_leap(const ClockReading& reading, Nanoseconds departure) const noexcept;
     void follow(const ClockReading& reading, Nanoseconds offset);
 
     std::deque<Pair> recent_;  ///< The last 3 s, and one before.
     std::optional<Doubted> doubted_;
     bool has_slept_ = false;
     std::optional<RawTime> awake_since_;
+    std::optional<UtcTime> leap_at_;                 ///< The midnight last announced.
     std::optional<ClockReading> last_;               ///< Followed.
     std::optional<ClockReading> last_synchronised_;  ///< Followed.
 };

@@ -1,5 +1,5 @@
 """Faults of the host, of fault-list.md: its clock is set or slewed while the daemon runs on it (with faketime, where
-that is installed), it starts in 1970, it sleeps, and its log cannot be written."""
+that is installed), it starts in 1970, it sleeps, it inserts a leap second, and its log cannot be written."""
 
 import datetime
 import os
@@ -19,6 +19,8 @@ BEFORE_S, AFTER_S = 8, 16  # A clock that nobody synchronises is believed a minu
 STEP_S = 0.050             # What the mapping to UTC takes for one: host_clock_rules.hpp.
 LARGEST_ERROR_S = 0.0045   # As three_days.py allows a live archive.
 SLEEP_S = 40               # More than the counter's 16.384 s twice.
+LEAP_AFTER_S = 30
+TIME_INS, TIME_WAIT = 1, 4  # What adjtimex returns before and after it: <sys/timex.h>.
 SCENARIO = '''base = "indoor"
 name = "now"
 [schedule]
@@ -152,6 +154,28 @@ def wake(session, since):
                and counters["sessions"] == 1 and largest_s < LARGEST_ERROR_S)
 
 
+def start_before_leap_second():
+    """@return the session, how far its host is ahead, when it will be midnight there."""
+    midnight = (time.time() // 86400 + 1) * 86400
+    ahead_s = midnight - LEAP_AFTER_S - time.time()
+    return session_on_clocks(ahead_s=ahead_s, state=TIME_INS), ahead_s, midnight - ahead_s
+
+
+def end_after_leap_second(session, ahead_s, midnight):
+    time.sleep(max(0.0, midnight - time.time()))
+    set_clocks(session.scratch, ahead_s=ahead_s - 1.0, state=TIME_WAIT)
+    time.sleep(AFTER_S)
+    session.end()
+    records = headers(sorted((session.scratch / "data" / "archive").rglob("*.BNZ.D.*")))
+    errors = [error - ahead_s for _, error in errors_s(session, session.scratch / "data")] or [9e9]
+    is_said = "a leap second is inserted" in (session.scratch / "a351d.log").read_text()
+    table.note(29, "leap second inserted", f"{'announced' if is_said else 'nothing'} in the log; the first record is at "
+               f"{errors[0]:+.4f} s of the old time, the last at {errors[-1]:+.4f} s; "
+               f"{sum(record.is_time_questionable for record in records)} of {len(records)} are questionable",
+               is_said and abs(errors[0]) < LARGEST_ERROR_S and abs(errors[-1] + 1.0) < LARGEST_ERROR_S
+               and all(record.is_time_questionable for record in records) and values_are_true(session))
+
+
 def start_with_lost_logs():
     reader, gone = os.pipe()
     os.close(reader)
@@ -171,9 +195,10 @@ def logs_lost(sessions):
 
 without_log = start_with_lost_logs()
 if not IS_SANITIZED:
-    in_1970, sleeper = start_in_1970(), session_on_clocks()
+    in_1970, sleeper, before_leap = start_in_1970(), session_on_clocks(), start_before_leap_second()
     asleep_since = fall_asleep(sleeper)
     end_in_1970(in_1970)
+    end_after_leap_second(*before_leap)
     wake(sleeper, asleep_since)
 if FAKETIME and not IS_SANITIZED:
     clocks_set()

@@ -124,6 +124,19 @@ TEST_CASE("stamps of reads keep their order and their nanoseconds", "[record][jo
     CHECK(std::get<RxChunk>(*decoded).reads == rx.reads);
 }
 
+TEST_CASE("an announced leap second survives in readings and headers", "[record][journal]") {
+    using timing::LeapSecond;
+    for (const LeapSecond leap : {LeapSecond::none, LeapSecond::inserted, LeapSecond::removed}) {
+        auto header = test::journal_header();
+        header.clock.leap = leap;
+        CHECK(parse_header(header_to_json(header))->clock == header.clock);
+        const auto bytes = encode_chunk(header.clock, 1);
+        const auto decoded = decode_payload(ChunkType::clock, payload_of(bytes));
+        REQUIRE(decoded);
+        CHECK(std::get<timing::ClockReading>(*decoded) == header.clock);
+    }
+}
+
 TEST_CASE("a payload cut or lengthened anywhere is refused or has its shape", "[record][journal]") {
     for (const auto& chunk : test::one_of_each()) {
         const auto bytes = encode_chunk(chunk, 0);

@@ -1,6 +1,7 @@
 #include "protocol/timing/utc_mapping.hpp"
 
 #include <catch2/catch.hpp>
+#include <utility>
 
 using namespace a351;
 using namespace a351::timing;
@@ -18,6 +19,7 @@ struct Host {
     double slew_ppm = 0.0;
     bool is_synchronised = true;
     std::int64_t max_error_us = 1000;
+    LeapSecond leap = LeapSecond::none;
     std::optional<Nanoseconds> followed;
 
     [[nodiscard]] RawTime raw() const { return RawTime(500s + now); }
@@ -28,7 +30,7 @@ struct Host {
             now += 1s;
             offset_s += 1e-6 * slew_ppm;
             const auto step = mapping.observe(
-                {raw(), raw().time_since_epoch(), clock(), is_synchronised, max_error_us, 0});
+                {raw(), raw().time_since_epoch(), clock(), is_synchronised, max_error_us, 0, leap});
             if (step) followed = step;
         }
     }
@@ -159,4 +161,38 @@ TEST_CASE("a step within a minute of waking up is doubted", "[timing][utc_mappin
     CHECK_FALSE(host.followed);
     host.run(20);
     CHECK(host.followed);
+}
+
+TEST_CASE("an announced leap second is followed at once, and is doubtful for minutes",
+          "[timing][utc_mapping]") {
+    for (const auto& [leap, step_s] :
+         {std::pair(LeapSecond::inserted, -1.0), std::pair(LeapSecond::removed, 1.0)}) {
+        Host host;
+        host.leap = leap;
+        host.run(12 * 3600 - 150);
+        CHECK(host.mapping.error_at(host.raw()) < Nanoseconds(2ms));
+        host.run(149);
+        CHECK(host.mapping.error_at(host.raw()) >= Nanoseconds(1s));
+        CHECK_FALSE(host.mapping.is_held());
+        host.offset_s += step_s;  // at midnight
+        host.leap = LeapSecond::none;
+        host.run(1);
+        REQUIRE(host.followed);
+        CHECK(*host.followed == from_seconds(step_s));
+        CHECK(host.mapping.at(host.raw()) == host.clock());
+        CHECK(host.mapping.is_synchronised());
+        host.run(130);
+        CHECK(host.mapping.error_at(host.raw()) < Nanoseconds(2ms));
+    }
+}
+
+TEST_CASE("a step of a second at another time than the announced one is doubted",
+          "[timing][utc_mapping]") {
+    Host host;
+    host.leap = LeapSecond::inserted;
+    host.run(100);
+    host.offset_s = -1.0;
+    host.run(10);
+    CHECK_FALSE(host.followed);
+    CHECK(host.mapping.is_held());
 }
