@@ -16,6 +16,7 @@ DataRootLock::DataRootLock(record::FileLayer& files, const std::filesystem::path
     for (const char* name : {"journal", "archive", "metadata", "events", "state"}) {
         files.create_directories(root / name);
     }
+    files.sync_directory(root);  // A start that was killed may have made them without.
     const std::filesystem::path file = root / "state" / "lock";
     descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (descriptor_ < 0) {
