@@ -8,6 +8,7 @@
 #include <string>
 
 #include "corrector/eemd/ensemble.hpp"
+#include "corrector/eemd/extrema.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -20,6 +21,8 @@ void validate(const EemdOptions& options) {
     const auto number = [](auto value) { return std::to_string(value); };
     require(options.ensemble_size >= 1,
             "ensemble_size = " + number(options.ensemble_size) + ", must be >= 1");
+    require(!options.complementary_pairs || options.ensemble_size % 2 == 0,
+            "ensemble_size = " + number(options.ensemble_size) + ", must be even for pairs");
     require(options.noise_ratio >= 0.0 && std::isfinite(options.noise_ratio),
             "noise_ratio = " + number(options.noise_ratio) + ", must be finite and >= 0");
     require(options.mode_count.value_or(0) >= 0,
@@ -72,17 +75,40 @@ int common_exponent(std::span<const double> signal) {
     return exponent;
 }
 
+/// The record with `margin` samples reflected about either end sample.
+std::vector<double> reflected(std::span<const double> record, std::size_t margin) {
+    std::vector<double> out;
+    out.reserve(record.size() + 2 * margin);
+    for (std::size_t i = margin; i >= 1; --i) out.push_back(record[i]);
+    out.insert(out.end(), record.begin(), record.end());
+    for (std::size_t i = 1; i <= margin; ++i) out.push_back(record[record.size() - 1 - i]);
+    return out;
+}
+
 /// Standard error of the mean of one component, rms over its samples.
-std::optional<double> standard_error(std::span<const double> sum, std::span<const double> squares,
-                                     double origin, int members) {
-    if (members < 2) return std::nullopt;
-    const double count = members;
-    double variance = 0.0;
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-        const double shifted = sum[i] - count * origin;
-        variance += std::max(0.0, (squares[i] - shifted * shifted / count) / (count - 1.0));
+///
+/// @param sum      of all members, sample by sample.
+/// @param squares  sum over draws and samples of (draw - origin)^2.
+/// @param draws    independent realisations of the noise; each is a sum over `draw_size` members.
+std::optional<double> standard_error(std::span<const double> sum, double squares, double origin,
+                                     int draws, int draw_size) {
+    if (draws < 2 || sum.empty()) return std::nullopt;
+    const double count = draws;
+    double of_means = 0.0;
+    for (const double value : sum) {
+        const double deviation = value / count - origin;
+        of_means += deviation * deviation;
     }
-    return std::sqrt(variance / static_cast<double>(sum.size()) / count);
+    const double variance = std::max(0.0, squares - count * of_means) / (count - 1.0);
+    return std::sqrt(variance / static_cast<double>(sum.size()) / count) / draw_size;
+}
+
+/// Sum of squares about the mean.
+double energy(std::span<const double> values) {
+    const double mean = mean_of(values);
+    double squares = 0.0;
+    for (const double value : values) squares += (value - mean) * (value - mean);
+    return squares;
 }
 
 }  // namespace
@@ -98,39 +124,53 @@ EemdResult eemd(std::span<const double> signal, const EemdOptions& options) {
     std::transform(signal.begin(), signal.end(), scaled.begin(),
                    [exponent](double value) { return std::ldexp(value, -exponent); });
 
-    EnsemblePlan plan;
-    plan.signal = scaled;
-    plan.noise_level = options.noise_ratio * standard_deviation(scaled);
-    plan.members = plan.noise_level > 0.0 ? options.ensemble_size : 1;
-    plan.mode_count =
-        static_cast<std::size_t>(options.mode_count.value_or(default_mode_count(signal.size())));
-    plan.stopping = options.stopping;
-    plan.finish = options.finish;
-    plan.seed = options.seed;
-    plan.residue_origin = mean_of(scaled);
-    const EnsembleSums sums = sum_ensemble(plan, options.threads);
-
     const std::size_t n = signal.size();
+    EnsemblePlan plan;
+    plan.noise_level = options.noise_ratio * standard_deviation(scaled);
+    plan.residue_origin = mean_of(scaled);
+    plan.margin = options.reflect_ends ? n / 2 : 0;
+    if (plan.margin > 0) scaled = reflected(scaled, plan.margin);
+    plan.signal = scaled;
+    plan.members = plan.noise_level > 0.0 ? options.ensemble_size : 1;
+    plan.pairs = plan.noise_level > 0.0 && options.complementary_pairs;
+    plan.mode_count = static_cast<std::size_t>(options.mode_count.value_or(default_mode_count(n)));
+    plan.sifting = {options.stopping, options.finish, options.ends, options.spline_ends};
+    plan.seed = options.seed;
+    std::function<bool(int)> progress;
+    if (options.progress) {
+        progress = [&](int done) { return options.progress(done, plan.members); };
+    }
+    const auto sums = sum_ensemble(plan, options.threads, progress);
+    if (!sums) throw EemdCancelled();
+
+    const int draw_size = plan.pairs ? 2 : 1;
     const auto component = [&](std::size_t k, double origin) {
-        const auto sum = std::span(sums.values).subspan(k * n, n);
-        const auto squares = std::span(sums.squares).subspan(k * n, n);
+        const auto sum = std::span(sums->values).subspan(k * n, n);
         Component out;
         out.values.resize(n);
-        for (std::size_t i = 0; i < n; ++i) {
-            out.values[i] = std::ldexp(sum[i] / plan.members, exponent);
-        }
+        std::transform(sum.begin(), sum.end(), out.values.begin(),
+                       [&](double value) { return value / plan.members; });
+        out.energy_share = energy(out.values);  // divided by the total below
+        for (double& value : out.values) value = std::ldexp(value, exponent);
         out.extrema_count = count_extrema(out.values);
         out.mean_period_samples =
             out.extrema_count == 0
                 ? std::numeric_limits<double>::infinity()
                 : 2.0 * static_cast<double>(n) / static_cast<double>(out.extrema_count);
-        if (n > 0) out.standard_error = standard_error(sum, squares, origin, plan.members);
+        out.standard_error = standard_error(sum, sums->squares[k], draw_size * origin,
+                                            plan.members / draw_size, draw_size);
         if (out.standard_error) *out.standard_error = std::ldexp(*out.standard_error, exponent);
         return out;
     };
     EemdResult result;
     for (std::size_t k = 0; k < plan.mode_count; ++k) result.modes.push_back(component(k, 0.0));
     result.residue = component(plan.mode_count, plan.residue_origin);
+    double total_energy = result.residue.energy_share;
+    for (const Component& mode : result.modes) total_energy += mode.energy_share;
+    if (total_energy > 0.0) {
+        for (Component& mode : result.modes) mode.energy_share /= total_energy;
+        result.residue.energy_share /= total_energy;
+    }
     result.members = plan.members;
     result.noise_level = std::ldexp(plan.noise_level, exponent);
     for (std::size_t i = 0; i < n; ++i) {

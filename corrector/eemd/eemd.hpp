@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,12 +19,28 @@ namespace a351::corrector {
 struct EemdOptions {
     int ensemble_size = 80;    ///< Noise realisations averaged, >= 1.
     double noise_ratio = 0.1;  ///< Std. deviation of added noise / of signal, >= 0; 0 is plain EMD.
+    /// Every noise is used twice, the second time negated, so that it leaves nothing in the sum of
+    /// the components; needs an even ensemble_size.  Slow modes scatter more: half as many noises.
+    /// Source: J.-R. Yeh, J.-S. Shieh and N. E. Huang, Adv. Adapt. Data Anal. 2(2), 135-156, 2010.
+    bool complementary_pairs = false;
     StoppingRule stopping = FixedSifts{};
     std::optional<int> mode_count =
         std::nullopt;  ///< Without the residue, >= 0; absent: default_mode_count().
     FinishRule finish = FinishRule::at_most_two_extrema;
+    EndRule ends = EndRule::line;
+    SplineEnds spline_ends = SplineEnds::not_a_knot;
+    /// Decompose the record with half its length reflected at either end: twice the work, best
+    /// where the ends are disturbed (eemd.md, "Ends").
+    bool reflect_ends = false;
     std::uint64_t seed = 0;  ///< Same seed, same bits, on any thread count.
     int threads = 1;         ///< >= 1
+    /// Called in the caller's thread with the members done and their number; false cancels.
+    std::function<bool(int done, int members)> progress;
+};
+
+/// Thrown by eemd() when `progress` returned false.
+struct EemdCancelled : std::exception {
+    [[nodiscard]] const char* what() const noexcept override { return "eemd: cancelled"; }
 };
 
 /// One mode, or the residue, averaged over the ensemble.
@@ -30,6 +48,9 @@ struct Component {
     std::vector<double> values;        ///< (n), unit of the signal.
     std::size_t extrema_count = 0;     ///< Interior maxima and minima of `values`.
     double mean_period_samples = 0.0;  ///< 2 n / extrema_count; infinite without extrema.
+    /// Of the components' variances, each about its own mean; they add up to 1, or are 0 for a
+    /// constant.
+    double energy_share = 0.0;
     /// Standard error of the ensemble mean, rms over the samples, unit of the signal.  Absent for
     /// one member: there is nothing to estimate it from.
     std::optional<double> standard_error;
@@ -55,6 +76,7 @@ struct EemdResult {
 /// @param signal  (n) samples at constant rate, any unit, finite and gap-free, |signal| < 1e300;
 ///                any n, also 0.
 /// @throws std::invalid_argument  naming the argument, its value and its limit.
+/// @throws EemdCancelled, and whatever `options.progress` throws.
 [[nodiscard]] EemdResult eemd(std::span<const double> signal, const EemdOptions& options = {});
 
 }  // namespace a351::corrector

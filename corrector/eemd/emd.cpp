@@ -1,15 +1,14 @@
 #include "corrector/eemd/emd.hpp"
 
-#include <algorithm>
-#include <cassert>
-
 namespace a351::corrector {
 namespace {
 
 /// Counts how often in a row the number of extrema stayed the same, within one.
 class Stability {
 public:
-    void observe(std::size_t maxima, std::size_t minima) noexcept {
+    void observe(std::size_t extrema, bool first_is_maximum) noexcept {
+        const std::size_t maxima = (extrema + (first_is_maximum ? 1 : 0)) / 2;
+        const std::size_t minima = extrema - maxima;
         const std::size_t change = distance(maxima, maxima_) + distance(minima, minima_);
         repeats_ = !first_ && change <= 1 ? repeats_ + 1 : 0;
         first_ = false;
@@ -37,64 +36,65 @@ int sift_limit(const StoppingRule& stopping) noexcept {
 
 }  // namespace
 
-EmdWorkspace::EmdWorkspace(std::size_t sample_count)
-    : maxima_(sample_count),
-      minima_(sample_count),
-      spline_(sample_count / 2 + 4),
-      envelope_(sample_count) {}
+// The kernels work on whole groups of four samples.
+EmdWorkspace::EmdWorkspace(std::size_t sample_count, const SiftKernels& kernels)
+    : kernels_(kernels),
+      sample_count_(sample_count),
+      residue_(sample_count + 3),
+      mode_(sample_count + 3),
+      knots_(sample_count),
+      envelope_(sample_count + 2 * AlternatingKnots::kMostAdded) {}
 
-void EmdWorkspace::decompose(std::span<const double> signal, const StoppingRule& stopping,
-                             FinishRule finish, std::span<double> components) noexcept {
-    const std::size_t n = signal.size();
-    assert(n == envelope_.size() && (n == 0 || components.size() % n == 0));
-    if (n == 0) return;
-    const std::span<double> residue = components.last(n);
-    std::copy(signal.begin(), signal.end(), residue.begin());
-    bool finished = n < 2;
-    for (std::size_t begin = 0; begin + n < components.size(); begin += n) {
-        const std::span<double> mode = components.subspan(begin, n);
-        std::copy(residue.begin(), residue.end(), mode.begin());
-        finished = finished || !sift_out_mode(stopping, finish, mode);
-        if (finished) std::fill(mode.begin(), mode.end(), 0.0);
-        for (std::size_t i = 0; i < n; ++i) residue[i] -= mode[i];
-    }
-}
-
-bool EmdWorkspace::sift_out_mode(const StoppingRule& stopping, FinishRule finish,
-                                 std::span<double> mode) noexcept {
-    const int limit = sift_limit(stopping);
-    const auto* s_number = std::get_if<SNumber>(&stopping);
+std::span<const double> EmdWorkspace::next_mode(const SiftOptions& options) noexcept {
+    if (sample_count_ < 2) return {};
+    find_extrema(residue_.data());
+    if (options.finish == FinishRule::at_most_two_extrema && knots_.extrema_count() <= 2) return {};
+    const int limit = sift_limit(options.stopping);
+    const auto* s_number = std::get_if<SNumber>(&options.stopping);
     Stability stability;
-    for (int sift = 0; sift < limit; ++sift) {
-        find_extrema(mode, maxima_, minima_);
-        const std::size_t extrema = maxima_.extrema_count() + minima_.extrema_count();
-        if (sift == 0 && finish == FinishRule::at_most_two_extrema && extrema <= 2) return false;
+    const double* curve = residue_.data();
+    for (int sifts = 0; sifts < limit; ++sifts) {
+        if (sifts > 0) find_extrema(curve);
         if (s_number != nullptr) {
-            stability.observe(maxima_.extrema_count(), minima_.extrema_count());
+            stability.observe(knots_.extrema_count(), knots_.first_is_maximum());
             if (stability.repeats() >= s_number->repeats && has_extrema_of_correct_sign()) break;
         }
-        subtract_mean_envelope(mode);
+        sift(curve, options);
+        curve = mode_.data();
     }
-    return true;
+    for (std::size_t i = 0; i < sample_count_; ++i) residue_[i] -= mode_[i];
+    return {mode_.data(), sample_count_};
 }
 
-void EmdWorkspace::subtract_mean_envelope(std::span<double> curve) noexcept {
-    add_end_knots(curve, maxima_, minima_);
-    double* const upper = envelope_.data();
-    spline_.fit(maxima_.positions(), maxima_.values());
-    spline_.for_each_sample([upper](std::size_t i, double value) { upper[i] = value; });
-    double* const samples = curve.data();
-    spline_.fit(minima_.positions(), minima_.values());
-    // upper + lower, not one after the other: a signal turned upside down then gives the same bits.
-    spline_.for_each_sample(
-        [upper, samples](std::size_t i, double lower) { samples[i] -= 0.5 * (upper[i] + lower); });
+void EmdWorkspace::find_extrema(const double* curve) noexcept {
+    const auto [positions, values, starts] = knots_.buffers();
+    const std::size_t count =
+        kernels_.find_extrema(curve, sample_count_, positions, values, starts);
+    knots_.take(count, count > 0 && values[0] > curve[0]);
+}
+
+void EmdWorkspace::sift(const double* curve, const SiftOptions& options) noexcept {
+    knots_.add_ends({curve, sample_count_}, options.ends);
+    const std::span<const double> x = knots_.positions();
+    const std::span<const double> y = knots_.values();
+    const double last_sample = curve[sample_count_ - 1];
+    kernels_.fit_mean_envelope(x.data(), y.data(), x.size(), options.spline_ends,
+                               envelope_.arrays());
+    kernels_.subtract_mean_envelope(curve, mode_.data(), sample_count_, knots_.segment_starts(),
+                                    x.data(), knots_.first_segment(), envelope_.arrays());
+    if (x[x.size() - 2] == static_cast<double>(sample_count_ - 1)) {
+        // Both envelopes end here: the knots themselves, not the cubic that runs up to them.
+        mode_[sample_count_ - 1] = last_sample - 0.5 * (y[y.size() - 2] + y.back());
+    }
 }
 
 bool EmdWorkspace::has_extrema_of_correct_sign() const noexcept {
-    const auto above = maxima_.extrema_values();
-    const auto below = minima_.extrema_values();
-    return std::all_of(above.begin(), above.end(), [](double value) { return value > 0.0; }) &&
-           std::all_of(below.begin(), below.end(), [](double value) { return value < 0.0; });
+    bool maximum = knots_.first_is_maximum();
+    for (const double value : knots_.extrema_values()) {
+        if (maximum ? value <= 0.0 : value >= 0.0) return false;
+        maximum = !maximum;
+    }
+    return true;
 }
 
 }  // namespace a351::corrector

@@ -8,8 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "corrector/eemd/extrema.hpp"
-#include "corrector/eemd/spline.hpp"
+#include "corrector/eemd/knots.hpp"
+#include "corrector/eemd/mean_envelope.hpp"
+#include "corrector/eemd/sift_kernels.hpp"
 
 namespace a351::corrector {
 
@@ -37,30 +38,36 @@ enum class FinishRule {
     always,               ///< Every mode is sifted out, even from a monotone rest.
 };
 
-/// Buffers for series of one length; decompose() does not allocate.
+struct SiftOptions {
+    StoppingRule stopping = FixedSifts{};
+    FinishRule finish = FinishRule::at_most_two_extrema;
+    EndRule ends = EndRule::line;
+    SplineEnds spline_ends = SplineEnds::not_a_knot;
+};
+
+/// Decomposes series of one length one after the other; allocates in the constructor alone.
 class EmdWorkspace {
 public:
-    explicit EmdWorkspace(std::size_t sample_count);
+    explicit EmdWorkspace(std::size_t sample_count, const SiftKernels& kernels = fastest_kernels());
 
-    /// Writes the modes, fastest first, and then the residue.
-    ///
-    ///     signal = sum of modes + residue     to rounding
-    ///
-    /// @param signal      (n) finite samples, n as given to the constructor, any unit.
-    /// @param components  (n (k + 1)), one component after the other, for k modes.
-    void decompose(std::span<const double> signal, const StoppingRule& stopping, FinishRule finish,
-                   std::span<double> components) noexcept;
+    /// The series to decompose is written here; what no mode has taken yet is left here.
+    [[nodiscard]] std::span<double> residue() noexcept { return {residue_.data(), sample_count_}; }
+
+    /// Sifts the fastest mode out of the residue, which must be finite.
+    /// @return the mode, until the next call; empty when the residue is finished.
+    [[nodiscard]] std::span<const double> next_mode(const SiftOptions& options) noexcept;
 
 private:
-    [[nodiscard]] bool sift_out_mode(const StoppingRule& stopping, FinishRule finish,
-                                     std::span<double> mode) noexcept;
-    void subtract_mean_envelope(std::span<double> curve) noexcept;
+    void find_extrema(const double* curve) noexcept;
+    void sift(const double* curve, const SiftOptions& options) noexcept;
     [[nodiscard]] bool has_extrema_of_correct_sign() const noexcept;
 
-    EnvelopeKnots maxima_;
-    EnvelopeKnots minima_;
-    NotAKnotSpline spline_;
-    std::vector<double> envelope_;
+    const SiftKernels& kernels_;
+    std::size_t sample_count_;
+    std::vector<double> residue_;
+    std::vector<double> mode_;
+    AlternatingKnots knots_;
+    MeanEnvelope envelope_;
 };
 
 }  // namespace a351::corrector

@@ -3,26 +3,45 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
-#include <functional>
 #include <mutex>
 #include <thread>
-
-#include "corrector/eemd/noise.hpp"
 
 namespace a351::corrector {
 namespace {
 
-constexpr int kMembersPerBlock = 8;
+constexpr int kMembersPerBlock = 8;  // even, so that a block holds whole pairs
 
-EnsembleSums make_sums(std::size_t size) {
-    return {std::vector<double>(size), std::vector<double>(size)};
+/// Four sums that are added at the end: one would wait for itself at every sample.
+typedef double Quad __attribute__((vector_size(32), aligned(8), may_alias));
+
+/// sum += draw; returns the sum of (draw - origin)^2.
+double accumulate(std::span<const double> draw, double origin, double* sum) noexcept {
+    Quad squares = {0.0, 0.0, 0.0, 0.0};
+    std::size_t i = 0;
+    for (; i + 4 <= draw.size(); i += 4) {
+        const Quad value = *reinterpret_cast<const Quad*>(draw.data() + i);
+        *reinterpret_cast<Quad*>(sum + i) += value;
+        const Quad deviation = value - origin;
+        squares += deviation * deviation;
+    }
+    double total = (squares[0] + squares[1]) + (squares[2] + squares[3]);
+    for (; i < draw.size(); ++i) {
+        sum[i] += draw[i];
+        total += (draw[i] - origin) * (draw[i] - origin);
+    }
+    return total;
+}
+
+std::size_t sum_length(const EnsemblePlan& plan) { return plan.signal.size() - 2 * plan.margin; }
+
+EnsembleSums make_sums(const EnsemblePlan& plan) {
+    const std::size_t components = plan.mode_count + 1;
+    return {std::vector<double>(sum_length(plan) * components), std::vector<double>(components)};
 }
 
 void add(EnsembleSums& total, const EnsembleSums& part) noexcept {
-    for (std::size_t i = 0; i < total.values.size(); ++i) {
-        total.values[i] += part.values[i];
-        total.squares[i] += part.squares[i];
-    }
+    for (std::size_t i = 0; i < total.values.size(); ++i) total.values[i] += part.values[i];
+    for (std::size_t k = 0; k < total.squares.size(); ++k) total.squares[k] += part.squares[k];
 }
 
 /// Buffers of one thread.
@@ -30,10 +49,9 @@ class BlockWorker {
 public:
     explicit BlockWorker(const EnsemblePlan& plan)
         : plan_(plan),
-          emd_(plan.signal.size()),
-          noisy_(plan.signal.size()),
-          components_(plan.signal.size() * (plan.mode_count + 1)),
-          sums_(make_sums(components_.size())) {}
+          emd_(plan.signal.size(), *plan.kernels),
+          pair_(plan.pairs ? sum_length(plan) * (plan.mode_count + 1) : 0),
+          sums_(make_sums(plan)) {}
 
     /// Sums the members of one block, in member order.
     const EnsembleSums& sum_block(int block) noexcept {
@@ -47,63 +65,127 @@ public:
 
 private:
     void add_member(int member) noexcept {
-        const std::size_t n = plan_.signal.size();
-        if (plan_.noise_level > 0.0) {
-            fill_white_noise(plan_.seed, static_cast<std::uint64_t>(member), noisy_);
-            for (std::size_t i = 0; i < n; ++i) {
-                noisy_[i] = plan_.signal[i] + plan_.noise_level * noisy_[i];
-            }
-        } else {
-            std::copy(plan_.signal.begin(), plan_.signal.end(), noisy_.begin());
+        add_noise(member);
+        std::size_t k = 0;
+        for (; k < plan_.mode_count; ++k) {
+            const std::span<const double> mode = emd_.next_mode(plan_.sifting);
+            if (mode.empty()) break;
+            take(member, k, mode);
         }
-        emd_.decompose(noisy_, plan_.stopping, plan_.finish, components_);
-        const std::size_t residue_begin = components_.size() - n;
-        for (std::size_t i = 0; i < components_.size(); ++i) {
-            const double value = components_[i];
-            const double deviation = i < residue_begin ? value : value - plan_.residue_origin;
-            sums_.values[i] += value;
-            sums_.squares[i] += deviation * deviation;
+        if (plan_.pairs) {
+            for (; k < plan_.mode_count; ++k) take_zero(member, k);
+        }
+        take(member, plan_.mode_count, emd_.residue());
+    }
+
+    void add_noise(int member) noexcept {
+        const std::span<double> noisy = emd_.residue();
+        if (plan_.noise_level == 0.0) {
+            std::copy(plan_.signal.begin(), plan_.signal.end(), noisy.begin());
+            return;
+        }
+        const int draw = plan_.pairs ? member / 2 : member;
+        const double level =
+            plan_.pairs && member % 2 != 0 ? -plan_.noise_level : plan_.noise_level;
+        plan_.kernels->fill_white_noise(plan_.seed, static_cast<std::uint64_t>(draw), noisy.data(),
+                                        noisy.size());
+        for (std::size_t i = 0; i < noisy.size(); ++i)
+            noisy[i] = plan_.signal[i] + level * noisy[i];
+    }
+
+    void take(int member, std::size_t k, std::span<const double> component) noexcept {
+        const std::size_t n = sum_length(plan_);
+        const std::span<const double> values = component.subspan(plan_.margin, n);
+        const double origin = k == plan_.mode_count ? plan_.residue_origin : 0.0;
+        double* const sum = sums_.values.data() + k * n;
+        if (!plan_.pairs) {
+            sums_.squares[k] += accumulate(values, origin, sum);
+            return;
+        }
+        const std::span<double> pair = std::span(pair_).subspan(k * n, n);
+        if (member % 2 == 0) {
+            std::copy(values.begin(), values.end(), pair.begin());
+        } else {
+            for (std::size_t i = 0; i < n; ++i) pair[i] += values[i];
+            sums_.squares[k] += accumulate(pair, 2.0 * origin, sum);
+        }
+    }
+
+    /// A member of a pair that has no mode `k`.
+    void take_zero(int member, std::size_t k) noexcept {
+        const std::size_t n = sum_length(plan_);
+        const std::span<double> pair = std::span(pair_).subspan(k * n, n);
+        if (member % 2 == 0) {
+            std::fill(pair.begin(), pair.end(), 0.0);
+        } else {
+            sums_.squares[k] += accumulate(pair, 0.0, sums_.values.data() + k * n);
         }
     }
 
     const EnsemblePlan& plan_;
     EmdWorkspace emd_;
-    std::vector<double> noisy_;
-    std::vector<double> components_;
+    std::vector<double> pair_;
     EnsembleSums sums_;
 };
 
 }  // namespace
 
-EnsembleSums sum_ensemble(const EnsemblePlan& plan, int threads) {
+std::optional<EnsembleSums> sum_ensemble(const EnsemblePlan& plan, int threads,
+                                         const std::function<bool(int)>& progress) {
     const int blocks = (plan.members + kMembersPerBlock - 1) / kMembersPerBlock;
     std::vector<BlockWorker> workers;
     const int worker_count = std::min(threads, blocks);
     workers.reserve(static_cast<std::size_t>(worker_count));
     for (int i = 0; i < worker_count; ++i) workers.emplace_back(plan);
-    EnsembleSums total = make_sums(plan.signal.size() * (plan.mode_count + 1));
+    EnsembleSums total = make_sums(plan);
 
     std::atomic<int> next_block = 0;
     std::mutex mutex;
     std::condition_variable committed;
     int commit_block = 0;
-    const auto work = [&](BlockWorker& worker) {
-        for (int block = next_block++; block < blocks; block = next_block++) {
-            const EnsembleSums& sums = worker.sum_block(block);
-            std::unique_lock lock(mutex);
-            committed.wait(lock, [&] { return commit_block == block; });
-            add(total, sums);
-            ++commit_block;
-            committed.notify_all();
-        }
+    // Every block that was taken is summed and committed, so that none waits for ever.
+    const auto work_on_next = [&](BlockWorker& worker) {
+        const int block = next_block++;
+        if (block >= blocks) return false;
+        const EnsembleSums& sums = worker.sum_block(block);
+        std::unique_lock lock(mutex);
+        committed.wait(lock, [&] { return commit_block == block; });
+        add(total, sums);
+        ++commit_block;
+        committed.notify_all();
+        return true;
     };
-    std::vector<std::jthread> helpers;
-    helpers.reserve(workers.size());
-    for (std::size_t i = 1; i < workers.size(); ++i) {
-        helpers.emplace_back(work, std::ref(workers[i]));
+    struct Stop {
+        ~Stop() { next_block = blocks; }
+        std::atomic<int>& next_block;
+        int blocks;
+    };
+    int reported = 0;
+    bool cancelled = false;
+    const auto report = [&](int done) {
+        if (!progress || done == reported) return;
+        reported = done;
+        cancelled = !progress(done);
+    };
+    {
+        std::vector<std::jthread> helpers;
+        helpers.reserve(workers.size());
+        const Stop stop{next_block, blocks};  // destroyed before the helpers are joined
+        for (std::size_t i = 1; i < workers.size(); ++i) {
+            helpers.emplace_back([&work_on_next, &worker = workers[i]] {
+                while (work_on_next(worker)) {
+                }
+            });
+        }
+        while (!cancelled && work_on_next(workers.front())) {
+            std::unique_lock lock(mutex);
+            const int done = std::min(commit_block * kMembersPerBlock, plan.members);
+            lock.unlock();
+            report(done);
+        }
     }
-    work(workers.front());
-    helpers.clear();
+    if (!cancelled) report(plan.members);
+    if (cancelled) return std::nullopt;
     return total;
 }
 

@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "corrector/eemd/knots.hpp"
+#include "corrector/eemd/sift_kernels.hpp"
 #include "tests/unit/eemd/series.hpp"
 
 namespace a351::corrector {
@@ -14,12 +16,27 @@ struct Found {
     Numbers minima;
 };
 
+AlternatingKnots extrema_of(const Numbers& curve) {
+    AlternatingKnots knots(curve.size());
+    if (curve.empty()) return knots;
+    Numbers padded = curve;
+    padded.resize(curve.size() + 3);
+    const auto [positions, values, starts] = knots.buffers();
+    const std::size_t count =
+        fastest_kernels().find_extrema(padded.data(), curve.size(), positions, values, starts);
+    knots.take(count, count > 0 && values[0] > curve[0]);
+    return knots;
+}
+
 Found find(const Numbers& curve) {
-    EnvelopeKnots maxima(curve.size());
-    EnvelopeKnots minima(curve.size());
-    find_extrema(curve, maxima, minima);
-    const auto copy = [](std::span<const double> s) { return Numbers(s.begin(), s.end()); };
-    return {copy(maxima.extrema_positions()), copy(minima.extrema_positions())};
+    const AlternatingKnots knots = extrema_of(curve);
+    Found found;
+    bool maximum = knots.first_is_maximum();
+    for (const double position : knots.extrema_positions()) {
+        (maximum ? found.maxima : found.minima).push_back(position);
+        maximum = !maximum;
+    }
+    return found;
 }
 
 }  // namespace
@@ -80,18 +97,48 @@ TEST_CASE("the densest alternation fits into the knots") {
     }
 }
 
+TEST_CASE("segments begin at the first sample at or after an extremum") {
+    const Numbers curve = {0, 1, 1, 0, -1, 0, 0};  // maximum at 1.5, minimum at 4
+    CHECK(extrema_of(curve).segment_starts()[0] == (1U << 2 | 1U << 4));
+    Numbers wave(200);
+    for (std::size_t i = 0; i < wave.size(); ++i) wave[i] = std::sin(static_cast<double>(i));
+    const AlternatingKnots knots = extrema_of(wave);
+    std::size_t found = 0;
+    for (const double position : knots.extrema_positions()) {
+        const auto i = static_cast<std::size_t>(position);
+        found += knots.segment_starts()[i / 64] >> (i % 64) & 1;
+    }
+    CHECK(found == count_extrema(wave));
+}
+
 TEST_CASE("the line through two extrema replaces an end only when it lies outside") {
     // Maxima (1, 3), (3, 2): the line gives 3.5 at 0 and 1 at 5.
     const Numbers curve = {0, 3, 0, 2, 0, 1.5};
-    EnvelopeKnots maxima(curve.size());
-    EnvelopeKnots minima(curve.size());
-    find_extrema(curve, maxima, minima);
-    add_end_knots(curve, maxima, minima);
-    CHECK(maxima.values().front() == 3.5);
-    CHECK(maxima.values().back() == 1.5);
-    CHECK(maxima.positions().back() == 5.0);
-    CHECK(minima.values().front() == 0.0);
-    CHECK(minima.values().back() == 0.0);
+    AlternatingKnots knots = extrema_of(curve);
+    knots.add_ends(curve, EndRule::line);
+    const auto copy = [](std::span<const double> s) { return Numbers(s.begin(), s.end()); };
+    CHECK(copy(knots.positions()) == Numbers{0, 0, 1, 2, 3, 4, 5, 5});
+    CHECK(copy(knots.values()) == Numbers{3.5, 0, 3, 0, 2, 0, 1.5, 0});
+    knots.add_ends(curve, EndRule::pinned);
+    CHECK(copy(knots.values()) == Numbers{0, 0, 3, 0, 2, 0, 1.5, 1.5});
+}
+
+TEST_CASE("mirrored extrema go on alternating beyond the ends") {
+    const auto copy = [](std::span<const double> s) { return Numbers(s.begin(), s.end()); };
+    SECTION("about the outermost extremum where the end sample lies within") {
+        const Numbers curve = {1, 3, 0, 2, 0, 3, 1};
+        AlternatingKnots knots = extrema_of(curve);
+        knots.add_ends(curve, EndRule::mirror);
+        CHECK(copy(knots.positions()) == Numbers{-3, -2, -1, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
+        CHECK(copy(knots.values()) == Numbers{3, 0, 2, 0, 3, 0, 2, 0, 3, 0, 2, 0, 3});
+    }
+    SECTION("about the end sample where that lies beyond the next extremum") {
+        const Numbers curve = {-1, 3, 0, 2, 0, 3, -1};
+        AlternatingKnots knots = extrema_of(curve);
+        knots.add_ends(curve, EndRule::mirror);
+        CHECK(copy(knots.positions()) == Numbers{-3, -2, -1, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
+        CHECK(copy(knots.values()) == Numbers{2, 0, 3, -1, 3, 0, 2, 0, 3, -1, 3, 0, 2});
+    }
 }
 
 }  // namespace a351::corrector

@@ -1,0 +1,47 @@
+#pragma once
+/// @file
+/// Storage of two cubic splines through alternating knots and of their mean.
+
+#include <cstddef>
+#include <vector>
+
+namespace a351::corrector {
+
+/// What the outermost cubics of an envelope obey.
+enum class SplineEnds {
+    not_a_knot,  ///< Third derivative continuous at the second and the last but one knot.
+    natural,     ///< No curvature at the outermost knots.
+};
+
+/// One number per knot each; those of a line need not live at the same time.
+struct SplineArrays {
+    double* h;         ///< X_{k+2} - X_k: the next knot of the same envelope is two further on
+    double* inverse;   ///< 1 / h_k
+    double* slope;     ///< (Y_{k+2} - Y_k) / h_k
+    double* diagonal;  ///< of the equations for c
+    double* product;   ///< of the coefficients either side of the diagonal, rows k and k - 2
+    double* right;     ///< right-hand sides
+    double* pivot;     ///< elimination, see spline_loops.hpp
+    double* former;
+    double* c;  ///< half the second derivative at a knot
+    double* b;  ///< S = Y_k + d (b_k + d (c_k + d e_k)), d = t - X_k
+    double* e;
+    double* mean_y;  ///< the same for the mean of both envelopes, from X_k to X_{k+1}, k >= 1
+    double* mean_b;
+    double* mean_c;
+    double* mean_e;
+};
+
+/// Owns the arrays for up to a number of knots.
+class MeanEnvelope {
+public:
+    explicit MeanEnvelope(std::size_t most_knots);
+    MeanEnvelope(MeanEnvelope&&) = default;  // a copy's pointers would be the original's
+    [[nodiscard]] const SplineArrays& arrays() const noexcept { return arrays_; }
+
+private:
+    std::vector<double> storage_;
+    SplineArrays arrays_;
+};
+
+}  // namespace a351::corrector

@@ -1,0 +1,138 @@
+#pragma once
+/// @file
+/// White Gaussian noise in plain loops over blocks, compiled once for every instruction set: see
+/// sift_kernels.hpp for the rules, noise.hpp for what it computes.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace a351::corrector {
+namespace {
+
+constexpr std::size_t kNoiseBlock = 64;  ///< Pairs of samples; the buffers stay in the first cache.
+
+inline std::uint64_t bits_of(double value) { return __builtin_bit_cast(std::uint64_t, value); }
+inline double double_of(std::uint64_t bits) { return __builtin_bit_cast(double, bits); }
+
+/// An integer below 2^52 as a double, by the bits of 2^52 + value.
+inline double small_integer(std::uint64_t value) {
+    return double_of(bits_of(0x1p52) | value) - 0x1p52;
+}
+
+/// 53 bits of two words, 0 ... 2^53 - 1.
+inline double upper_bits(std::uint64_t low, std::uint64_t high) {
+    return small_integer(high) * 0x1p21 + small_integer(low >> 11);
+}
+
+/// ln(u) for 2^-53 <= u <= 1, to 2 units in the last place: ln m = 2 artanh((m - 1) / (m + 1)).
+inline double natural_log(double u) {
+    constexpr std::uint64_t kMantissa = 0x000FFFFFFFFFFFFF;
+    const double half = double_of((bits_of(u) & kMantissa) | bits_of(0.5));  // 0.5 <= half < 1
+    const double exponent = small_integer(bits_of(u) >> 52) - 1022.0;
+    const bool low = half < 0.5 * 1.4142135623730951;
+    const double m = low ? 2.0 * half : half;
+    const double s = (m - 1.0) / (m + 1.0);  // |s| <= 0.172, so the terms fall below 2^-53 at s^21
+    const double s2 = s * s;
+    double series = 1.0 / 21;
+    series = series * s2 + 1.0 / 19;
+    series = series * s2 + 1.0 / 17;
+    series = series * s2 + 1.0 / 15;
+    series = series * s2 + 1.0 / 13;
+    series = series * s2 + 1.0 / 11;
+    series = series * s2 + 1.0 / 9;
+    series = series * s2 + 1.0 / 7;
+    series = series * s2 + 1.0 / 5;
+    series = series * s2 + 1.0 / 3;
+    series = series * s2 + 1.0;
+    return (low ? exponent - 1.0 : exponent) * 0.6931471805599453 + 2.0 * s * series;
+}
+
+/// Multiplies the words of Philox's counters by its constants, ten rounds with a growing key.
+/// Words are kept one to 64 bits, where every instruction set multiplies them.
+inline void philox_block(std::uint64_t first_pair, std::uint64_t member, std::uint64_t seed,
+                         std::uint64_t* __restrict w0, std::uint64_t* __restrict w1,
+                         std::uint64_t* __restrict w2, std::uint64_t* __restrict w3) {
+    constexpr std::uint64_t kLow = 0xFFFFFFFF;
+    for (std::size_t i = 0; i < kNoiseBlock; ++i) {
+        std::uint64_t c0 = (first_pair + i) & kLow;
+        std::uint64_t c1 = (first_pair + i) >> 32;
+        std::uint64_t c2 = member & kLow;
+        std::uint64_t c3 = member >> 32;
+        std::uint64_t k0 = seed & kLow;
+        std::uint64_t k1 = seed >> 32;
+        for (int round = 0; round < 10; ++round) {
+            const std::uint64_t p0 = 0xD2511F53U * c0;
+            const std::uint64_t p1 = 0xCD9E8D57U * c2;
+            c0 = (p1 >> 32) ^ c1 ^ k0;
+            c1 = p1 & kLow;
+            c2 = (p0 >> 32) ^ c3 ^ k1;
+            c3 = p0 & kLow;
+            k0 = (k0 + 0x9E3779B9U) & kLow;
+            k1 = (k1 + 0xBB67AE85U) & kLow;
+        }
+        w0[i] = c0;
+        w1[i] = c1;
+        w2[i] = c2;
+        w3[i] = c3;
+    }
+}
+
+/// Box and Muller's transform of one block: sample 2 i in `cosine`, 2 i + 1 in `sine`.
+inline void transform_block(const std::uint64_t* __restrict w0, const std::uint64_t* __restrict w1,
+                            const std::uint64_t* __restrict w2, const std::uint64_t* __restrict w3,
+                            double* __restrict cosine, double* __restrict sine) {
+    for (std::size_t i = 0; i < kNoiseBlock; ++i) {
+        const double u = (upper_bits(w0[i], w1[i]) + 1.0) * 0x1p-53;
+        const double radius = __builtin_sqrt(-2.0 * natural_log(u));
+        // The two highest bits choose the quarter of the turn; within it, Taylor series up to an
+        // eighth of a turn.
+        const std::uint64_t quarter = w3[i] >> 30;
+        const double within = upper_bits(w2[i], w3[i] & 0x3FFFFFFF) * 0x1p-51;
+        const bool mirrored = within > 0.5;
+        const double angle = 1.5707963267948966 * (mirrored ? 1.0 - within : within);
+        const double a2 = angle * angle;
+        double c = 1.0;
+        double s = 1.0;
+        c = 1.0 - a2 * (1.0 / (15 * 16)) * c;
+        s = 1.0 - a2 * (1.0 / (16 * 17)) * s;
+        c = 1.0 - a2 * (1.0 / (13 * 14)) * c;
+        s = 1.0 - a2 * (1.0 / (14 * 15)) * s;
+        c = 1.0 - a2 * (1.0 / (11 * 12)) * c;
+        s = 1.0 - a2 * (1.0 / (12 * 13)) * s;
+        c = 1.0 - a2 * (1.0 / (9 * 10)) * c;
+        s = 1.0 - a2 * (1.0 / (10 * 11)) * s;
+        c = 1.0 - a2 * (1.0 / (7 * 8)) * c;
+        s = 1.0 - a2 * (1.0 / (8 * 9)) * s;
+        c = 1.0 - a2 * (1.0 / (5 * 6)) * c;
+        s = 1.0 - a2 * (1.0 / (6 * 7)) * s;
+        c = 1.0 - a2 * (1.0 / (3 * 4)) * c;
+        s = 1.0 - a2 * (1.0 / (4 * 5)) * s;
+        c = 1.0 - a2 * (1.0 / (1 * 2)) * c;
+        s = (1.0 - a2 * (1.0 / (2 * 3)) * s) * angle;
+        // Quarter 1 turns (c, s) into (-s, c), quarter 2 into (-c, -s), quarter 3 into (s, -c).
+        const std::uint64_t exchange = 0 - ((mirrored ? 1U : 0U) ^ (quarter & 1));
+        const std::uint64_t difference = (bits_of(c) ^ bits_of(s)) & exchange;
+        const std::uint64_t x_sign = (quarter ^ (quarter >> 1)) << 63;
+        const std::uint64_t y_sign = (quarter >> 1) << 63;
+        cosine[i] = radius * double_of(bits_of(c) ^ difference ^ x_sign);
+        sine[i] = radius * double_of(bits_of(s) ^ difference ^ y_sign);
+    }
+}
+
+inline void fill_noise(std::uint64_t seed, std::uint64_t member, double* noise, std::size_t n) {
+    std::uint64_t w0[kNoiseBlock], w1[kNoiseBlock], w2[kNoiseBlock], w3[kNoiseBlock];
+    double cosine[kNoiseBlock], sine[kNoiseBlock];
+    for (std::size_t begin = 0; begin < n; begin += 2 * kNoiseBlock) {
+        philox_block(begin / 2, member, seed, w0, w1, w2, w3);
+        transform_block(w0, w1, w2, w3, cosine, sine);
+        const std::size_t count = n - begin < 2 * kNoiseBlock ? n - begin : 2 * kNoiseBlock;
+        for (std::size_t i = 0; i + 1 < count; i += 2) {
+            noise[begin + i] = cosine[i / 2];
+            noise[begin + i + 1] = sine[i / 2];
+        }
+        if (count % 2 != 0) noise[begin + count - 1] = cosine[count / 2];
+    }
+}
+
+}  // namespace
+}  // namespace a351::corrector

@@ -1,0 +1,165 @@
+#include "corrector/eemd/mean_envelope.hpp"
+
+#include <Eigen/Dense>
+#include <array>
+#include <catch2/catch.hpp>
+
+#include "corrector/eemd/sift_kernels.hpp"
+#include "tests/unit/eemd/series.hpp"
+
+namespace a351::corrector {
+namespace {
+
+/// Alternating knots at irregular distances, among them half-integers and a gap of thousands.
+const std::vector<double> kKnots = {0,      0,    1,    2,      3.5,  5,      9.5,  11,
+                                    14,     15,   16,   4014.5, 4017, 4020,   4021, 4025,
+                                    4026.5, 4029, 4033, 4034,   4035, 4035.5, 4040, 4040};
+
+/// The mean of both splines, from the cubics that fit_mean_envelope() left.
+class Mean {
+public:
+    Mean(const std::vector<double>& x, const std::vector<double>& y, SplineEnds ends)
+        : x_(x), envelope_(x.size()) {
+        fastest_kernels().fit_mean_envelope(x.data(), y.data(), x.size(), ends, envelope_.arrays());
+    }
+    [[nodiscard]] double operator()(double t) const {
+        std::size_t k = 1;
+        while (k + 3 < x_.size() && x_[k + 1] <= t) ++k;
+        const SplineArrays& a = envelope_.arrays();
+        const double d = t - x_[k];
+        return a.mean_y[k] + d * (a.mean_b[k] + d * (a.mean_c[k] + d * a.mean_e[k]));
+    }
+
+private:
+    std::vector<double> x_;
+    MeanEnvelope envelope_;
+};
+
+/// Every second element from `first`.
+std::vector<double> lane(const std::vector<double>& all, std::size_t first) {
+    std::vector<double> out;
+    for (std::size_t k = first; k < all.size(); k += 2) out.push_back(all[k]);
+    return out;
+}
+
+/// One spline from one dense system written down from its conditions: all cubics
+/// y + b d + c d^2 + e d^3 with b, c, e of every segment unknown.
+class DenseSpline {
+public:
+    DenseSpline(std::vector<double> x, std::vector<double> y, SplineEnds ends)
+        : x_(std::move(x)), y_(std::move(y)) {
+        const auto segments = static_cast<Eigen::Index>(x_.size()) - 1;
+        Eigen::MatrixXd a = Eigen::MatrixXd::Zero(3 * segments, 3 * segments);
+        Eigen::VectorXd right = Eigen::VectorXd::Zero(3 * segments);
+        Eigen::Index row = 0;
+        double h = 0.0;
+        for (Eigen::Index i = 0; i < segments; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            h = x_[k + 1] - x_[k];
+            a.block(row, 3 * i, 1, 3) << h, h * h, h * h * h;  // passes through the next knot
+            right(row++) = y_[k + 1] - y_[k];
+            if (i + 1 == segments) break;
+            a.block(row, 3 * i, 1, 6) << 1, 2 * h, 3 * h * h, -1, 0, 0;  // slope
+            a.block(row + 1, 3 * i, 1, 6) << 0, 1, 3 * h, 0, -1, 0;      // curvature
+            row += 2;
+        }
+        if (ends == SplineEnds::natural) {
+            a(row++, 1) = 1;
+            a.block(row++, 3 * segments - 2, 1, 2) << 1, 3 * h;
+        } else {
+            a(row, 2) = 1;
+            a(row++, 5) = -1;
+            a(row, 3 * segments - 4) = 1;
+            a(row++, 3 * segments - 1) = -1;
+        }
+        solution_ = a.fullPivLu().solve(right);
+    }
+    [[nodiscard]] double operator()(double t) const {
+        std::size_t k = 0;
+        while (k + 2 < x_.size() && x_[k + 1] <= t) ++k;
+        const Eigen::Vector3d p = solution_.segment<3>(static_cast<Eigen::Index>(3 * k));
+        const double d = t - x_[k];
+        return y_[k] + d * (p[0] + d * (p[1] + d * p[2]));
+    }
+
+private:
+    std::vector<double> x_, y_;
+    Eigen::VectorXd solution_;
+};
+
+double cubic(double t) { return 2.0 + t * (-3.0 + t * (0.5 - 0.125 * t)); }
+
+}  // namespace
+
+TEST_CASE("splines through samples of two cubics have the cubics' mean") {
+    for (std::size_t count = 8; count <= 11; ++count) {
+        const std::vector<double> x(kKnots.begin(), kKnots.begin() + static_cast<long>(count));
+        std::vector<double> y;
+        for (std::size_t k = 0; k < count; ++k) y.push_back(k % 2 == 0 ? cubic(x[k]) : -3.0 * x[k]);
+        const Mean mean(x, y, SplineEnds::not_a_knot);
+        for (double t = 0.0; t <= x[count - 2]; t += 0.25) {
+            CHECK(mean(t) == Approx(0.5 * (cubic(t) - 3.0 * t)).epsilon(1e-12).margin(1e-12));
+        }
+    }
+}
+
+TEST_CASE("envelopes of two to four knots are the polynomials through them") {
+    // Even knots: 1 + t^2; odd ones: t^3, as far as their number determines them.
+    const std::vector<double> x = {0, 0, 2, 3, 5, 7, 9, 9};
+    const auto at = [](std::size_t k, double t) { return k % 2 == 0 ? 1 + t * t : t * t * t; };
+    const auto polynomial = [&](std::size_t first, std::size_t n, double t) {
+        double sum = 0.0;
+        for (std::size_t i = first; i < n; i += 2) {
+            double weight = 1.0;
+            for (std::size_t j = first; j < n; j += 2) {
+                if (j != i) weight *= (t - x[j]) / (x[i] - x[j]);
+            }
+            sum += weight * at(i, x[i]);
+        }
+        return sum;
+    };
+    for (std::size_t n = 4; n <= 8; ++n) {
+        const std::vector<double> knots(x.begin(), x.begin() + static_cast<long>(n));
+        std::vector<double> y;
+        for (std::size_t k = 0; k < n; ++k) y.push_back(at(k, x[k]));
+        const Mean mean(knots, y, SplineEnds::not_a_knot);
+        for (double t = 0.0; t <= x[n - 2]; t += 0.5) {
+            CHECK(mean(t) == Approx(0.5 * (polynomial(0, n, t) + polynomial(1, n, t))));
+        }
+    }
+}
+
+TEST_CASE("the mean envelope agrees with dense solutions of both splines' conditions") {
+    for (const SplineEnds ends : {SplineEnds::not_a_knot, SplineEnds::natural}) {
+        // An envelope of three knots has no two segments left for not-a-knot.
+        const std::size_t fewest = ends == SplineEnds::natural ? 4 : 8;
+        for (std::size_t count = fewest; count <= kKnots.size(); ++count) {
+            const std::vector<double> x(kKnots.begin(), kKnots.begin() + static_cast<long>(count));
+            const std::vector<double> y = white_noise(count, 3);
+            const DenseSpline even(lane(x, 0), lane(y, 0), ends);
+            const DenseSpline odd(lane(x, 1), lane(y, 1), ends);
+            const Mean mean(x, y, ends);
+            for (std::size_t k = 1; k + 2 < count; ++k) {
+                const double t = x[k] + 0.375 * (x[k + 1] - x[k]);
+                INFO(count << " knots, t = " << t);
+                CHECK(mean(t) == Approx(0.5 * (even(t) + odd(t))).epsilon(1e-9).margin(1e-10));
+            }
+        }
+    }
+}
+
+TEST_CASE("thousands of knots are eliminated without overflow, to the same accuracy") {
+    std::vector<double> x = {0.0, 0.0};
+    for (std::size_t k = 0; k < 5000; ++k) {
+        x.push_back(x.back() + 1.0 + static_cast<double>((k * k) % 7) * (k > 2500 ? 1e5 : 1.0));
+    }
+    std::vector<double> y;
+    for (std::size_t k = 0; k < x.size(); ++k) y.push_back(k % 2 == 0 ? 1.0 : -1.0 - 1e-9 * x[k]);
+    const Mean mean(x, y, SplineEnds::not_a_knot);
+    for (std::size_t k = 1; k + 2 < x.size(); k += 7) {
+        const double t = x[k] + 0.5;
+        CHECK(mean(t) == Approx(0.5 * (-1e-9 * t)).epsilon(1e-9).margin(1e-12));
+    }
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,76 @@
+/// @file
+/// The kernels of all instruction sets give the same bits.
+
+#include "corrector/eemd/sift_kernels.hpp"
+
+#include <bit>
+#include <catch2/catch.hpp>
+
+#include "corrector/eemd/emd.hpp"
+#include "corrector/eemd/ensemble.hpp"
+#include "tests/unit/eemd/series.hpp"
+
+namespace a351::corrector {
+namespace {
+
+std::vector<std::uint64_t> bits(std::span<const double> values) {
+    std::vector<std::uint64_t> out;
+    for (const double value : values) out.push_back(std::bit_cast<std::uint64_t>(value));
+    return out;
+}
+
+/// Bits of every mode and the residue.
+std::vector<std::vector<std::uint64_t>> decompose(std::span<const double> signal,
+                                                  const SiftOptions& options,
+                                                  const SiftKernels& kernels) {
+    EmdWorkspace emd(signal.size(), kernels);
+    std::copy(signal.begin(), signal.end(), emd.residue().begin());
+    std::vector<std::vector<std::uint64_t>> all;
+    for (int k = 0; k < 6; ++k) all.push_back(bits(emd.next_mode(options)));
+    all.push_back(bits(emd.residue()));
+    return all;
+}
+
+}  // namespace
+
+TEST_CASE("every instruction set sifts out the same bits") {
+    if (avx2_kernels() == nullptr) {
+        WARN("this processor has the portable loops only: nothing to compare");
+        return;
+    }
+    for (const EndRule ends : {EndRule::line, EndRule::mirror, EndRule::pinned}) {
+        for (const SplineEnds spline : {SplineEnds::not_a_knot, SplineEnds::natural}) {
+            SiftOptions options;
+            options.finish = FinishRule::always;
+            options.ends = ends;
+            options.spline_ends = spline;
+            for (std::size_t n = 1; n < 400; n += n < 140 ? 1 : 37) {
+                std::vector<double> signal = white_noise(n, n);
+                if (n % 3 == 0) {
+                    for (double& value : signal) value = std::round(value);  // plateaus
+                }
+                INFO(n << " samples");
+                CHECK(decompose(signal, options, *avx2_kernels()) ==
+                      decompose(signal, options, portable_kernels()));
+            }
+        }
+    }
+}
+
+TEST_CASE("every instruction set gives an ensemble the same bits") {
+    if (avx2_kernels() == nullptr) return;
+    const std::vector<double> signal = mixed_series(1201);
+    EnsemblePlan plan;
+    plan.signal = signal;
+    plan.noise_level = 0.1;
+    plan.members = 9;
+    plan.mode_count = 9;
+    plan.kernels = avx2_kernels();
+    const EnsembleSums fast = *sum_ensemble(plan, 1, {});
+    plan.kernels = &portable_kernels();
+    const EnsembleSums portable = *sum_ensemble(plan, 1, {});
+    CHECK(bits(fast.values) == bits(portable.values));
+    CHECK(bits(fast.squares) == bits(portable.squares));
+}
+
+}  // namespace a351::corrector
