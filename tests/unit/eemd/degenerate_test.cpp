@@ -23,6 +23,10 @@ std::vector<EemdOptions> every_kind() {
                     options.finish = finish;
                     options.mode_count = 6;
                     kinds.push_back(options);
+                    options.ends = EndRule::mirror;
+                    options.spline_ends = SplineEnds::natural;
+                    options.reflect_ends = true;
+                    kinds.push_back(options);
                 }
             }
         }
@@ -92,6 +96,29 @@ TEST_CASE("hard shapes decompose") {
     SECTION("subnormal") {
         fill([](std::size_t i) { return 1e-310 * std::sin(static_cast<double>(i)); });
     }
+}
+
+TEST_CASE("a tone sampled at its own extrema has maxima and minima of one value each") {
+    std::vector<double> signal(256);
+    for (std::size_t i = 0; i < signal.size(); ++i)
+        signal[i] = i % 4 == 0 ? 1.0 : (i % 4 == 2 ? -1.0 : 0.0);
+    check_sane(signal);
+    EemdOptions options;
+    options.noise_ratio = 0.0;
+    const EemdResult result = eemd(signal, options);
+    CHECK(result.modes[0].mean_period_samples == Approx(4.0).epsilon(0.02));
+    CHECK(result.modes[0].energy_share > 0.99);
+}
+
+TEST_CASE("a record of a million samples decomposes") {
+    const std::vector<double> signal = white_noise(1'000'000, 3);
+    EemdOptions options;
+    options.noise_ratio = 0.0;
+    options.mode_count = 4;
+    options.stopping = FixedSifts{2};
+    const EemdResult result = eemd(signal, options);
+    CHECK(result.closure_error <= 1e-12);
+    CHECK(result.modes[0].mean_period_samples > 2.0);
 }
 
 TEST_CASE("a sample that is no number is refused with its index") {

@@ -105,6 +105,7 @@ TEST_CASE("the standard error is the scatter of repeated ensembles") {
     std::vector<std::vector<double>> sum, squares;
     double stated = 0.0;
     EemdOptions options = small_ensemble(16);
+    options.complementary_pairs = GENERATE(false, true);
     for (int run = 0; run < runs; ++run) {
         options.seed = 100 + static_cast<std::uint64_t>(run);
         const EemdResult result = eemd(signal, options);
@@ -132,23 +133,101 @@ TEST_CASE("the standard error is the scatter of repeated ensembles") {
     CHECK(std::sqrt(stated / found) == Approx(1.0).margin(0.2));
 }
 
-TEST_CASE("white noise comes out as a ladder of octaves") {
-    // P. Flandrin, G. Rilling and P. Goncalves, IEEE Signal Process. Lett. 11, 112-114, 2004; Z. Wu
-    // and N. E. Huang, Proc. R. Soc. A 460, 1597-1611, 2004.  Limits for ten sifts.
-    EemdOptions options;
-    options.noise_ratio = 0.0;
-    std::vector<double> log_period(9);
-    const int records = 12;
-    for (int record = 0; record < records; ++record) {
-        const auto result =
-            eemd(white_noise(8192, 50 + static_cast<std::uint64_t>(record)), options);
-        for (std::size_t k = 0; k < log_period.size(); ++k) {
-            log_period[k] += std::log(result.modes[k].mean_period_samples) / records;
+TEST_CASE("complementary pairs leave nothing over") {
+    const std::vector<double> signal = mixed_series(450);
+    EemdOptions options = small_ensemble(20);
+    options.complementary_pairs = true;
+    const EemdResult result = eemd(signal, options);
+    CHECK(result.members == 20);
+    CHECK(result.noise_level > 0.01);
+    CHECK(result.closure_error <= 1e-12 * rms(signal));
+}
+
+TEST_CASE("pairs of a signal upside down are upside down, bit for bit") {
+    std::vector<double> signal = mixed_series(450);
+    EemdOptions options = small_ensemble(10);
+    options.complementary_pairs = true;
+    const EemdResult upright = eemd(signal, options);
+    for (double& value : signal) value = -value;
+    const EemdResult flipped = eemd(signal, options);
+    for (std::size_t k = 0; k < upright.modes.size(); ++k) {
+        CHECK(flipped.modes[k].standard_error == upright.modes[k].standard_error);
+        for (std::size_t i = 0; i < signal.size(); ++i) {
+            REQUIRE(flipped.modes[k].values[i] == -upright.modes[k].values[i]);
         }
     }
-    CHECK(std::exp(log_period[0]) == Approx(2.87).margin(0.03));
-    for (std::size_t k = 1; k < 7; ++k) {
-        CHECK(std::exp(log_period[k] - log_period[k - 1]) == Approx(2.03).margin(0.10));
+}
+
+TEST_CASE("a constant added to the signal of an ensemble appears in the residue alone") {
+    std::vector<double> signal = mixed_series(450);
+    const auto before = components_of(eemd(signal, small_ensemble()));
+    for (double& value : signal) value += 1024.0;
+    const auto after = components_of(eemd(signal, small_ensemble()));
+    for (std::size_t k = 0; k < before.size(); ++k) {
+        const double offset = k + 1 == before.size() ? 1024.0 : 0.0;
+        for (std::size_t i = 0; i < signal.size(); ++i) {
+            REQUIRE(after[k][i] - offset == Approx(before[k][i]).margin(1e-9));
+        }
+    }
+}
+
+TEST_CASE("shares of energy add up to one and are the components' variances") {
+    std::vector<double> signal = mixed_series(450);
+    for (double& value : signal) value += 1e6;
+    const EemdResult result = eemd(signal, small_ensemble());
+    double total = result.residue.energy_share;
+    for (const Component& mode : result.modes) total += mode.energy_share;
+    CHECK(total == Approx(1.0));
+    const double ratio = rms(result.modes[1].values) / rms(result.modes[0].values);
+    CHECK(result.modes[1].energy_share / result.modes[0].energy_share ==
+          Approx(ratio * ratio).epsilon(1e-3));  // but for the modes' small means
+    CHECK(eemd(std::vector<double>(64, 2.0)).residue.energy_share == 0.0);
+}
+
+TEST_CASE("a record with reflected ends decomposes into components of its own length") {
+    const std::vector<double> signal = mixed_series(451);
+    EemdOptions options = small_ensemble();
+    options.reflect_ends = true;
+    options.complementary_pairs = true;
+    for (const std::size_t n : {0U, 1U, 2U, 3U, 4U, 451U}) {
+        const std::vector<double> part(signal.begin(), signal.begin() + static_cast<long>(n));
+        options.mode_count = 3;
+        const EemdResult result = eemd(part, options);
+        for (const auto& component : components_of(result)) CHECK(component.size() == n);
+        CHECK(result.closure_error <= 1e-12);
+    }
+    // A symmetric record reflected about its ends is itself once more: a cosine stays one mode.
+    std::vector<double> cosine(401);
+    for (std::size_t i = 0; i < 401; ++i) {
+        cosine[i] = std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / 40.0);
+    }
+    options.noise_ratio = 0.0;
+    const EemdResult result = eemd(cosine, options);
+    for (std::size_t i = 0; i < 401; ++i) {
+        REQUIRE(result.modes[0].values[i] == Approx(cosine[i]).margin(0.01));
+    }
+}
+
+TEST_CASE("progress counts up to all members, and saying no cancels") {
+    const std::vector<double> signal = mixed_series(200);
+    for (const int threads : {1, 3}) {
+        EemdOptions options = small_ensemble(50);
+        options.threads = threads;
+        std::vector<int> steps;
+        options.progress = [&](int done, int members) {
+            CHECK(members == 50);
+            steps.push_back(done);
+            return true;
+        };
+        const auto watched = components_of(eemd(signal, options));
+        CHECK(std::is_sorted(steps.begin(), steps.end()));
+        CHECK(steps.back() == 50);
+        options.progress = nullptr;
+        CHECK(components_of(eemd(signal, options)) == watched);
+        options.progress = [](int, int) { return false; };
+        CHECK_THROWS_AS(eemd(signal, options), EemdCancelled);
+        options.progress = [](int, int) -> bool { throw std::runtime_error("stop"); };
+        CHECK_THROWS_WITH(eemd(signal, options), "stop");
     }
 }
 
@@ -161,6 +240,10 @@ TEST_CASE("an option outside its range is refused by name") {
     EemdOptions options;
     options.ensemble_size = 0;
     refused(options, "ensemble_size = 0");
+    options = {};
+    options.ensemble_size = 9;
+    options.complementary_pairs = true;
+    refused(options, "ensemble_size = 9");
     options = {};
     options.noise_ratio = -0.1;
     refused(options, "noise_ratio");

@@ -100,20 +100,4 @@ TEST_CASE("extrema and mean period of a mode describe it") {
     CHECK(std::isinf(eemd(std::vector<double>(64, 1.0), plain()).residue.mean_period_samples));
 }
 
-TEST_CASE("two tones an octave and a half apart come out as two modes") {
-    // G. Rilling and P. Flandrin, IEEE Trans. Signal Process. 56, 85-95, 2008: ratio < 0.5 separates.
-    const std::size_t n = 1024;
-    std::vector<double> fast(n), slow(n), signal(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        fast[i] = std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / 16.0);
-        slow[i] = std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / 45.0);
-        signal[i] = fast[i] + slow[i];
-    }
-    const EemdResult result = eemd(signal, plain());
-    for (std::size_t i = n / 10; i < n - n / 10; ++i) {
-        REQUIRE(result.modes[0].values[i] == Approx(fast[i]).margin(0.05));
-        REQUIRE(result.modes[1].values[i] == Approx(slow[i]).margin(0.05));
-    }
-}
-
 }  // namespace a351::corrector
