@@ -1,14 +1,19 @@
 #include "corrector/command/emd_command.hpp"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "corrector/command/csv_output.hpp"
 #include "corrector/command/option_values.hpp"
+#include "corrector/command/progress_bar.hpp"
 #include "corrector/eemd/eemd.hpp"
+#include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 
 namespace a351::corrector {
@@ -27,6 +32,8 @@ struct EmdCommandOptions {
     int sifts = FixedSifts{}.count;
     std::optional<int> s_number;
     std::string finish = "extrema";
+    std::string ends = "line";
+    bool pairs = false;
     std::uint64_t seed = 0;
     int threads = 1;
     std::string output;
@@ -47,6 +54,13 @@ EemdOptions decomposition(const EmdCommandOptions& options) {
     }
     eemd_options.finish =
         options.finish == "always" ? FinishRule::always : FinishRule::at_most_two_extrema;
+    eemd_options.ends = options.ends == "mirror" ? EndRule::mirror : EndRule::line;
+    eemd_options.reflect_ends = options.ends == "reflect";
+    eemd_options.complementary_pairs = options.pairs;
+    if (options.pairs && options.ensemble % 2 != 0) {
+        throw InputError("--ensemble = " + std::to_string(options.ensemble) +
+                         "; allowed with --pairs: an even number");
+    }
     eemd_options.seed = options.seed;
     number_option("--threads", options.threads, 1, kMostThreads);
     eemd_options.threads = options.threads;
@@ -65,15 +79,39 @@ std::string to_csv(const EemdResult& result) {
     return csv;
 }
 
+/// What tells components apart, for a choice by period instead of by number.
+std::string report_csv(const EemdResult& result) {
+    std::string csv = "component,extrema,mean_period_samples,energy_share,standard_error\n";
+    const auto add = [&](const std::string& name, const Component& component) {
+        csv += name + ',' + std::to_string(component.extrema_count) + ',';
+        if (component.extrema_count > 0) csv += text::shortest(component.mean_period_samples);
+        csv += ',' + text::shortest(component.energy_share) + ',';
+        if (component.standard_error) csv += text::shortest(*component.standard_error);
+        csv += '\n';
+    };
+    for (std::size_t k = 0; k < result.modes.size(); ++k) {
+        add("imf" + std::to_string(k + 1), result.modes[k]);
+    }
+    add("residue", result.residue);
+    return csv;
+}
+
 void write_modes(const EmdCommandOptions& options) {
-    const EemdOptions eemd_options = decomposition(options);
+    EemdOptions eemd_options = decomposition(options);
     const text::CsvTable table = text::read_csv(options.input);
     std::vector<double> signal;
     signal.reserve(table.row_count());
     for (std::size_t row = 0; row < table.row_count(); ++row) {
         signal.push_back(table.number(row, options.column, -1e300, 1e300));
     }
-    write_or_print(options.output, to_csv(eemd(signal, eemd_options)));
+    ProgressBar bar(std::cerr, ::isatty(STDERR_FILENO) == 1, options.column);
+    eemd_options.progress = [&bar](int done, int members) {
+        bar.show(static_cast<std::size_t>(done), static_cast<std::size_t>(members));
+        return true;
+    };
+    const EemdResult result = eemd(signal, eemd_options);
+    write_or_print(options.output, to_csv(result));
+    write_or_print("", report_csv(result));
 }
 
 }  // namespace
@@ -82,7 +120,8 @@ void add_emd_command(CLI::App& program) {
     CLI::App& command = *program.add_subcommand(
         "emd",
         "Decomposes a column into intrinsic mode functions, imf1 (the fastest) first, and a "
-        "residue, by ensemble empirical mode decomposition; --noise 0 is the plain one.");
+        "residue, by ensemble empirical mode decomposition; --noise 0 is the plain one. Prints the "
+        "extrema, period, share of energy and standard error of every component.");
     const auto options = std::make_shared<EmdCommandOptions>();
     command.add_option("--input", options->input, "CSV with a header line")->required();
     command.add_option("--column", options->column, "Column to read; no cell may be empty")
@@ -106,6 +145,14 @@ void add_emd_command(CLI::App& program) {
                     "extrema: two extrema or fewer are the residue; always: sift every mode")
         ->check(CLI::IsMember({"extrema", "always"}))
         ->capture_default_str();
+    command
+        .add_option("--ends", options->ends,
+                    "line: end samples or the line through two extrema hold the envelopes; mirror: "
+                    "reflected extrema; reflect: the record reflected about its ends")
+        ->check(CLI::IsMember({"line", "mirror", "reflect"}))
+        ->capture_default_str();
+    command.add_flag("--pairs", options->pairs,
+                     "Use every noise twice, once negated; nothing of it is left in the sum");
     command.add_option("--seed", options->seed, "Of the noise")->capture_default_str();
     command.add_option("--threads", options->threads, "No effect on the result")
         ->capture_default_str();

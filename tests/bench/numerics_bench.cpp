@@ -2,9 +2,12 @@
 
 #include <cmath>
 #include <cstddef>
+#include <thread>
 #include <vector>
 
 #include "corrector/eemd/eemd.hpp"
+#include "corrector/eemd/ensemble.hpp"
+#include "corrector/eemd/noise.hpp"
 #include "corrector/signal/decimation.hpp"
 
 namespace {
@@ -20,17 +23,104 @@ std::vector<double> oscillation(std::size_t n) {
     return values;
 }
 
-/// Samples, members.  Items are samples x members x modes x sifts, so that the rate is comparable.
-void ensemble(benchmark::State& state) {
-    const auto signal = oscillation(static_cast<std::size_t>(state.range(0)));
+std::vector<double> noisy_oscillation(std::size_t n) {
+    std::vector<double> values(n);
+    fill_white_noise(1, 0, values);
+    const std::vector<double> clean = oscillation(n);
+    for (std::size_t i = 0; i < n; ++i) values[i] = clean[i] + 0.3 * values[i];
+    return values;
+}
+
+/// Components with the residue, as libeemd counts them: floor(log2 n), and 11 for 5400 samples,
+/// the publication's number.
+int modes_for(std::size_t n) { return n == 5400 ? 10 : default_mode_count(n); }
+
+EemdOptions options_for(const benchmark::State& state) {
     EemdOptions options;
     options.ensemble_size = static_cast<int>(state.range(1));
+    options.mode_count = modes_for(static_cast<std::size_t>(state.range(0)));
     options.finish = FinishRule::always;
-    const int modes = default_mode_count(signal.size());
-    for (auto _ : state) benchmark::DoNotOptimize(eemd(signal, options));
-    state.SetItemsProcessed(state.iterations() * state.range(0) * state.range(1) * modes * 10);
+    return options;
 }
-BENCHMARK(ensemble)->Args({450, 80})->Args({5400, 160})->Unit(benchmark::kMillisecond);
+
+/// Time per sample and sift of `members` members, modes of ten sifts each.
+void count_sifts(benchmark::State& state) {
+    const double sifts = 10.0 * static_cast<double>(state.range(0) * state.range(1)) *
+                         modes_for(static_cast<std::size_t>(state.range(0)));
+    state.counters["per_sample_and_sift"] = benchmark::Counter(
+        sifts, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+/// Samples, members.
+void ensemble(benchmark::State& state) {
+    const auto signal = noisy_oscillation(static_cast<std::size_t>(state.range(0)));
+    const EemdOptions options = options_for(state);
+    for (auto _ : state) benchmark::DoNotOptimize(eemd(signal, options));
+    count_sifts(state);
+}
+BENCHMARK(ensemble)
+    ->Args({450, 80})
+    ->Args({5400, 160})
+    ->Args({65536, 100})
+    ->Unit(benchmark::kMillisecond);
+
+void ensemble_threads(benchmark::State& state) {
+    const auto signal = noisy_oscillation(5400);
+    EemdOptions options;
+    options.ensemble_size = 160;
+    options.threads = static_cast<int>(state.range(0));
+    for (auto _ : state) benchmark::DoNotOptimize(eemd(signal, options));
+}
+BENCHMARK(ensemble_threads)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// libeemd's stopping rule: S-number 4, at most 50 sifts.
+void ensemble_s4(benchmark::State& state) {
+    const auto signal = noisy_oscillation(static_cast<std::size_t>(state.range(0)));
+    EemdOptions options = options_for(state);
+    options.stopping = SNumber{4, 50};
+    for (auto _ : state) benchmark::DoNotOptimize(eemd(signal, options));
+}
+BENCHMARK(ensemble_s4)
+    ->Args({450, 80})
+    ->Args({5400, 160})
+    ->Args({65536, 100})
+    ->Unit(benchmark::kMillisecond);
+
+/// The loops for processors without AVX2.
+void ensemble_portable(benchmark::State& state) {
+    const auto signal = noisy_oscillation(static_cast<std::size_t>(state.range(0)));
+    EnsemblePlan plan;
+    plan.signal = signal;
+    plan.noise_level = 0.1;
+    plan.members = static_cast<int>(state.range(1));
+    plan.mode_count = static_cast<std::size_t>(modes_for(signal.size()));
+    plan.sifting.finish = FinishRule::always;
+    plan.kernels = &portable_kernels();
+    for (auto _ : state) benchmark::DoNotOptimize(sum_ensemble(plan, 1, {}));
+    count_sifts(state);
+}
+BENCHMARK(ensemble_portable)->Args({5400, 40})->Unit(benchmark::kMillisecond);
+
+/// What a second thread gains at best on this machine: chains of products, no memory.
+void arithmetic(benchmark::State& state) {
+    const auto work = [] {
+        double a = 1.0, b = 1.0, c = 1.0, d = 1.0;
+        for (int i = 0; i < 20'000'000; ++i) {
+            a *= 0.9999999;
+            b *= 0.9999998;
+            c *= 0.9999997;
+            d *= 0.9999996;
+        }
+        benchmark::DoNotOptimize(a + b + c + d);
+    };
+    // Two halves of the same work, one after the other or beside each other.
+    for (auto _ : state) {
+        std::jthread other(state.range(0) == 2 ? std::jthread(work) : std::jthread());
+        if (state.range(0) == 1) work();
+        work();
+    }
+}
+BENCHMARK(arithmetic)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void decimate_an_hour(benchmark::State& state) {
     const auto signal = oscillation(180000);

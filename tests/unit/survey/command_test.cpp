@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "protocol/text/csv.hpp"
@@ -133,6 +135,36 @@ TEST_CASE("tide writes instants and the effect on gravity", "[command]") {
     CHECK(table.number(0, "tide_mgal") == Approx(-0.00354).margin(0.00001).epsilon(0));
     CHECK(run(folder, arguments + " --output tide.csv").output.empty());
     CHECK(text::read_text_file(folder.path() / "tide.csv") == outcome.output);
+}
+
+TEST_CASE("emd writes the modes and prints what tells them apart", "[command]") {
+    const ScratchFolder folder;
+    std::string csv = "v\n";
+    for (int i = 0; i < 200; ++i) csv += text::shortest(std::sin(0.3 * i) + 0.01 * i) + '\n';
+    std::ofstream(folder.path() / "in.csv") << csv;
+    const std::string arguments = "emd --input in.csv --column v --modes 4 --ensemble 20 --output ";
+    const Outcome outcome = run(folder, arguments + "modes.csv --pairs --ends mirror");
+    CHECK(outcome.status == 0);
+    const auto modes = text::read_csv(folder.path() / "modes.csv");
+    REQUIRE(modes.row_count() == 200);
+    for (std::size_t row = 0; row < 200; ++row) {
+        double sum = modes.number(row, "residue");
+        for (const char* const mode : {"imf1", "imf2", "imf3", "imf4"}) {
+            sum += modes.number(row, mode);
+        }
+        const double i = static_cast<double>(row);
+        REQUIRE(sum == Approx(std::sin(0.3 * i) + 0.01 * i).margin(1e-12));
+    }
+    const auto report = text::CsvTable::parse(outcome.output, "stdout");
+    REQUIRE(report.row_count() == 5);
+    CHECK(report.cell(4, "component") == "residue");
+    double share = 0.0;
+    for (std::size_t row = 0; row < 5; ++row) share += report.number(row, "energy_share");
+    CHECK(share == Approx(1.0));
+    CHECK(report.number(0, "standard_error") > 0.0);
+    const Outcome odd = run(folder, arguments + "odd.csv --pairs --ensemble 21");
+    CHECK(odd.status == 2);
+    CHECK(odd.errors.find("--ensemble") != std::string::npos);
 }
 
 TEST_CASE("help and version go to standard output and end with 0", "[command]") {

@@ -1,0 +1,104 @@
+/// @file
+/// Any options and any record: a result that is finite and adds up, or std::invalid_argument; the
+/// same bits from the loops of every instruction set.
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+#include <vector>
+
+#include "corrector/eemd/eemd.hpp"
+#include "corrector/eemd/ensemble.hpp"
+
+namespace {
+
+using namespace a351::corrector;
+
+constexpr std::size_t kOptionBytes = 8;
+
+void require(bool holds) {
+    if (!holds) std::abort();
+}
+
+/// Samples of one or two bytes have plateaus, those of eight bytes every value a double can have.
+std::vector<double> samples(const std::uint8_t* data, std::size_t size, unsigned width) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i + width <= size; i += width) {
+        double value = 0.0;
+        if (width == sizeof value) {
+            std::memcpy(&value, data + i, sizeof value);
+        } else {
+            std::int16_t counts = static_cast<std::int8_t>(data[i]);
+            if (width == 2) std::memcpy(&counts, data + i, sizeof counts);
+            value = counts;
+        }
+        values.push_back(value);
+    }
+    return values;
+}
+
+EemdOptions options_from(const std::uint8_t* bytes) {
+    EemdOptions options;
+    options.ensemble_size = bytes[0] % 12;
+    options.noise_ratio = bytes[1] % 4 * 0.1;
+    options.complementary_pairs = bytes[1] >= 128;
+    if (bytes[2] % 2 == 0) {
+        options.stopping = FixedSifts{bytes[2] / 8};
+    } else {
+        options.stopping = SNumber{bytes[2] / 32, 20};
+    }
+    options.mode_count = bytes[3] % 12;
+    options.finish = bytes[4] % 2 == 0 ? FinishRule::at_most_two_extrema : FinishRule::always;
+    options.ends = static_cast<EndRule>(bytes[4] / 2 % 3);
+    options.spline_ends = bytes[5] % 2 == 0 ? SplineEnds::not_a_knot : SplineEnds::natural;
+    options.reflect_ends = bytes[5] >= 128;
+    options.seed = bytes[6];
+    return options;
+}
+
+std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
+
+void compare_kernels(const std::vector<double>& signal, const EemdOptions& options) {
+    if (avx2_kernels() == nullptr) return;
+    EnsemblePlan plan;
+    plan.signal = signal;
+    plan.mode_count = static_cast<std::size_t>(*options.mode_count);
+    plan.sifting = {options.stopping, options.finish, options.ends, options.spline_ends};
+    plan.kernels = avx2_kernels();
+    const auto fast = sum_ensemble(plan, 1, {});
+    plan.kernels = &portable_kernels();
+    const auto portable = sum_ensemble(plan, 1, {});
+    for (std::size_t i = 0; i < fast->values.size(); ++i) {
+        require(bits(fast->values[i]) == bits(portable->values[i]));
+    }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size < kOptionBytes) return 0;
+    const EemdOptions options = options_from(data);
+    constexpr unsigned kWidths[] = {1, 2, 8};
+    const auto signal = samples(data + kOptionBytes, size - kOptionBytes, kWidths[data[7] % 3]);
+    double largest = 0.0;
+    try {
+        const EemdResult result = eemd(signal, options);
+        const auto check = [&](const Component& component) {
+            require(component.values.size() == signal.size());
+            for (const double value : component.values) {
+                require(std::isfinite(value));
+                largest = std::max(largest, std::abs(value));
+            }
+        };
+        for (const Component& mode : result.modes) check(mode);
+        check(result.residue);
+        require(result.closure_error <= 9.0 * result.noise_level + 1e-10 * largest);
+    } catch (const std::invalid_argument&) {
+        return 0;
+    }
+    if (largest < 1e100) compare_kernels(signal, options);
+    return 0;
+}
