@@ -1,10 +1,11 @@
 #include "corrector/signal/decimation.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+
+#include "corrector/signal/decimator.hpp"
 
 namespace a351::corrector {
 
@@ -33,21 +34,11 @@ DecimationFilter design_decimation(int factor) {
 }
 
 std::vector<double> decimate(std::span<const double> input, const DecimationFilter& filter) {
-    const std::size_t half = filter.half_width();
-    const std::size_t n = input.size();
-    std::vector<double> output((n + filter.factor - 1) / filter.factor,
-                               std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t k = 0; k < output.size(); ++k) {
-        const std::size_t centre = k * filter.factor;
-        if (centre < half || centre + half >= n) continue;
-        // From the outside in: the smallest terms first.  A NaN among the inputs makes the sum NaN.
-        double sum = 0.0;
-        for (std::size_t j = half; j >= 1; --j) {
-            sum += filter.taps[half + j] * (input[centre - j] + input[centre + j]);
-        }
-        sum += filter.taps[half] * input[centre];
-        if (std::isfinite(sum)) output[k] = sum;
-    }
+    std::vector<double> output;
+    output.reserve(input.size() / filter.factor + 1);
+    Decimator decimator(filter);
+    decimator.push(input, output);
+    decimator.finish(output);
     return output;
 }
 

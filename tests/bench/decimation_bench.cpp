@@ -1,0 +1,51 @@
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "corrector/signal/decimator.hpp"
+
+namespace {
+
+using namespace a351::corrector;
+
+std::vector<double> oscillation(std::size_t n) {
+    std::vector<double> values(n);
+    for (std::size_t i = 0; i < n; ++i) values[i] = std::sin(static_cast<double>(i) / 7.0);
+    return values;
+}
+
+/// A factor of ten from as many samples as `range(0)`: linear in them.
+void decimate_series(benchmark::State& state) {
+    const auto signal = oscillation(static_cast<std::size_t>(state.range(0)));
+    const auto filter = design_decimation(10);
+    for (auto _ : state) benchmark::DoNotOptimize(decimate(signal, filter));
+    state.SetItemsProcessed(state.iterations() * state.range(0));
+    state.SetComplexityN(state.range(0));
+}
+BENCHMARK(decimate_series)
+    ->RangeMultiplier(10)
+    ->Range(10'000, 10'000'000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity(benchmark::oN);
+
+/// 50 Hz to 2 s as it arrives, a burst of `range(0)` samples at a time.
+void decimate_stream(benchmark::State& state) {
+    const auto signal = oscillation(180'000);
+    const auto burst = static_cast<std::size_t>(state.range(0));
+    for (auto _ : state) {
+        Decimator decimator(design_decimation(10), 2);
+        std::vector<double> output;
+        for (std::size_t i = 0; i + burst <= signal.size(); i += burst) {
+            decimator.push(std::span(signal).subspan(i, burst), output);
+        }
+        decimator.finish(output);
+        benchmark::DoNotOptimize(output.data());
+    }
+    state.SetItemsProcessed(state.iterations() * 180'000);
+}
+BENCHMARK(decimate_stream)->Arg(1)->Arg(50)->Arg(4096)->Unit(benchmark::kMillisecond);
+
+}  // namespace
