@@ -1,14 +1,21 @@
 #include "corrector/command/decimate_command.hpp"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <limits>
+#include <fstream>
+#include <iostream>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "corrector/command/csv_output.hpp"
 #include "corrector/command/option_values.hpp"
-#include "corrector/signal/decimation.hpp"
+#include "corrector/command/progress_bar.hpp"
+#include "corrector/command/sample_column.hpp"
+#include "corrector/signal/decimator.hpp"
+#include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 
 namespace a351::corrector {
@@ -24,32 +31,80 @@ struct DecimateOptions {
     std::string output;
 };
 
-/// The column; an empty cell is a missing sample.
-std::vector<double> read_samples(const DecimateOptions& options) {
-    const text::CsvTable table = text::read_csv(options.input);
-    std::vector<double> samples;
-    samples.reserve(table.row_count());
-    for (std::size_t row = 0; row < table.row_count(); ++row) {
-        samples.push_back(table.number_if_given(row, options.column)
-                              .value_or(std::numeric_limits<double>::quiet_NaN()));
+/// Rows of the result, handed on in pieces.
+class DecimatedRows {
+public:
+    explicit DecimatedRows(CsvOutput& output) : output_(output) {}
+
+    void add(std::span<const double> values) {
+        for (const double value : values) {
+            const bool is_valid = !std::isnan(value);
+            text_ += std::to_string(count_++);
+            text_ += is_valid ? ',' + text::shortest(value) + ",1\n" : ",,0\n";
+            valid_count_ += is_valid ? 1 : 0;
+        }
     }
-    return samples;
+
+    void flush() {
+        output_.write(text_);
+        text_.clear();
+    }
+
+    [[nodiscard]] std::size_t count() const noexcept { return count_; }
+    [[nodiscard]] std::size_t valid_count() const noexcept { return valid_count_; }
+
+private:
+    CsvOutput& output_;
+    std::string text_ = "index,value,valid\n";
+    std::size_t count_ = 0;
+    std::size_t valid_count_ = 0;
+};
+
+/// As the kernel counts it since the program began; getrusage() would count its parent's as well.
+std::string peak_memory() {
+    std::ifstream status("/proc/self/status");
+    std::string key;
+    std::size_t kibibytes = 0;
+    while (status >> key) {
+        if (key == "VmHWM:") status >> kibibytes;
+    }
+    return std::to_string(kibibytes) + " KiB";
 }
 
 void write_decimated(const DecimateOptions& options) {
     number_option("--factor", options.factor, 2, 1000);
     number_option("--stages", options.stages, 1, kMostStages);
-    std::vector<double> samples = read_samples(options);
     const DecimationFilter filter = design_decimation(options.factor);
-    for (int stage = 0; stage < options.stages; ++stage) samples = decimate(samples, filter);
+    const double least = least_length(filter, options.stages);
+    SampleColumn column(options.input, options.column);
+    CsvOutput output(options.output);
+    DecimatedRows rows(output);
+    Decimator decimator(filter, options.stages);
+    ProgressBar bar(std::cerr, ::isatty(STDERR_FILENO) == 1, "decimate, MB");
 
-    std::string csv = "index,value,valid\n";
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-        const bool is_valid = !std::isnan(samples[k]);
-        csv += std::to_string(k) + ',' + (is_valid ? text::shortest(samples[k]) : "") + ',' +
-               (is_valid ? '1' : '0') + '\n';
+    std::vector<double> samples;
+    std::vector<double> decimated;
+    while (column.read(samples)) {
+        decimated.clear();
+        decimator.push(samples, decimated);
+        rows.add(decimated);
+        // Of a record that turns out too short nothing shall be written.
+        if (static_cast<double>(column.count()) >= least) rows.flush();
+        bar.show(column.bytes_read() / 1'000'000, column.byte_count() / 1'000'000);
     }
-    write_or_print(options.output, std::move(csv));
+    if (static_cast<double>(column.count()) < least) {
+        throw InputError(options.input + ": " + options.column + ": " +
+                         std::to_string(column.count()) + " rows are too short; allowed: " +
+                         text::shortest(least) + " or more for this factor and these stages");
+    }
+    decimated.clear();
+    decimator.finish(decimated);
+    rows.add(decimated);
+    rows.flush();
+    output.finish();
+    std::cerr << "a351-correct: decimate: " << column.count() << " samples ("
+              << column.missing_count() << " missing) to " << rows.count() << " values ("
+              << rows.valid_count() << " valid); peak memory " << peak_memory() << '\n';
 }
 
 }  // namespace
@@ -58,9 +113,14 @@ void add_decimate_command(CLI::App& program) {
     CLI::App& command = *program.add_subcommand(
         "decimate",
         "Lowers the rate of a column by a whole factor M per stage, after a low-pass of 8 M + 3 "
-        "taps, as CSV index,value,valid.  Output number k is centred on input row k M^stages.");
+        "taps, as CSV index,value,valid.  Output number k is centred on input row k M^stages.  "
+        "Memory does not grow with the input.");
     const auto options = std::make_shared<DecimateOptions>();
-    command.add_option("--input", options->input, "CSV with a header line")->required();
+    command
+        .add_option(
+            "--input", options->input,
+            "CSV with a header line; a column time, time_utc or time_s must ascend in equal steps")
+        ->required();
     command.add_option("--column", options->column, "Column to read; empty cells are missing")
         ->required();
     command.add_option("--factor", options->factor, "M, 2 to 1000")->required();

@@ -32,6 +32,10 @@ struct DecimationFilter {
 /// 2010, section 7.5 (window method).
 [[nodiscard]] DecimationFilter design_decimation(int factor);
 
+/// The least number of samples, none missing, of which `stages` in a row make a valid output.
+/// A double, for it grows like M^stages; exact up to 2^53.
+[[nodiscard]] double least_length(const DecimationFilter& filter, int stages);
+
 /// Filters and keeps every M-th value, centred on its input, so that nothing is delayed:
 ///
 ///     y[k] = sum over m of h[m] x[M k + D - m],   D = (taps - 1) / 2,   k = 0 ... ceil(n / M) - 1

@@ -1,5 +1,6 @@
 #include "corrector/signal/decimation.hpp"
 
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -138,6 +139,26 @@ TEST_CASE("every length of input gives one output per started block, all missing
             CHECK(std::isnan(output[k]) == (10 * k < 41 || 10 * k + 41 >= n));
         }
     }
+}
+
+TEST_CASE("the least length is the first that gives a valid output") {
+    for (const int factor : {2, 7, 10, 33}) {
+        for (const int stages : {1, 2, 3}) {
+            CAPTURE(factor, stages);
+            const DecimationFilter filter = design_decimation(factor);
+            const auto has_valid = [&](double n) {
+                const std::vector<double> ones(static_cast<std::size_t>(n), 1.0);
+                const TimeSeries<MilliGal> series(UtcTime{}, Hertz(1.0), ones);
+                const auto output = decimate(series, filter, stages);
+                const auto& values = output.values();
+                return std::any_of(values.begin(), values.end(),
+                                   [](double value) { return !std::isnan(value); });
+            };
+            CHECK(has_valid(least_length(filter, stages)));
+            CHECK_FALSE(has_valid(least_length(filter, stages) - 1.0));
+        }
+    }
+    CHECK(least_length(design_decimation(10), 2) == 952.0);
 }
 
 TEST_CASE("a factor outside 2 to 1000 is refused") {

@@ -83,6 +83,12 @@ TEST_CASE("bad usage ends with 2, one line on standard error and nothing written
     folder.write("sites.csv",
                  "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\nNo.0,140,36,5,979860\n");
     folder.write("base.toml", "[survey]\nbase = 'No.9'\n");
+    folder.write("few.csv", "a\n1\n2\n");
+    folder.write("inf.csv", "a,b\n1,1\n,inf\n");
+    folder.write("back.csv",
+                 "time,a\n2020-01-01T00:00:01Z,1\n2020-01-01T00:00:02Z,1\n"
+                 "2020-01-01T00:00:01.5Z,1\n");
+    folder.write("hole.csv", "time_s,a\n0.02,1\n0.04,1\n0.08,1\n");
     const std::string sites = "table --sites '" A351_GOLDEN "/tsukuba/sites.csv' --observations ";
     const auto [arguments, message] = GENERATE_COPY(table<std::string, std::string>({
         {"", "A subcommand is required"},
@@ -95,6 +101,16 @@ TEST_CASE("bad usage ends with 2, one line on standard error and nothing written
         {kTsukuba + "--tide tide.csv", "longman"},
         {kTsukuba + "--model paper --base No.3", "drift step is refused"},
         {kTsukuba + "--delta2 116", "--delta2 = 116"},
+        {"decimate --factor 10 --input few.csv --column a",
+         "few.csv: a: 2 rows are too short; allowed: 92 or more"},
+        {"decimate --factor 10 --input inf.csv --column b", "inf.csv:3: b = inf: not a finite"},
+        {"decimate --factor 10 --input back.csv --column a --output result",
+         "back.csv:4: time = 2020-01-01T00:00:01.5Z: not after the row before it"},
+        {"decimate --factor 10 --input hole.csv --column a",
+         "hole.csv:4: time_s = 0.08: 0.04 s after the row before it; allowed: equal steps"},
+        {"decimate --factor 10 --input few.csv --column b", "column b is missing; there are: a"},
+        {"decimate --factor 10 --input . --column a", "cannot be read"},
+        {"decimate --factor 1 --input few.csv --column a", "--factor = 1"},
         {"survey key.toml", "key.toml:2: survey.basis"},
         {"survey base.toml", "base.toml:2: survey.base = 'No.9': no such site; allowed: No.0"},
         {"tide --latitude 91 --longitude 0 --height 0 --from 2020-01-01T00:00:00Z "
@@ -165,6 +181,27 @@ TEST_CASE("emd writes the modes and prints what tells them apart", "[command]") 
     const Outcome odd = run(folder, arguments + "odd.csv --pairs --ensemble 21");
     CHECK(odd.status == 2);
     CHECK(odd.errors.find("--ensemble") != std::string::npos);
+}
+
+TEST_CASE("decimate counts what is missing and keeps what is good", "[command]") {
+    const ScratchFolder folder;
+    std::string rows = "time_s,a\n";
+    for (int i = 0; i < 1000; ++i) {
+        rows += std::to_string(i) + (i == 600 ? ",\n" : ",7\n");
+    }
+    folder.write("in.csv", rows);
+    const Outcome outcome =
+        run(folder, "decimate --factor 10 --input in.csv --column a --output out.csv");
+    CHECK(outcome.status == 0);
+    CHECK(outcome.output.empty());
+    // Of 100 values five reach beyond the start, four beyond the end and nine into the gap.
+    CHECK_THAT(outcome.errors,
+               Catch::Contains("1000 samples (1 missing) to 100 values (82 valid)"));
+    const auto table = text::read_csv(folder.path() / "out.csv");
+    REQUIRE(table.row_count() == 100);
+    CHECK(table.number(50, "value") == Approx(7.0).epsilon(1e-14));
+    CHECK(table.cell(60, "value").empty());
+    CHECK(table.cell(60, "valid") == "0");
 }
 
 TEST_CASE("help and version go to standard output and end with 0", "[command]") {

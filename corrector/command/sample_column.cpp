@@ -1,0 +1,96 @@
+#include "corrector/command/sample_column.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "protocol/core/input_error.hpp"
+#include "protocol/text/csv.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr std::size_t kBlock = 16384;  // samples: 128 kB
+
+std::ifstream open(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw InputError(file + ": cannot be read; allowed: a readable file");
+    return in;
+}
+
+std::optional<std::size_t> find_time(const std::vector<std::string>& columns) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        if (columns[i] == "time" || columns[i] == "time_utc" || columns[i] == "time_s") return i;
+    }
+    return std::nullopt;
+}
+
+/// An instant, or a number of seconds since any zero.
+std::optional<Nanoseconds> parse_time(std::string_view text) {
+    if (const auto time = parse_rfc3339(text)) return time->time_since_epoch();
+    constexpr double kMostSeconds = 9e9;  // of from_seconds()
+    const std::optional<double> seconds = text::parse_number(text);
+    if (!seconds || std::abs(*seconds) >= kMostSeconds) return std::nullopt;
+    return from_seconds(*seconds);
+}
+
+std::string in_seconds(Nanoseconds time) {
+    return text::shortest(std::chrono::duration<double>(time).count()) + " s";
+}
+
+}  // namespace
+
+SampleColumn::SampleColumn(const std::string& file, const std::string& column)
+    : in_(open(file)),
+      reader_(in_, file),
+      column_(text::column_index(reader_.columns(), column, file)),
+      time_column_(find_time(reader_.columns())) {
+    if (std::filesystem::is_regular_file(file)) byte_count_ = std::filesystem::file_size(file);
+}
+
+bool SampleColumn::read(std::vector<double>& samples) {
+    samples.clear();
+    while (samples.size() < kBlock && reader_.next()) {
+        if (time_column_) check_time();
+        const std::string_view cell = reader_.cells()[column_];
+        if (cell.empty()) {
+            ++missing_count_;
+            samples.push_back(std::numeric_limits<double>::quiet_NaN());
+            continue;
+        }
+        const std::optional<double> value = text::parse_number(cell);
+        if (!value) {
+            reader_.refuse(column_, "not a finite number",
+                           "a number with a decimal point, or nothing for a missing sample");
+        }
+        samples.push_back(*value);
+    }
+    count_ += samples.size();
+    return !samples.empty();
+}
+
+std::size_t SampleColumn::bytes_read() {
+    const auto position = in_.tellg();
+    return position < 0 ? byte_count_ : static_cast<std::size_t>(position);
+}
+
+void SampleColumn::check_time() {
+    const std::size_t column = *time_column_;
+    const std::optional<Nanoseconds> time = parse_time(reader_.cells()[column]);
+    if (!time) reader_.refuse(column, "no time", "an instant as in RFC 3339, or seconds");
+    if (last_time_) {
+        const Nanoseconds step = *time - *last_time_;
+        if (step <= Nanoseconds(0)) {
+            reader_.refuse(column, "not after the row before it", "times that ascend");
+        }
+        if (!step_) step_ = step;
+        if (2 * step < *step_ || 2 * step > 3 * *step_) {
+            reader_.refuse(column, in_seconds(step) + " after the row before it",
+                           "equal steps, here of " + in_seconds(*step_) +
+                               "; an empty cell stands for a missing sample");
+        }
+    }
+    last_time_ = time;
+}
+
+}  // namespace a351::corrector
