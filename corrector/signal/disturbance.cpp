@@ -4,19 +4,13 @@
 #include <cmath>
 #include <cstddef>
 
+#include "corrector/signal/median.hpp"
+
 namespace a351::corrector {
 namespace {
 
 constexpr std::size_t kHalfWindow = 30;
-constexpr double kGaussianPerMad = 1.4826;
 constexpr double kRounding = 1e-12;
-
-/// The middle value; the upper of the two middle ones for an even number.
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 double median_of(std::span<const double> values) {
     return median(std::vector<double>(values.begin(), values.end()));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "corrector/signal/decimator.hpp"
+#include "corrector/signal/smoother.hpp"
 
 namespace {
 
@@ -47,5 +48,20 @@ void decimate_stream(benchmark::State& state) {
     state.SetItemsProcessed(state.iterations() * 180'000);
 }
 BENCHMARK(decimate_stream)->Arg(1)->Arg(50)->Arg(4096)->Unit(benchmark::kMillisecond);
+
+/// A curve with its standard errors from `range(0)` samples: linear in them.
+void smooth_series(benchmark::State& state) {
+    const auto signal = oscillation(static_cast<std::size_t>(state.range(0)));
+    for (auto _ : state) {
+        const SmoothTrend trend = smooth(signal, 150.0);
+        benchmark::DoNotOptimize(trend.standard_errors());
+    }
+    state.SetComplexityN(state.range(0));
+}
+BENCHMARK(smooth_series)
+    ->RangeMultiplier(10)
+    ->Range(450, 450'000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity(benchmark::oN);
 
 }  // namespace

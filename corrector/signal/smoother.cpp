@@ -1,0 +1,135 @@
+#include "corrector/signal/smoother.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "corrector/signal/median.hpp"
+
+namespace a351::corrector {
+namespace {
+
+/// In standard deviations: one sample in 370 of Gaussian noise lies beyond the first.
+constexpr double kFullWeight = 3.0;
+constexpr double kNoWeight = 6.0;
+
+/// Weights settle within ten rounds; the limit stops those that alternate.
+constexpr int kMostRounds = 30;
+constexpr double kSettled = 1e-6;
+
+constexpr std::size_t kFewest = 3;  // two make a line, which leaves no residual
+
+void require(bool condition, const std::string& trouble) {
+    if (!condition) throw std::invalid_argument("smooth: " + trouble);
+}
+
+std::vector<double> weighted(std::span<const double> weights, std::span<const double> values) {
+    std::vector<double> product(values.size());
+    for (std::size_t i = 0; i < product.size(); ++i) {
+        product[i] = weights[i] == 0.0 ? 0.0 : weights[i] * values[i];
+    }
+    return product;
+}
+
+double weight_of(double residual, double deviation) {
+    const double magnitude = std::abs(residual);
+    if (magnitude <= kFullWeight * deviation) return 1.0;
+    if (magnitude >= kNoWeight * deviation) return 0.0;
+    const double u = (magnitude / deviation - kFullWeight) / (kNoWeight - kFullWeight);
+    return (1.0 - u * u) * (1.0 - u * u);
+}
+
+/// Weights by the residuals of the samples that are there.
+std::vector<double> weights_about(std::span<const double> series, std::span<const double> curve) {
+    std::vector<double> magnitudes;
+    for (std::size_t i = 0; i < series.size(); ++i) {
+        if (std::isfinite(series[i])) magnitudes.push_back(std::abs(series[i] - curve[i]));
+    }
+    const double deviation = kGaussianPerMad * median(std::move(magnitudes));
+    std::vector<double> weights(series.size());
+    for (std::size_t i = 0; i < series.size(); ++i) {
+        if (std::isfinite(series[i])) weights[i] = weight_of(series[i] - curve[i], deviation);
+    }
+    return weights;
+}
+
+double largest_change(std::span<const double> a, std::span<const double> b) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+    return largest;
+}
+
+/// The fit, its noise level and degrees of freedom, once the weights stand.
+SmoothTrend describe(std::span<const double> series, PenalisedFit fit, std::vector<double> curve,
+                     std::vector<double> weights) {
+    const std::vector<double> inverse = fit.inverse_diagonal();
+    double squares = 0.0;
+    double total = 0.0;
+    double degrees_of_freedom = 0.0;
+    for (std::size_t i = 0; i < series.size(); ++i) {
+        if (weights[i] == 0.0) continue;
+        const double residual = series[i] - curve[i];
+        squares += weights[i] * residual * residual;
+        total += weights[i];
+        degrees_of_freedom += weights[i] * inverse[i];
+    }
+    const double noise_level = std::sqrt(squares / (total - degrees_of_freedom));
+    return {std::move(curve), std::move(weights), noise_level, degrees_of_freedom, std::move(fit)};
+}
+
+}  // namespace
+
+std::vector<double> SmoothTrend::standard_errors() const {
+    std::vector<double> errors = fit.inverse_diagonal();
+    for (double& error : errors) error = noise_level * std::sqrt(error);
+    return errors;
+}
+
+double SmoothTrend::standard_error_of_mean(std::size_t first, std::size_t last) const {
+    assert(first <= last && last < curve.size());
+    const double share = 1.0 / static_cast<double>(last - first + 1);
+    std::vector<double> shares(curve.size());
+    std::fill_n(shares.begin() + static_cast<std::ptrdiff_t>(first), last - first + 1, share);
+    const std::vector<double> solved = fit.solve(shares);
+    double variance = 0.0;
+    for (std::size_t i = first; i <= last; ++i) variance += share * solved[i];
+    return noise_level * std::sqrt(variance);
+}
+
+SmoothTrend smooth(std::span<const double> series, double cutoff_period) {
+    require(cutoff_period >= kShortestCutoff && cutoff_period <= kLongestCutoff,
+            "cutoff_period = " + std::to_string(cutoff_period) + ", must be 2 to 5000 samples");
+    std::vector<double> weights(series.size());
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < series.size(); ++i) {
+        if (!std::isfinite(series[i])) continue;
+        weights[i] = 1.0;
+        sum += series[i];
+        ++count;
+    }
+    require(count >= kFewest, "series: " + std::to_string(count) + " samples, must be 3 or more");
+
+    // Rounding is relative to what is fitted: the departure from the mean.
+    const double mean = sum / static_cast<double>(count);
+    std::vector<double> departure(series.begin(), series.end());
+    for (double& value : departure) value -= mean;
+
+    const double penalty = penalty_of(cutoff_period);
+    PenalisedFit fit(weights, penalty);
+    std::vector<double> curve = fit.solve(weighted(weights, departure));
+    for (int round = 1; round < kMostRounds; ++round) {
+        std::vector<double> next = weights_about(departure, curve);
+        if (largest_change(next, weights) <= kSettled) break;
+        weights = std::move(next);
+        fit = PenalisedFit(weights, penalty);
+        curve = fit.solve(weighted(weights, departure));
+    }
+    SmoothTrend trend = describe(departure, std::move(fit), std::move(curve), std::move(weights));
+    for (double& value : trend.curve) value += mean;
+    return trend;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,55 @@
+#pragma once
+/// @file
+/// The slow part of a series by penalised least squares, with its uncertainty.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "corrector/signal/penalised_fit.hpp"
+
+namespace a351::corrector {
+
+/// Limits of the cut-off period in samples.  Below, nothing is smoothed; above, rounding shows
+/// (penalised_fit.hpp): decimate first.
+inline constexpr double kShortestCutoff = 2.0;
+inline constexpr double kLongestCutoff = 5000.0;
+
+struct SmoothTrend {
+    std::vector<double> curve;        ///< (n) Unit of the series.
+    std::vector<double> weights;      ///< (n) 0 (missing, or an outlier) to 1.
+    double noise_level = 0.0;         ///< Standard deviation of one sample about the curve.
+    double degrees_of_freedom = 0.0;  ///< Trace of the matrix that makes the curve.
+    PenalisedFit fit;                 ///< Of the weights: the errors come from its factors.
+
+    /// Of every point of the curve, (n).
+    [[nodiscard]] std::vector<double> standard_errors() const;
+
+    /// Of the curve's mean over the points first..last, both included; last < n.
+    [[nodiscard]] double standard_error_of_mean(std::size_t first, std::size_t last) const;
+};
+
+/// Whittaker's smoother with the penalty that halves a sine of the period `cutoff_period`.
+///
+/// A sample that is missing (not finite) has weight 0: the curve goes on as a cubic across a gap and
+/// as a line beyond the ends.  The others have weight 1 up to three standard deviations s of the
+/// residuals (1.4826 times their median magnitude), and less beyond, none from six on,
+///
+///     w = (1 - u^2)^2,  u = (|residual| / s - 3) / 3
+///
+/// so that Gaussian noise is fitted by plain least squares and an outlier not at all.  The weights
+/// are found by repetition from 1.
+///
+/// Standard errors: noise_level sqrt(a' A^-1 a), that is the curve's posterior deviation if its own
+/// second differences are white and of the penalty's size (G. Wahba, J. R. Stat. Soc. B 45(1),
+/// 133-150, 1983); smoother_test.cpp counts how often they hold.  Noise that is correlated over
+/// many samples makes them too small.
+///
+/// @param series         (n) any unit; n >= 3, of which at least three are finite.
+/// @param cutoff_period  Samples, kShortestCutoff to kLongestCutoff: the one parameter.
+/// @throws std::invalid_argument  fewer samples, or another period.
+/// Source: penalised_fit.hpp; weights as in F. R. Hampel et al., Robust Statistics, Wiley, 1986,
+/// section 2.6 (redescending).  Departs from it in the bisquare flank.
+[[nodiscard]] SmoothTrend smooth(std::span<const double> series, double cutoff_period);
+
+}  // namespace a351::corrector
