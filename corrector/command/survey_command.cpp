@@ -16,6 +16,7 @@
 #include "corrector/survey/result_files.hpp"
 #include "corrector/survey/survey_file.hpp"
 #include "corrector/survey/table_text.hpp"
+#include "corrector/survey/trend_comparison.hpp"
 #include "protocol/core/input_error.hpp"
 
 namespace a351::corrector {
@@ -28,6 +29,7 @@ struct SurveyCommandOptions {
     std::string model;
     std::string flags;
     std::string tide;
+    std::string trend;
     std::string curve;
 };
 
@@ -35,6 +37,9 @@ SurveyFile with_overrides(SurveyFile survey, const SurveyCommandOptions& options
     if (!options.model.empty()) survey.survey.model = options.model;
     if (!options.flags.empty()) survey.survey.use_flags = options.flags == "use";
     if (!options.tide.empty()) survey.tide.source = options.tide;
+    if (!options.trend.empty()) {
+        survey.trend = options.trend == "eemd" ? TrendMethod::eemd : TrendMethod::smoother;
+    }
     if (!options.curve.empty()) {
         survey.curve = options.curve == "paper" ? TrendCurve::paper : TrendCurve::slow;
     }
@@ -53,6 +58,8 @@ nlohmann::ordered_json settings_of(const SurveyFile& survey, const SurveyCorrect
     settings["delta3"] = survey.tide.factors.delta3;
     settings["base"] = result.options.base;
     settings["datum"] = survey.survey.datum;
+    settings["trend"] = trend_method_of(survey) == TrendMethod::eemd ? "eemd" : "smoother";
+    settings["cutoff_s"] = survey.cutoff_s;
     settings["curve"] = trend_curve_of(survey) == TrendCurve::paper ? "paper" : "slow";
     settings["norm"] = survey.norm == NormOrder::decimate_first ? "decimate-first" : "as-published";
     settings["rate"] = "interval";
@@ -111,7 +118,8 @@ void correct_days(const SurveyCommandOptions& options) {
     std::vector<SurveyCorrection> results;
     for (const Day& day : days) {
         write_together(is_joint ? out / folder_name(day.name) : out, day.files);
-        std::cout << "survey " << day.name << '\n' << survey_text(day.result) << '\n';
+        std::cout << "survey " << day.name << '\n'
+                  << survey_text(day.result) << trend_comparison_text(day.result) << '\n';
         results.push_back(day.result);
     }
     if (is_joint) {
@@ -141,8 +149,12 @@ void add_survey_command(CLI::App& program) {
     command.add_option("--tide", options->tide, "Tide, subtracted from the readings")
         ->check(CLI::IsMember({"direct", "catalogue", "longman", "none"}));
     command
+        .add_option("--trend", options->trend,
+                    "Trend that is averaged; the model paper always takes eemd")
+        ->check(CLI::IsMember({"eemd", "smoother"}));
+    command
         .add_option("--curve", options->curve,
-                    "Trend curve that is averaged; the model paper always has its own")
+                    "Which components make the EEMD trend; the model paper always has its own")
         ->check(CLI::IsMember({"paper", "slow"}));
     command.callback([options] { correct_days(*options); });
 }

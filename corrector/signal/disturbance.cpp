@@ -1,6 +1,7 @@
 #include "corrector/signal/disturbance.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 
@@ -83,6 +84,15 @@ Disturbances find_disturbances(std::span<const double> series, double threshold)
     std::vector<bool> disturbed(n);
     for (std::size_t i = 0; i < n; ++i) disturbed[i] = std::abs(deviation[i]) > limit;
     return {std::move(disturbed), std::move(baseline)};
+}
+
+std::vector<double> despike(std::span<const double> series, const Disturbances& found) {
+    assert(found.disturbed.size() == series.size());
+    std::vector<double> samples(series.begin(), series.end());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (found.disturbed[i]) samples[i] = found.baseline[i];
+    }
+    return samples;
 }
 
 }  // namespace a351::corrector

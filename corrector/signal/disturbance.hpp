@@ -27,4 +27,9 @@ struct Disturbances {
 /// from it in one deviation for the whole record, which a long disturbance cannot raise so easily.
 [[nodiscard]] Disturbances find_disturbances(std::span<const double> series, double threshold);
 
+/// The series with its baseline in the place of every disturbed sample.
+/// @param found  find_disturbances() of `series`.
+[[nodiscard]] std::vector<double> despike(std::span<const double> series,
+                                          const Disturbances& found);
+
 }  // namespace a351::corrector

@@ -9,6 +9,7 @@
 
 #include "corrector/signal/disturbance.hpp"
 #include "corrector/signal/interval.hpp"
+#include "corrector/signal/smoother.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -28,6 +29,10 @@ void validate(const RepresentativeOptions& options) {
         throw std::invalid_argument("representative_value: disturbance_threshold = " +
                                     std::to_string(options.disturbance_threshold) +
                                     ", must be > 0");
+    }
+    if (!(options.cutoff_s >= kShortestCutoff_s && options.cutoff_s <= kLongestCutoff_s)) {
+        throw std::invalid_argument("representative_value: cutoff_s = " +
+                                    std::to_string(options.cutoff_s) + ", must be 20 to 500");
     }
 }
 
@@ -114,16 +119,6 @@ TimeSeries<DegC> decimate_temperature(const OccupationRecord& record,
             std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(count))};
 }
 
-/// What is decomposed: the samples of the part, disturbed ones replaced if asked for.
-std::vector<double> samples_to_decompose(std::span<const double> run, const Part& part,
-                                         const Disturbances& found, bool despike) {
-    std::vector<double> samples;
-    for (std::size_t i = part.first; i <= part.last; ++i) {
-        samples.push_back(despike && found.disturbed[i] ? found.baseline[i] : run[i]);
-    }
-    return samples;
-}
-
 std::vector<OccupationFlag> flags_of(const Part& part, const Interval& interval, bool has_gap,
                                      bool has_temperature) {
     std::vector<OccupationFlag> flags;
@@ -171,20 +166,29 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
     const auto valid = std::span(series.values()).subspan(run.begin, run.size);
     const Disturbances found = find_disturbances(valid, options.disturbance_threshold);
     const Part part = choose_part(found.disturbed, samples_in(options.end_margin_s, series.rate()));
-    if (part.last - part.first + 1 < kShortestRun) return std::nullopt;
+    const std::size_t part_size = part.last - part.first + 1;
+    if (part_size < kShortestRun) return std::nullopt;
 
     EemdOptions decomposition;
     decomposition.seed = options.seed;
     decomposition.threads = options.threads;
+    const std::vector<double> despiked = despike(valid, found);
+    const auto quiet = std::span(despiked).subspan(part.first, part_size);
     const EemdResult components =
-        eemd(samples_to_decompose(valid, part, found, options.despike), decomposition);
-    std::vector<double> curve = trend_curve(components, options.curve);
+        eemd(options.despike ? quiet : valid.subspan(part.first, part_size), decomposition);
+    const std::vector<double> eemd_curve = trend_curve(components, options.curve);
+    const SmoothTrend smoothed = smooth(quiet, options.cutoff_s * series.rate().value());
+    std::vector<double> curve =
+        options.trend == TrendMethod::smoother ? smoothed.curve : eemd_curve;
     const Interval interval = choose_interval(curve, part.disturbed_first, part.disturbed_last);
     const std::size_t part_begin = run.begin + part.first;
     const std::size_t first = part_begin + interval.first;
     const std::size_t last = part_begin + interval.last;
     const std::size_t length = last - first + 1;
     const auto in_interval = std::span(series.values()).subspan(first, length);
+    const auto mean_of = [&](const std::vector<double>& values) {
+        return MilliGal(mean(std::span(values).subspan(interval.first, length)));
+    };
 
     const auto summarise = [&](const TimeSeries<StandardGravity>& axis) {
         return summarise_axis(axis, decimate(axis, filter, kStages), kRatio, first, last);
@@ -194,7 +198,11 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
     const auto error = block_standard_error(in_interval, samples_in(kBlockSeconds, series.rate()));
 
     RepresentativeValue value{
-        .acceleration = MilliGal(mean(std::span(curve).subspan(interval.first, length))),
+        .acceleration = mean_of(curve),
+        .eemd_mean = mean_of(eemd_curve),
+        .smoother_mean = mean_of(smoothed.curve),
+        .smoother_standard_error =
+            MilliGal(smoothed.standard_error_of_mean(interval.first, interval.last)),
         .series_mean = MilliGal(mean(in_interval)),
         .standard_error = error ? std::optional(MilliGal(*error)) : std::nullopt,
         .temperature = temperature_summary,

@@ -26,13 +26,20 @@ struct OccupationRecord {
     TimeSeries<DegC> temperature;
 };
 
+/// Of the smoother's cut-off.  Shorter is no trend; longer than an occupation's waves it bends them,
+/// and at 10 Hz its samples would be too many.
+inline constexpr double kShortestCutoff_s = 20.0;
+inline constexpr double kLongestCutoff_s = 500.0;
+
 struct RepresentativeOptions {
     NormOrder norm = NormOrder::decimate_first;
-    TrendCurve curve = TrendCurve::slow;
-    double end_margin_s = 60.0;          ///< So far from an end a disturbance belongs to it, >= 0.
-    double disturbance_threshold = 8.0;  ///< find_disturbances(), > 0.
-    /// Whether disturbed samples next to the ends give way to the running median before the
-    /// decomposition, which else spreads them over all components; false: as published.
+    TrendMethod trend = TrendMethod::eemd;
+    TrendCurve curve = TrendCurve::slow;  ///< Of the decomposition.
+    double cutoff_s = 300.0;              ///< Of the smoother; decimation.md says why so long.
+    double end_margin_s = 60.0;           ///< So far from an end a disturbance belongs to it, >= 0.
+    double disturbance_threshold = 8.0;   ///< find_disturbances(), > 0.
+    /// Whether disturbed samples next to the ends give way to the running median (despike()) before
+    /// the decomposition, which else spreads them over all components; false: as published.
     bool despike = true;
     std::uint64_t seed = 0;  ///< Of the noise of the decomposition.
     int threads = 1;         ///< For the decomposition; no effect on the result.
@@ -60,6 +67,9 @@ struct SampleCounts {
 
 struct RepresentativeValue {
     MilliGal acceleration;                          ///< Mean of `curve` over the interval.
+    MilliGal eemd_mean;                             ///< Mean of the decomposition's trend over it.
+    MilliGal smoother_mean;                         ///< Mean of the smoother's trend over it.
+    MilliGal smoother_standard_error;               ///< Of smoother_mean, for white noise.
     MilliGal series_mean;                           ///< Mean of `series` over the interval.
     std::optional<MilliGal> standard_error;         ///< Of series_mean, from blocks of 60 s.
     std::optional<TemperatureSummary> temperature;  ///< Of the decimated temperature.
@@ -71,12 +81,12 @@ struct RepresentativeValue {
     MilliGal rectification;  ///< rectification_bias(): in the value if NormOrder::as_published.
     MilliGal noise_level;    ///< Std. deviation of the noise the decomposition added.
     TimeSeries<MilliGal> series;  ///< Decimated norm of the whole record, at 1 / 100 of its rate.
-    TimeSeries<MilliGal> curve;   ///< Trend of the part that was decomposed.
+    TimeSeries<MilliGal> curve;   ///< Trend of the part that was decomposed, as asked for.
 };
 
 /// Decimates twice by 10, takes the longest run of valid samples and of it the longest part between
-/// pulses, decomposes that (EEMD of 80 members, noise ratio 0.1, ten sifts), chooses the interval by
-/// the trend curve and averages over it.
+/// pulses, decomposes that (EEMD of 80 members, noise ratio 0.1, ten sifts) and smooths it, chooses the
+/// interval by the trend curve and averages both curves over it.
 ///
 /// @return std::nullopt when that part has fewer than 16 samples (32 s at 50 Hz): too short.
 /// @throws std::invalid_argument  the axes, or axes and temperature, are not on one grid; an option

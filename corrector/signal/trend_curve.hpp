@@ -1,12 +1,18 @@
 #pragma once
 /// @file
-/// The slow part of a decomposed series.
+/// The slow part of a series, as the sum of components of its decomposition.
 
 #include <vector>
 
 #include "corrector/eemd/eemd.hpp"
 
 namespace a351::corrector {
+
+/// Where the trend of an occupation comes from; the other one is computed beside it.
+enum class TrendMethod {
+    eemd,      ///< trend_curve() of the decomposition.
+    smoother,  ///< smooth(), smoother.hpp.
+};
 
 /// Which components make the trend curve.  None is ever chosen by its number.
 enum class TrendCurve {

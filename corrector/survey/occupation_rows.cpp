@@ -122,6 +122,8 @@ std::vector<InputFile> inputs_of(const SurveyFile& survey, const std::filesystem
 RepresentativeOptions options_of(const SurveyFile& survey) {
     RepresentativeOptions options;
     options.norm = survey.norm;
+    options.trend = trend_method_of(survey);
+    options.cutoff_s = survey.cutoff_s;
     options.curve = trend_curve_of(survey);
     options.seed = survey.seed;
     return options;
@@ -159,6 +161,11 @@ SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& valu
     add_axis(details, "y", value.y);
     add_axis(details, "z", value.z);
     details.push_back({"rectification_mgal", value.rectification.value()});
+    details.push_back({"eemd_mgal", value.eemd_mean.value()});
+    details.push_back({"smoother_mgal", value.smoother_mean.value()});
+    details.push_back({"u_smoother_mgal", value.smoother_standard_error.value()});
+    details.push_back(
+        {"smoother_minus_eemd_mgal", (value.smoother_mean - value.eemd_mean).value()});
     return row;
 }
 

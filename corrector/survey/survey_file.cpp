@@ -54,6 +54,11 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
         table.number_or("delta3", survey.tide.factors.delta3, kLeastFactor, kGreatestFactor);
     const std::string curve = table.choice_or("curve", "", {"", "paper", "slow"});
     if (!curve.empty()) survey.curve = curve == "paper" ? TrendCurve::paper : TrendCurve::slow;
+    survey.trend = table.choice_or("trend", "eemd", {"eemd", "smoother"}) == "eemd"
+                       ? TrendMethod::eemd
+                       : TrendMethod::smoother;
+    survey.cutoff_s =
+        table.number_or("cutoff_s", survey.cutoff_s, kShortestCutoff_s, kLongestCutoff_s);
     survey.norm = table.choice_or("norm", "decimate-first", {"decimate-first", "as-published"}) ==
                           "decimate-first"
                       ? NormOrder::decimate_first
@@ -73,6 +78,10 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     if (!survey.survey.base.empty()) require_site(table, "base", sites, survey.survey.base);
     for (const std::string& name : survey.survey.datum) require_site(table, "datum", sites, name);
     return survey;
+}
+
+TrendMethod trend_method_of(const SurveyFile& survey) noexcept {
+    return survey.survey.model == "paper" ? TrendMethod::eemd : survey.trend;
 }
 
 TrendCurve trend_curve_of(const SurveyFile& survey) {

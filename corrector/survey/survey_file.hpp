@@ -22,6 +22,8 @@ struct SurveyFile {
     SurveyOptions survey;
     TideChoice tide;
     std::optional<TrendCurve> curve;  ///< Absent: the signal's default.  `paper` has its own.
+    TrendMethod trend = TrendMethod::eemd;
+    double cutoff_s = 300.0;  ///< Of the smoother's trend.
     NormOrder norm = NormOrder::decimate_first;
     std::uint64_t seed = 1;  ///< Of the noise of the decomposition.
 };
@@ -29,6 +31,9 @@ struct SurveyFile {
 /// @throws InputError  unknown key or value, a root that is no directory, a base or datum that is
 ///                     not in the table of sites.
 [[nodiscard]] SurveyFile read_survey_file(const std::filesystem::path& file);
+
+/// The trend that applies: the publication's decomposition for model `paper`, else as asked for.
+[[nodiscard]] TrendMethod trend_method_of(const SurveyFile& survey) noexcept;
 
 /// The curve that applies: the publication's for model `paper`, else as asked for or by default.
 [[nodiscard]] TrendCurve trend_curve_of(const SurveyFile& survey);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "corrector/eemd/noise.hpp"
 
@@ -76,6 +77,27 @@ TEST_CASE("series of 0 to 70 samples are safe") {
     for (std::size_t n = 0; n <= 70; ++n) {
         CHECK(find_disturbances(std::vector<double>(n, 1.0), 8.0).disturbed.size() == n);
     }
+}
+
+TEST_CASE("despiking brings the noise back and leaves the other samples alone") {
+    const std::vector<double> quiet = noisy_ramp(400, 0.05);
+    std::vector<double> struck = quiet;
+    for (std::size_t i = 5; i < 15; ++i) struck[i] += 1000.0;
+    struck[200] -= 40.0;
+    struck[399] += 1e6;
+    const Disturbances found = find_disturbances(struck, 8.0);
+    REQUIRE(indices(found).size() == 12);
+    const std::vector<double> samples = despike(struck, found);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (found.disturbed[i]) {
+            CHECK(samples[i] == found.baseline[i]);
+            CHECK(std::abs(samples[i] - 980'000.0 - 0.05 * static_cast<double>(i)) <
+                  3.0);  // of the noise
+        } else {
+            CHECK(samples[i] == quiet[i]);
+        }
+    }
+    CHECK(indices(find_disturbances(samples, 8.0)).empty());
 }
 
 }  // namespace a351::corrector

@@ -216,6 +216,50 @@ TEST_CASE("the value is the same on any number of threads") {
     CHECK(three->acceleration == one->acceleration);
 }
 
+TEST_CASE("both trends are averaged over one interval, and the one asked for is the value") {
+    const auto level = [](double t) {
+        return kGravity + 3.0 * std::sin(2.0 * std::numbers::pi * t / 900.0);
+    };
+    auto record = make_record(1200, level, kConstantTemperature, 20.0);
+    RepresentativeOptions options;
+    const auto by_eemd = representative_value(record, options);
+    options.trend = TrendMethod::smoother;
+    const auto by_smoother = representative_value(record, options);
+    CHECK(by_eemd->acceleration == by_eemd->eemd_mean);
+    CHECK(by_smoother->acceleration == by_smoother->smoother_mean);
+    // An undisturbed record: the interval is the whole of it for either curve.
+    CHECK(by_smoother->eemd_mean == by_eemd->eemd_mean);
+    CHECK(by_smoother->smoother_mean == by_eemd->smoother_mean);
+    CHECK(by_smoother->curve.values() != by_eemd->curve.values());
+    // White noise of 20 mGal at 50 Hz in 591 samples of 2 s, correlated by the filters: 0.08 mGal.
+    CHECK(by_smoother->smoother_standard_error.value() == Approx(0.08).epsilon(0.2));
+    CHECK(std::abs(by_smoother->smoother_mean.value() - by_smoother->series_mean.value()) < 0.02);
+
+    double squares = 0.0;
+    const auto& curve = by_smoother->curve;
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+        const double seconds = seconds_between(kSiteStart, curve.time_of(static_cast<double>(i)));
+        const double error = curve.values()[i] - level(seconds);
+        squares += error * error / static_cast<double>(curve.size());
+    }
+    CHECK(std::sqrt(squares) < 0.5);  // of a wave of 3
+}
+
+TEST_CASE("a wave of the cut-off period stands half as high in the smoother's trend") {
+    const auto level = [](double t) {
+        return kGravity + 4.0 * std::sin(2.0 * std::numbers::pi * t / 100.0);
+    };
+    RepresentativeOptions options;
+    options.trend = TrendMethod::smoother;
+    options.cutoff_s = 100.0;
+    const auto value =
+        representative_value(make_record(1200, level, kConstantTemperature), options);
+    const auto& curve = value->curve.values();
+    const auto middle = curve.begin() + static_cast<std::ptrdiff_t>(curve.size() / 2);
+    const auto [least, most] = std::minmax_element(middle - 50, middle + 50);
+    CHECK(*most - *least == Approx(4.0).epsilon(0.01));
+}
+
 TEST_CASE("an option outside its range is refused") {
     const auto record = make_record(100, kConstantLevel, kConstantTemperature);
     RepresentativeOptions options;
@@ -223,6 +267,9 @@ TEST_CASE("an option outside its range is refused") {
     CHECK_THROWS_AS(representative_value(record, options), std::invalid_argument);
     options = {};
     options.disturbance_threshold = 0.0;
+    CHECK_THROWS_AS(representative_value(record, options), std::invalid_argument);
+    options = {};
+    options.cutoff_s = 501.0;
     CHECK_THROWS_AS(representative_value(record, options), std::invalid_argument);
 }
 

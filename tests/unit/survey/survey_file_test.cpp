@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "corrector/signal/representative_value.hpp"
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/survey/scratch_folder.hpp"
 
@@ -41,6 +42,8 @@ TEST_CASE("an empty survey file has the documented defaults", "[survey][survey_f
     CHECK(survey.tide.factors.delta3 == 1.07);
     CHECK(survey.norm == NormOrder::decimate_first);
     CHECK(survey.seed == 1);
+    CHECK(survey.trend == TrendMethod::eemd);
+    CHECK(survey.cutoff_s == RepresentativeOptions().cutoff_s);
 }
 
 TEST_CASE("every key of a survey file is read", "[survey][survey_file]") {
@@ -48,7 +51,8 @@ TEST_CASE("every key of a survey file is read", "[survey][survey_file]") {
     const SurveyFile survey = desk.read(
         "[survey]\nname='first'\nroot='data'\nsites='sites.csv'\noccupations='o.csv'\n"
         "base='No.0'\ndatum=['No.0','No.1']\nmodel='t-rate'\nflags='ignore'\ntide='longman'\n"
-        "delta2=1.2\ndelta3=1.2\ncurve='slow'\ncalibration=''\nseed=9\nnorm='as-published'\n");
+        "delta2=1.2\ndelta3=1.2\ncurve='slow'\ncalibration=''\nseed=9\nnorm='as-published'\n"
+        "trend='smoother'\ncutoff_s=240\n");
     CHECK(survey.name == "first");
     CHECK(survey.occupations == desk.folder.path() / "o.csv");
     CHECK(survey.survey.base == "No.0");
@@ -59,15 +63,21 @@ TEST_CASE("every key of a survey file is read", "[survey][survey_file]") {
     CHECK(survey.tide.factors.delta2 == 1.2);
     CHECK(survey.curve == TrendCurve::slow);
     CHECK(survey.seed == 9);
+    CHECK(survey.trend == TrendMethod::smoother);
+    CHECK(survey.cutoff_s == 240.0);
     CHECK(survey.norm == NormOrder::as_published);
 }
 
-TEST_CASE("the model paper has the publication's curve whatever is asked for",
+TEST_CASE("the model paper has the publication's trend and curve whatever is asked for",
           "[survey][survey_file]") {
     const Desk desk;
     CHECK(trend_curve_of(desk.read("[survey]\nmodel='paper'\ncurve='slow'\n")) ==
           TrendCurve::paper);
     CHECK(trend_curve_of(desk.read("[survey]\nmodel='t'\ncurve='slow'\n")) == TrendCurve::slow);
+    CHECK(trend_method_of(desk.read("[survey]\nmodel='paper'\ntrend='smoother'\n")) ==
+          TrendMethod::eemd);
+    CHECK(trend_method_of(desk.read("[survey]\nmodel='t'\ntrend='smoother'\n")) ==
+          TrendMethod::smoother);
 }
 
 TEST_CASE("a bad survey file is refused with line, key and value", "[survey][survey_file]") {
@@ -82,6 +92,8 @@ TEST_CASE("a bad survey file is refused with line, key and value", "[survey][sur
         {"[survey]\nroot='nowhere'\n", "no such directory"},
         {"[survey]\ncalibration='unit.toml'\n", "survey.calibration"},
         {"[survey]\ndelta2=116\n", "survey.delta2 = 116"},
+        {"[survey]\ncutoff_s=10\n", "survey.cutoff_s = 10"},
+        {"[survey]\ntrend='spline'\n", "allowed: eemd, smoother"},
         {"[survey]\nseed=-1\n", "survey.seed = -1"},
         {"[survey]\nname=''\n", "survey.name"},
         {"[survey]\nsites='none.csv'\n", "none.csv: cannot be read"},
