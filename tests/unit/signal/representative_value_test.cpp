@@ -102,7 +102,9 @@ TEST_CASE("temperature on another grid is refused") {
     CHECK_THROWS_AS(representative_value(record), std::invalid_argument);
 }
 
-TEST_CASE("disturbed ends and a pulse do not move the value and are flagged") {
+TEST_CASE("disturbed ends and a pulse do not move the value of either trend and are flagged") {
+    RepresentativeOptions options;
+    options.trend = GENERATE(TrendMethod::eemd, TrendMethod::smoother);
     const auto level = [](double t) {
         return kGravity + std::sin(2.0 * std::numbers::pi * t / 500.0);
     };
@@ -120,7 +122,7 @@ TEST_CASE("disturbed ends and a pulse do not move the value and are flagged") {
     // Noise of 1.8 mGal per 2 s sample, intervals of 5 minutes and more: 0.15 mGal for the mean.
     const double limit = 4.0 * 0.15;
     SECTION("start") {
-        const auto value = representative_value(with_pulse(quiet, 14.0, 10.0, pulse_mgal));
+        const auto value = representative_value(with_pulse(quiet, 14.0, 10.0, pulse_mgal), options);
         REQUIRE(value);
         CHECK(has(*value, OccupationFlag::disturbed_start));
         CHECK_FALSE(has(*value, OccupationFlag::disturbed_end));
@@ -128,7 +130,8 @@ TEST_CASE("disturbed ends and a pulse do not move the value and are flagged") {
         CHECK(std::abs(value->acceleration.value() - mean_level(*value)) < limit);
     }
     SECTION("end") {
-        const auto value = representative_value(with_pulse(quiet, 1170.0, 10.0, pulse_mgal));
+        const auto value =
+            representative_value(with_pulse(quiet, 1170.0, 10.0, pulse_mgal), options);
         REQUIRE(value);
         CHECK(has(*value, OccupationFlag::disturbed_end));
         CHECK_FALSE(has(*value, OccupationFlag::disturbed_start));
@@ -136,7 +139,8 @@ TEST_CASE("disturbed ends and a pulse do not move the value and are flagged") {
         CHECK(std::abs(value->acceleration.value() - mean_level(*value)) < limit);
     }
     SECTION("inside") {
-        const auto value = representative_value(with_pulse(quiet, 300.0, 10.0, pulse_mgal));
+        const auto value =
+            representative_value(with_pulse(quiet, 300.0, 10.0, pulse_mgal), options);
         REQUIRE(value);
         CHECK(has(*value, OccupationFlag::pulse));
         CHECK(has(*value, OccupationFlag::disturbed_start));
