@@ -50,6 +50,14 @@ std::shared_ptr<spdlog::logger> make_log() {
     return log;
 }
 
+/// Whatever ends the program: what was logged is written before the log goes.
+struct LogEnd {
+    LogEnd() = default;
+    LogEnd(const LogEnd&) = delete;
+    LogEnd& operator=(const LogEnd&) = delete;
+    ~LogEnd() { spdlog::shutdown(); }
+};
+
 void print_ports() {
     for (const SerialPortEntry& port : list_serial_ports()) {
         std::printf("%s\t%s\t%s\n", port.path.c_str(),
@@ -260,10 +268,9 @@ int main(int argc, char** argv) {
         }
         const sigset_t signals = block_signals();
         const auto log = make_log();
+        const LogEnd end;
         StatusLog status_log(log);
-        const ExitStatus status = run(config, HostClock(scale), *log, signals, status_log);
-        spdlog::shutdown();
-        return status;
+        return run(config, HostClock(scale), *log, signals, status_log);
     } catch (const InputError& error) {
         return complain_and_end(kBadUsage, error.what());
     } catch (const DataRootLocked& error) {
