@@ -6,6 +6,12 @@
 #include <stdexcept>
 
 namespace a351::corrector {
+namespace {
+
+/// Refinement squares it, and the inverse is as good.
+constexpr double kMostLineError = 0.01;
+
+}  // namespace
 
 double penalty_of(double cutoff_period) noexcept {
     const double difference = 2.0 * std::sin(std::numbers::pi / cutoff_period);
@@ -36,12 +42,30 @@ PenalisedFit::PenalisedFit(std::span<const double> weights, double penalty)
             diagonal_[i] -= diagonal_[i - 1] * below_[i - 1] * below_[i - 1];
             below_[i] -= diagonal_[i - 1] * below_[i - 1] * below2_[i - 1];
         }
-        if (!(diagonal_[i] > 0.0)) {
-            throw std::invalid_argument("PenalisedFit: weights: too few samples for the penalty");
-        }
         below_[i] /= diagonal_[i];
         below2_[i] /= diagonal_[i];
     }
+    if (!returns_line()) {
+        throw std::invalid_argument(
+            "PenalisedFit: weights: too few, or too far apart, for this penalty");
+    }
+}
+
+/// Whether the factors return a straight line as it was.  They should, for it has no second
+/// differences; across gaps much longer than the cut-off rounding makes other curves of it.
+bool PenalisedFit::returns_line() const {
+    const std::size_t n = weights_.size();
+    std::vector<double> line(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        line[i] = 1.0 + static_cast<double>(i) / static_cast<double>(n - 1);
+    }
+    std::vector<double> right_side = line;
+    for (std::size_t i = 0; i < n; ++i) right_side[i] *= weights_[i];
+    const std::vector<double> fitted = substitute(std::move(right_side));
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!(std::abs(fitted[i] - line[i]) <= kMostLineError)) return false;
+    }
+    return true;
 }
 
 std::vector<double> PenalisedFit::solve(std::span<const double> right_side) const {

@@ -26,8 +26,8 @@ class PenalisedFit {
 public:
     /// @param weights  (n) >= 0, n >= 3.
     /// @param penalty  lambda > 0
-    /// @throws std::invalid_argument  the samples of positive weight do not determine the curve:
-    ///                                fewer than two, or too close together for this penalty.
+    /// @throws std::invalid_argument  the weights do not determine the curve to 1 %: fewer than two
+    ///                                are positive, or gaps or ends are much longer than the cut-off.
     PenalisedFit(std::span<const double> weights, double penalty);
 
     /// x of A x = right_side, (n), refined once: for cut-offs of 1000 and 5000 samples to 1e-12 and
@@ -40,6 +40,7 @@ public:
     [[nodiscard]] std::vector<double> inverse_diagonal() const;
 
 private:
+    [[nodiscard]] bool returns_line() const;
     [[nodiscard]] std::vector<double> substitute(std::vector<double> x) const;
     [[nodiscard]] std::vector<double> remainder(std::span<const double> right_side,
                                                 std::span<const double> x) const;

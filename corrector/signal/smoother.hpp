@@ -47,7 +47,8 @@ struct SmoothTrend {
 ///
 /// @param series         (n) any unit; n >= 3, of which at least three are finite.
 /// @param cutoff_period  Samples, kShortestCutoff to kLongestCutoff: the one parameter.
-/// @throws std::invalid_argument  fewer samples, or another period.
+/// @throws std::invalid_argument  fewer samples, another period, or samples that do not determine
+///                                the curve (PenalisedFit).
 /// Source: penalised_fit.hpp; weights as in F. R. Hampel et al., Robust Statistics, Wiley, 1986,
 /// section 2.6 (redescending).  Departs from it in the bisquare flank.
 [[nodiscard]] SmoothTrend smooth(std::span<const double> series, double cutoff_period);

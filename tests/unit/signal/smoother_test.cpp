@@ -212,6 +212,15 @@ TEST_CASE("a period or a number of samples that means nothing is refused") {
     }
     CHECK_THROWS_AS(smooth(std::vector<double>{1.0, 2.0, kNan, kNan}, 5.0), std::invalid_argument);
     CHECK(smooth(std::vector<double>{1.0, kNan, 2.0, 3.0}, 5.0).curve.size() == 4);
+    // Three samples at one end of 5000: a stiff curve is lost to rounding before the other end.
+    std::vector<double> far(5000, kNan);
+    for (std::size_t i = 0; i < 3; ++i) far[i] = static_cast<double>(i % 2);
+    CHECK_THROWS_AS(smooth(far, 200.0), std::invalid_argument);
+    CHECK_THROWS_AS(smooth(far, 5000.0), std::invalid_argument);
+    far.resize(20);
+    CHECK(smooth(far, 10.0).degrees_of_freedom > 2.0);
+    far.resize(3);
+    CHECK(smooth(far, 5000.0).degrees_of_freedom == Approx(2.0).epsilon(0.001));
     CHECK_THROWS_AS(PenalisedFit(std::vector<double>{0.0, 1.0, 0.0, 0.0}, 1.0),
                     std::invalid_argument);
 }

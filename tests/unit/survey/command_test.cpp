@@ -111,6 +111,9 @@ TEST_CASE("bad usage ends with 2, one line on standard error and nothing written
         {"decimate --factor 10 --input few.csv --column b", "column b is missing; there are: a"},
         {"decimate --factor 10 --input . --column a", "cannot be read"},
         {"decimate --factor 1 --input few.csv --column a", "--factor = 1"},
+        {"smooth --cutoff 1 --input few.csv --column a", "--cutoff = 1: "},
+        {"smooth --cutoff 10 --input few.csv --column a",
+         "few.csv: a: too many samples are missing for --cutoff = 10"},
         {"survey key.toml", "key.toml:2: survey.basis"},
         {"survey base.toml", "base.toml:2: survey.base = 'No.9': no such site; allowed: No.0"},
         {"tide --latitude 91 --longitude 0 --height 0 --from 2020-01-01T00:00:00Z "
@@ -204,13 +207,33 @@ TEST_CASE("decimate counts what is missing and keeps what is good", "[command]")
     CHECK(table.cell(60, "valid") == "0");
 }
 
+TEST_CASE("smooth draws a line through a line, its gap and its outlier", "[command]") {
+    const ScratchFolder folder;
+    std::string rows = "a\n";
+    for (int i = 0; i < 100; ++i) {
+        rows += i == 40 ? " ,\n" : std::to_string(i == 60 ? 1000 : 2 * i + i % 2) + ",\n";
+    }
+    folder.write("in.csv", "a,b\n" + rows.substr(2));
+    const Outcome outcome = run(folder, "smooth --cutoff 50 --input in.csv --column a");
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.errors, Catch::Contains("100 samples (1 missing), noise level 0.5"));
+    const auto table = text::CsvTable::parse(outcome.output, "stdout");
+    REQUIRE(table.row_count() == 100);
+    for (const std::size_t i : {40U, 60U}) {
+        CHECK(table.number(i, "value") == Approx(2.0 * static_cast<double>(i) + 0.5).margin(0.1));
+        CHECK(table.number(i, "weight") == 0.0);
+        CHECK(table.number(i, "standard_error") > table.number(50, "standard_error"));
+    }
+    CHECK(table.number(50, "weight") == 1.0);
+}
+
 TEST_CASE("help and version go to standard output and end with 0", "[command]") {
     const ScratchFolder folder;
     CHECK(run(folder, "--version").output == "a351-correct " A351_VERSION "\n");
     const Outcome help = run(folder, "tide --help");
     CHECK(help.status == 0);
     CHECK(help.output.find("positive where gravity is larger") != std::string::npos);
-    for (const std::string command : {"survey", "table", "decimate", "emd"}) {
+    for (const std::string command : {"survey", "table", "decimate", "emd", "smooth"}) {
         CHECK(run(folder, command + " --help").status == 0);
     }
 }

@@ -1,0 +1,86 @@
+#include "corrector/command/smooth_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "corrector/command/csv_output.hpp"
+#include "corrector/command/option_values.hpp"
+#include "corrector/command/sample_column.hpp"
+#include "corrector/signal/smoother.hpp"
+#include "protocol/core/input_error.hpp"
+#include "protocol/text/csv.hpp"
+
+namespace a351::corrector {
+namespace {
+
+struct SmoothOptions {
+    std::string input;
+    std::string column;
+    double cutoff = 0.0;
+    std::string output;
+};
+
+std::vector<double> read_all(SampleColumn& column) {
+    std::vector<double> samples;
+    std::vector<double> block;
+    while (column.read(block)) samples.insert(samples.end(), block.begin(), block.end());
+    return samples;
+}
+
+SmoothTrend smooth_column(const SmoothOptions& options, const std::vector<double>& samples) {
+    try {
+        return smooth(samples, options.cutoff);
+    } catch (const std::invalid_argument&) {
+        throw InputError(
+            options.input + ": " + options.column +
+            ": too many samples are missing for --cutoff = " + text::shortest(options.cutoff) +
+            "; allowed: three samples, and ends and gaps not far beyond this period");
+    }
+}
+
+void write_trend(const SmoothOptions& options) {
+    number_option("--cutoff", options.cutoff, kShortestCutoff, kLongestCutoff);
+    SampleColumn column(options.input, options.column);
+    const std::vector<double> samples = read_all(column);
+    const SmoothTrend trend = smooth_column(options, samples);
+    const std::vector<double> errors = trend.standard_errors();
+    std::string csv = "index,value,standard_error,weight\n";
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        csv += std::to_string(i) + ',' + text::shortest(trend.curve[i]) + ',' +
+               text::shortest(errors[i]) + ',' + text::shortest(trend.weights[i]) + '\n';
+    }
+    write_or_print(options.output, csv);
+    std::cerr << "a351-correct: smooth: " << column.count() << " samples ("
+              << column.missing_count() << " missing), noise level "
+              << text::shortest(trend.noise_level) << ", degrees of freedom "
+              << text::shortest(trend.degrees_of_freedom) << '\n';
+}
+
+}  // namespace
+
+void add_smooth_command(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand(
+        "smooth",
+        "The trend of a column by Whittaker's smoother, with standard errors for white noise, as "
+        "CSV index,value,standard_error,weight.  Gaps are crossed, outliers have no weight.");
+    const auto options = std::make_shared<SmoothOptions>();
+    command
+        .add_option("--input", options->input,
+                    "CSV with a header line; a column time, time_utc or time_s must ascend in "
+                    "equal steps")
+        ->required();
+    command.add_option("--column", options->column, "Column to read; empty cells are missing")
+        ->required();
+    command
+        .add_option("--cutoff", options->cutoff,
+                    "Period in samples that comes out half as high, 2 to 5000")
+        ->required();
+    command.add_option("--output", options->output, "File to write instead of standard output");
+    command.callback([options] { write_trend(*options); });
+}
+
+}  // namespace a351::corrector
