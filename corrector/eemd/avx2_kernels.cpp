@@ -8,6 +8,7 @@
 
 #include "corrector/eemd/noise_loops.hpp"
 #include "corrector/eemd/spline_loops.hpp"
+#include "corrector/eemd/sum_loops.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -186,7 +187,7 @@ void subtract_mean_envelope(const double* curve, double* out, std::size_t n,
 
 const SiftKernels* avx2_kernels() noexcept {
     static constexpr SiftKernels kernels = {find_extrema, fit_mean_envelope, subtract_mean_envelope,
-                                            fill_noise};
+                                            fill_noise, subtract, accumulate};
     const bool available = __builtin_cpu_supports("avx2") != 0 &&
                            __builtin_cpu_supports("bmi") != 0 &&
                            __builtin_cpu_supports("popcnt") != 0;

@@ -62,7 +62,7 @@ std::span<const double> EmdWorkspace::next_mode(const SiftOptions& options) noex
         sift(curve, options);
         curve = mode_.data();
     }
-    for (std::size_t i = 0; i < sample_count_; ++i) residue_[i] -= mode_[i];
+    kernels_.subtract(residue_.data(), mode_.data(), sample_count_);
     return {mode_.data(), sample_count_};
 }
 

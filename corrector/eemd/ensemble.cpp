@@ -11,27 +11,6 @@ namespace {
 
 constexpr int kMembersPerBlock = 8;  // even, so that a block holds whole pairs
 
-/// Four sums that are added at the end: one would wait for itself at every sample.
-typedef double Quad __attribute__((vector_size(32), aligned(8), may_alias));
-
-/// sum += draw; returns the sum of (draw - origin)^2.
-double accumulate(std::span<const double> draw, double origin, double* sum) noexcept {
-    Quad squares = {0.0, 0.0, 0.0, 0.0};
-    std::size_t i = 0;
-    for (; i + 4 <= draw.size(); i += 4) {
-        const Quad value = *reinterpret_cast<const Quad*>(draw.data() + i);
-        *reinterpret_cast<Quad*>(sum + i) += value;
-        const Quad deviation = value - origin;
-        squares += deviation * deviation;
-    }
-    double total = (squares[0] + squares[1]) + (squares[2] + squares[3]);
-    for (; i < draw.size(); ++i) {
-        sum[i] += draw[i];
-        total += (draw[i] - origin) * (draw[i] - origin);
-    }
-    return total;
-}
-
 std::size_t sum_length(const EnsemblePlan& plan) { return plan.signal.size() - 2 * plan.margin; }
 
 EnsembleSums make_sums(const EnsemblePlan& plan) {
@@ -99,7 +78,7 @@ private:
         const double origin = k == plan_.mode_count ? plan_.residue_origin : 0.0;
         double* const sum = sums_.values.data() + k * n;
         if (!plan_.pairs) {
-            sums_.squares[k] += accumulate(values, origin, sum);
+            sums_.squares[k] += plan_.kernels->accumulate(values.data(), n, origin, sum);
             return;
         }
         const std::span<double> pair = std::span(pair_).subspan(k * n, n);
@@ -107,7 +86,7 @@ private:
             std::copy(values.begin(), values.end(), pair.begin());
         } else {
             for (std::size_t i = 0; i < n; ++i) pair[i] += values[i];
-            sums_.squares[k] += accumulate(pair, 2.0 * origin, sum);
+            sums_.squares[k] += plan_.kernels->accumulate(pair.data(), n, 2.0 * origin, sum);
         }
     }
 
@@ -118,7 +97,8 @@ private:
         if (member % 2 == 0) {
             std::fill(pair.begin(), pair.end(), 0.0);
         } else {
-            sums_.squares[k] += accumulate(pair, 0.0, sums_.values.data() + k * n);
+            sums_.squares[k] +=
+                plan_.kernels->accumulate(pair.data(), n, 0.0, sums_.values.data() + k * n);
         }
     }
 

@@ -47,28 +47,32 @@ inline double natural_log(double u) {
     return (low ? exponent - 1.0 : exponent) * 0.6931471805599453 + 2.0 * s * series;
 }
 
-/// Multiplies the words of Philox's counters by its constants, ten rounds with a growing key.
-/// Words are kept one to 64 bits, where every instruction set multiplies them.
+/// The words of one block's counters, see philox().
 inline void philox_block(std::uint64_t first_pair, std::uint64_t member, std::uint64_t seed,
-                         std::uint64_t* __restrict w0, std::uint64_t* __restrict w1,
-                         std::uint64_t* __restrict w2, std::uint64_t* __restrict w3) {
-    constexpr std::uint64_t kLow = 0xFFFFFFFF;
-    for (std::size_t i = 0; i < kNoiseBlock; ++i) {
-        std::uint64_t c0 = (first_pair + i) & kLow;
-        std::uint64_t c1 = (first_pair + i) >> 32;
-        std::uint64_t c2 = member & kLow;
-        std::uint64_t c3 = member >> 32;
-        std::uint64_t k0 = seed & kLow;
-        std::uint64_t k1 = seed >> 32;
+                         std::uint32_t* w0, std::uint32_t* w1, std::uint32_t* w2,
+                         std::uint32_t* w3) {
+    // Blocks begin at multiples of their length, so the upper word is the same for all of one.
+    const auto first = static_cast<std::uint32_t>(first_pair);
+    const auto upper = static_cast<std::uint32_t>(first_pair >> 32);
+#pragma GCC ivdep
+    for (std::uint32_t i = 0; i < kNoiseBlock; ++i) {
+        std::uint32_t c0 = first + i;
+        std::uint32_t c1 = upper;
+        std::uint32_t c2 = static_cast<std::uint32_t>(member);
+        std::uint32_t c3 = static_cast<std::uint32_t>(member >> 32);
+        std::uint32_t k0 = static_cast<std::uint32_t>(seed);
+        std::uint32_t k1 = static_cast<std::uint32_t>(seed >> 32);
         for (int round = 0; round < 10; ++round) {
-            const std::uint64_t p0 = 0xD2511F53U * c0;
-            const std::uint64_t p1 = 0xCD9E8D57U * c2;
-            c0 = (p1 >> 32) ^ c1 ^ k0;
-            c1 = p1 & kLow;
-            c2 = (p0 >> 32) ^ c3 ^ k1;
-            c3 = p0 & kLow;
-            k0 = (k0 + 0x9E3779B9U) & kLow;
-            k1 = (k1 + 0xBB67AE85U) & kLow;
+            const auto high0 = static_cast<std::uint32_t>((std::uint64_t{0xD2511F53} * c0) >> 32);
+            const auto high1 = static_cast<std::uint32_t>((std::uint64_t{0xCD9E8D57} * c2) >> 32);
+            const std::uint32_t low0 = 0xD2511F53 * c0;
+            const std::uint32_t low1 = 0xCD9E8D57 * c2;
+            c0 = high1 ^ c1 ^ k0;
+            c1 = low1;
+            c2 = high0 ^ c3 ^ k1;
+            c3 = low0;
+            k0 += 0x9E3779B9;
+            k1 += 0xBB67AE85;
         }
         w0[i] = c0;
         w1[i] = c1;
@@ -78,15 +82,16 @@ inline void philox_block(std::uint64_t first_pair, std::uint64_t member, std::ui
 }
 
 /// Box and Muller's transform of one block: sample 2 i in `cosine`, 2 i + 1 in `sine`.
-inline void transform_block(const std::uint64_t* __restrict w0, const std::uint64_t* __restrict w1,
-                            const std::uint64_t* __restrict w2, const std::uint64_t* __restrict w3,
-                            double* __restrict cosine, double* __restrict sine) {
+inline void transform_block(const std::uint32_t* w0, const std::uint32_t* w1,
+                            const std::uint32_t* w2, const std::uint32_t* w3, double* cosine,
+                            double* sine) {
+#pragma GCC ivdep
     for (std::size_t i = 0; i < kNoiseBlock; ++i) {
         const double u = (upper_bits(w0[i], w1[i]) + 1.0) * 0x1p-53;
         const double radius = __builtin_sqrt(-2.0 * natural_log(u));
         // The two highest bits choose the quarter of the turn; within it, Taylor series up to an
         // eighth of a turn.
-        const std::uint64_t quarter = w3[i] >> 30;
+        const std::uint64_t quarter = std::uint64_t{w3[i]} >> 30;
         const double within = upper_bits(w2[i], w3[i] & 0x3FFFFFFF) * 0x1p-51;
         const bool mirrored = within > 0.5;
         const double angle = 1.5707963267948966 * (mirrored ? 1.0 - within : within);
@@ -120,7 +125,7 @@ inline void transform_block(const std::uint64_t* __restrict w0, const std::uint6
 }
 
 inline void fill_noise(std::uint64_t seed, std::uint64_t member, double* noise, std::size_t n) {
-    std::uint64_t w0[kNoiseBlock], w1[kNoiseBlock], w2[kNoiseBlock], w3[kNoiseBlock];
+    std::uint32_t w0[kNoiseBlock], w1[kNoiseBlock], w2[kNoiseBlock], w3[kNoiseBlock];
     double cosine[kNoiseBlock], sine[kNoiseBlock];
     for (std::size_t begin = 0; begin < n; begin += 2 * kNoiseBlock) {
         philox_block(begin / 2, member, seed, w0, w1, w2, w3);

@@ -1,6 +1,7 @@
 #include "corrector/eemd/noise_loops.hpp"
 #include "corrector/eemd/sift_kernels.hpp"
 #include "corrector/eemd/spline_loops.hpp"
+#include "corrector/eemd/sum_loops.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -62,7 +63,7 @@ void subtract_mean_envelope(const double* curve, double* out, std::size_t n,
 
 const SiftKernels& portable_kernels() noexcept {
     static constexpr SiftKernels kernels = {find_extrema, fit_mean_envelope, subtract_mean_envelope,
-                                            fill_noise};
+                                            fill_noise, subtract, accumulate};
     return kernels;
 }
 

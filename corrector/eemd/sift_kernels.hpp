@@ -33,6 +33,12 @@ struct SiftKernels {
     /// White noise, see noise.hpp.
     void (*fill_white_noise)(std::uint64_t seed, std::uint64_t member, double* noise,
                              std::size_t n);
+
+    /// from -= what, n samples.
+    void (*subtract)(double* from, const double* what, std::size_t n);
+
+    /// sum += draw, n samples.  @return the sum of (draw - origin)^2.
+    double (*accumulate)(const double* draw, std::size_t n, double origin, double* sum);
 };
 
 [[nodiscard]] const SiftKernels& portable_kernels() noexcept;

@@ -1,0 +1,36 @@
+#pragma once
+/// @file
+/// Sums over samples, compiled once for every instruction set: see sift_kernels.hpp for the rules.
+
+#include <cstddef>
+
+namespace a351::corrector {
+namespace {
+
+/// Four samples, or four partial sums: one sum would wait for itself at every sample.
+typedef double Quad __attribute__((vector_size(32), aligned(8), may_alias));
+
+inline void subtract(double* from, const double* what, std::size_t n) {
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < n; ++i) from[i] -= what[i];
+}
+
+inline double accumulate(const double* draw, std::size_t n, double origin, double* sum) {
+    Quad squares = {0.0, 0.0, 0.0, 0.0};
+    std::size_t i = 0;
+    for (; i + 4 <= n; i += 4) {
+        const Quad value = *reinterpret_cast<const Quad*>(draw + i);
+        *reinterpret_cast<Quad*>(sum + i) += value;
+        const Quad deviation = value - origin;
+        squares += deviation * deviation;
+    }
+    double total = (squares[0] + squares[1]) + (squares[2] + squares[3]);
+    for (; i < n; ++i) {
+        sum[i] += draw[i];
+        total += (draw[i] - origin) * (draw[i] - origin);
+    }
+    return total;
+}
+
+}  // namespace
+}  // namespace a351::corrector
