@@ -38,12 +38,12 @@ constexpr LaneTables make_tables() {
 
 constexpr LaneTables kTables = make_tables();
 
-/// A row's 32 bytes make its offset a shift of the flags.
-constexpr int kRowShift = 5;
+/// Flags shifted by two are their row's offset in eight bytes, which addresses scale by.
+constexpr int kRowShift = 2;
 constexpr std::uint64_t kRowMask = 15 << kRowShift;
 
-inline __m256i row_of(const std::int32_t (&table)[16][8], std::uint64_t byte_offset) {
-    const char* const row = reinterpret_cast<const char*>(table) + byte_offset;
+inline __m256i row_of(const std::int32_t (&table)[16][8], std::uint64_t offset) {
+    const std::int32_t* const row = &table[0][0] + 2 * offset;
     return _mm256_load_si256(reinterpret_cast<const __m256i*>(row));
 }
 
@@ -116,14 +116,17 @@ std::size_t find_extrema(const double* curve, std::size_t n, double* positions, 
     return count;
 }
 
-/// out = curve - cubic, four samples.
-inline void subtract_cubic(const double* curve, double* out, __m256d t, __m256d origin, __m256d y,
-                           __m256d b, __m256d c, __m256d e) {
-    const __m256d d = _mm256_sub_pd(t, origin);
-    const __m256d inner = _mm256_add_pd(c, _mm256_mul_pd(d, e));
-    const __m256d middle = _mm256_add_pd(b, _mm256_mul_pd(d, inner));
-    const __m256d mean = _mm256_add_pd(y, _mm256_mul_pd(d, middle));
-    _mm256_storeu_pd(out, _mm256_sub_pd(_mm256_loadu_pd(curve), mean));
+/// Cubics of four samples and how far those are behind their knots.
+struct Cubics {
+    __m256d d, y, b, c, e;
+};
+
+/// out = curve - cubics, four samples.
+inline void subtract_cubics(const double* curve, double* out, const Cubics& at) {
+    const __m256d line = _mm256_add_pd(at.y, _mm256_mul_pd(at.d, at.b));
+    const __m256d bend = _mm256_add_pd(at.c, _mm256_mul_pd(at.d, at.e));
+    const __m256d rest = _mm256_sub_pd(_mm256_loadu_pd(curve), line);
+    _mm256_storeu_pd(out, _mm256_sub_pd(rest, _mm256_mul_pd(_mm256_mul_pd(at.d, at.d), bend)));
 }
 
 void subtract_mean_envelope(const double* curve, double* out, std::size_t n,
@@ -134,52 +137,48 @@ void subtract_mean_envelope(const double* curve, double* out, std::size_t n,
     const double* const c = arrays.mean_c;
     const double* const e = arrays.mean_e;
     std::size_t k = first_segment;
-    __m256d t = _mm256_setr_pd(0.0, 1.0, 2.0, 3.0);
+    const __m256d first_four = _mm256_setr_pd(0.0, 1.0, 2.0, 3.0);
     const __m256d four = _mm256_set1_pd(4.0);
-    const auto four_samples = [&](std::uint64_t row, std::size_t i) {
+    __m256d t = first_four;
+    const auto next_cubics = [&](std::uint64_t row) {
         const __m256i lanes = row_of(kTables.segments, row);
         const auto of_lanes = [&](const double* from) {
             return permute(_mm256_loadu_pd(from + k), lanes);
         };
-        subtract_cubic(curve + i, out + i, t, of_lanes(x), of_lanes(y), of_lanes(b), of_lanes(c),
-                       of_lanes(e));
+        const Cubics cubics = {_mm256_sub_pd(t, of_lanes(x)), of_lanes(y), of_lanes(b), of_lanes(c),
+                               of_lanes(e)};
         k += static_cast<std::size_t>(__builtin_popcountll(row));
         t = _mm256_add_pd(t, four);
-    };
-    // Rows: 32 flags, shifted so that the lowest four are the byte offset of their row in the table.
-    const auto eight_steps = [&](std::uint64_t rows, std::size_t begin) {
-#pragma GCC unroll 8
-        for (std::size_t i = 0; i < 32; i += 4) {
-            four_samples(rows & kRowMask, begin + i);
-            rows >>= 4;
-        }
+        return cubics;
     };
     for (std::size_t word = 0; 64 * word < n; ++word) {
         // Bit i: a segment begins at the sample after i.
         std::uint64_t bits = starts[word] >> 1 | starts[word + 1] << 63;
         const std::size_t begin = 64 * word;
         const std::size_t end = n - begin < 64 ? n : begin + 64;
+        const auto offset = static_cast<double>(static_cast<std::int64_t>(begin));
+        t = _mm256_add_pd(first_four, _mm256_set1_pd(offset));
         if (bits == 0) {
-            const __m256d origin = _mm256_set1_pd(x[k]);
-            const __m256d y_k = _mm256_set1_pd(y[k]);
-            const __m256d b_k = _mm256_set1_pd(b[k]);
-            const __m256d c_k = _mm256_set1_pd(c[k]);
-            const __m256d e_k = _mm256_set1_pd(e[k]);
+            Cubics cubics = {_mm256_sub_pd(t, _mm256_set1_pd(x[k])), _mm256_set1_pd(y[k]),
+                             _mm256_set1_pd(b[k]), _mm256_set1_pd(c[k]), _mm256_set1_pd(e[k])};
             for (std::size_t i = begin; i < end; i += 4) {
-                subtract_cubic(curve + i, out + i, t, origin, y_k, b_k, c_k, e_k);
-                t = _mm256_add_pd(t, four);
+                subtract_cubics(curve + i, out + i, cubics);
+                cubics.d = _mm256_add_pd(cubics.d, four);
             }
             continue;
         }
-        if (end - begin == 64) {
-            eight_steps(bits << kRowShift & 0x1FFFFFFFE0, begin);
-            eight_steps(bits >> 32 << kRowShift, begin + 32);
-            continue;
+        // One step ahead of the arithmetic, which would fill the processor's queue with waiting.
+        Cubics cubics = next_cubics(bits << kRowShift & kRowMask);
+        std::uint64_t rows = bits >> 4 << kRowShift;  // never more than 62 bits
+        std::size_t i = begin;
+#pragma GCC unroll 5
+        for (; i + 4 < end; i += 4) {
+            const Cubics next = next_cubics(rows & kRowMask);
+            rows >>= 4;
+            subtract_cubics(curve + i, out + i, cubics);
+            cubics = next;
         }
-        for (std::size_t i = begin; i < end; i += 4) {
-            four_samples(bits << kRowShift & kRowMask, i);
-            bits >>= 4;
-        }
+        subtract_cubics(curve + i, out + i, cubics);
     }
 }
 
@@ -187,7 +186,7 @@ void subtract_mean_envelope(const double* curve, double* out, std::size_t n,
 
 const SiftKernels* avx2_kernels() noexcept {
     static constexpr SiftKernels kernels = {find_extrema, fit_mean_envelope, subtract_mean_envelope,
-                                            fill_noise, subtract, accumulate};
+                                            fill_noise,   subtract,          accumulate};
     const bool available = __builtin_cpu_supports("avx2") != 0 &&
                            __builtin_cpu_supports("bmi") != 0 &&
                            __builtin_cpu_supports("popcnt") != 0;

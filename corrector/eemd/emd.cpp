@@ -84,7 +84,7 @@ void EmdWorkspace::sift(const double* curve, const SiftOptions& options) noexcep
                                     x.data(), knots_.first_segment(), envelope_.arrays());
     if (x[x.size() - 2] == static_cast<double>(sample_count_ - 1)) {
         // Both envelopes end here: the knots themselves, not the cubic that runs up to them.
-        mode_[sample_count_ - 1] = last_sample - 0.5 * (y[y.size() - 2] + y.back());
+        mode_.data()[sample_count_ - 1] = last_sample - 0.5 * (y[y.size() - 2] + y.back());
     }
 }
 

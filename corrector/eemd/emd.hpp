@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <span>
 #include <variant>
-#include <vector>
 
+#include "corrector/eemd/aligned_buffer.hpp"
 #include "corrector/eemd/knots.hpp"
 #include "corrector/eemd/mean_envelope.hpp"
 #include "corrector/eemd/sift_kernels.hpp"
@@ -64,8 +64,8 @@ private:
 
     const SiftKernels& kernels_;
     std::size_t sample_count_;
-    std::vector<double> residue_;
-    std::vector<double> mode_;
+    AlignedBuffer residue_;
+    AlignedBuffer mode_;
     AlternatingKnots knots_;
     MeanEnvelope envelope_;
 };

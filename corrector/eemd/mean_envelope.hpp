@@ -3,7 +3,8 @@
 /// Storage of two cubic splines through alternating knots and of their mean.
 
 #include <cstddef>
-#include <vector>
+
+#include "corrector/eemd/aligned_buffer.hpp"
 
 namespace a351::corrector {
 
@@ -13,16 +14,13 @@ enum class SplineEnds {
     natural,     ///< No curvature at the outermost knots.
 };
 
-/// One number per knot each; those of a line need not live at the same time.
+/// One number per knot each; b and e need not outlive what becomes of them.
 struct SplineArrays {
-    double* h;         ///< X_{k+2} - X_k: the next knot of the same envelope is two further on
-    double* inverse;   ///< 1 / h_k
-    double* slope;     ///< (Y_{k+2} - Y_k) / h_k
-    double* diagonal;  ///< of the equations for c
-    double* product;   ///< of the coefficients either side of the diagonal, rows k and k - 2
-    double* right;     ///< right-hand sides
-    double* pivot;     ///< elimination, see spline_loops.hpp
-    double* former;
+    double* h;        ///< X_{k+2} - X_k: the next knot of the same envelope is two further on
+    double* inverse;  ///< 1 / h_k
+    double* slope;    ///< (Y_{k+2} - Y_k) / h_k
+    double* pivot;    ///< elimination, see spline_loops.hpp
+    double* link;
     double* c;  ///< half the second derivative at a knot
     double* b;  ///< S = Y_k + d (b_k + d (c_k + d e_k)), d = t - X_k
     double* e;
@@ -40,7 +38,7 @@ public:
     [[nodiscard]] const SplineArrays& arrays() const noexcept { return arrays_; }
 
 private:
-    std::vector<double> storage_;
+    AlignedBuffer storage_;
     SplineArrays arrays_;
 };
 

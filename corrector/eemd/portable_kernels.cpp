@@ -47,7 +47,8 @@ void subtract_mean_envelope(const double* curve, double* out, std::size_t n,
         const double e = arrays.mean_e[k];
         for (; i < end; ++i) {
             const double d = static_cast<double>(i) - origin;
-            out[i] = curve[i] - (y + d * (b + d * (c + d * e)));
+            // In halves, see average() in spline_loops.hpp.
+            out[i] = (curve[i] - (y + d * b)) - d * d * (c + d * e);
         }
     };
     for (std::size_t word = 0; 64 * word < n; ++word) {
@@ -63,7 +64,7 @@ void subtract_mean_envelope(const double* curve, double* out, std::size_t n,
 
 const SiftKernels& portable_kernels() noexcept {
     static constexpr SiftKernels kernels = {find_extrema, fit_mean_envelope, subtract_mean_envelope,
-                                            fill_noise, subtract, accumulate};
+                                            fill_noise,   subtract,          accumulate};
     return kernels;
 }
 

@@ -29,167 +29,142 @@ typedef double Pair __attribute__((vector_size(16), aligned(8), may_alias));
 inline Pair load(const double* from) { return *reinterpret_cast<const Pair*>(from); }
 inline void store(double* to, Pair value) { *reinterpret_cast<Pair*>(to) = value; }
 
-/// Distances and slopes, and the rows 2 ... n - 3 of the equations.
-inline void set_up_rows(const double* x, const double* y, std::size_t n,
-                        const SplineArrays& arrays) {
+/// Distances and slopes from knot k to k + 2, first <= k < last.
+inline void set_up(const double* x, const double* y, std::size_t first, std::size_t last,
+                   const SplineArrays& arrays) {
     double* const h = arrays.h;
     double* const inverse = arrays.inverse;
     double* const slope = arrays.slope;
-    double* const diagonal = arrays.diagonal;
-    double* const product = arrays.product;
-    double* const right = arrays.right;
 #pragma GCC ivdep
-    for (std::size_t k = 0; k < n - 2; ++k) {
+    for (std::size_t k = first; k < last; ++k) {
         h[k] = x[k + 2] - x[k];
         inverse[k] = 1.0 / h[k];
         slope[k] = (y[k + 2] - y[k]) * inverse[k];
     }
-#pragma GCC ivdep
-    for (std::size_t k = 2; k < n - 2; ++k) {
-        diagonal[k] = 2.0 * (h[k - 2] + h[k]);
-        product[k] = h[k - 2] * h[k - 2];
-        right[k] = 3.0 * (slope[k] - slope[k - 2]);
-    }
 }
 
-/// Not-a-knot: the third derivative is continuous at the outermost rows.  The rows' inner
-/// coefficient becomes inner - outer distance.
-inline void set_not_a_knot_rows(std::size_t n, const SplineArrays& arrays) {
-    const double* const h = arrays.h;
-    const auto set = [&](std::size_t k, double outer, double inner) {
-        arrays.diagonal[k] = outer + 2.0 * inner;
-        arrays.right[k] *= inner / (inner + outer);
-    };
-    for (std::size_t k = 2; k <= 3; ++k) {
-        set(k, h[k - 2], h[k]);
-        arrays.product[k + 2] = h[k] * (h[k] - h[k - 2]);
-    }
-    for (std::size_t k = n - 4; k <= n - 3; ++k) {
-        set(k, h[k], h[k - 2]);
-        const double coupling = k - 2 <= 3 ? h[k - 2] - h[k - 4] : h[k - 2];
-        arrays.product[k] = (h[k - 2] - h[k]) * coupling;
-    }
-}
-
-/// One direction of the elimination from both ends to the middle, without a division in its chain.
+/// One of the two directions of the elimination, from an end to the middle, for both envelopes.
 ///
 ///     p_k = diagonal_k p_{k-2} - product_k p_{k-4}
-///     z_k = right_k p_{k-2} - coupling_k z_{k-2}        pivot of row k = p_k / p_{k-2}
+///     z_k = right_k p_{k-2} - coupling_k z_{k-2}        pivot of row k: p_k / p_{k-2}
 ///
-/// with p_{k-2} brought to 1 now and then, lest it overflow.
+/// (product: of the two coefficients between rows k and k - 2) has no division in its chain.  p_{k-2} is brought to 1 now and then, lest it overflow.
 struct Elimination {
-    Pair before = {0.0, 0.0};   ///< p_{k-4}
-    Pair latest = {1.0, 1.0};   ///< p_{k-2}
-    Pair reduced = {0.0, 0.0};  ///< z_{k-2}
+    Pair before = {0.0, 0.0};    ///< p_{k-4}
+    Pair latest = {1.0, 1.0};    ///< p_{k-2}
+    Pair reduced = {0.0, 0.0};   ///< z_{k-2}
+    Pair coupling = {0.0, 0.0};  ///< of the row before to this one
 
-    void step(Pair diagonal, Pair product, Pair right, Pair coupling) {
-        const Pair next = diagonal * latest - product * before;
-        reduced = right * latest - coupling * reduced;
+    /// Not-a-knot: the third derivative is continuous at the outermost rows.
+    void first_step(Pair near, Pair far, Pair right, SplineEnds ends) {
+        if (ends == SplineEnds::natural) {
+            step(near, far, right);
+            return;
+        }
+        before = latest;
+        latest = near + 2.0 * far;
+        reduced = right * (far / (near + far));
+        coupling = far - near;
+    }
+    /// near, far: distances to the knots on the side of the end and of the middle.
+    void step(Pair near, Pair far, Pair right) {
+        const Pair next = 2.0 * (near + far) * latest - near * coupling * before;
+        reduced = right * latest - near * reduced;
         before = latest;
         latest = next;
+        coupling = far;
     }
     void rescale() {
-        const Pair inverse = Pair{1.0, 1.0} / latest;
+        const Pair inverse = 1.0 / latest;
         before *= inverse;
         reduced *= inverse;
         latest = Pair{1.0, 1.0};
     }
+    /// What divide_by_pivots() takes.
+    void keep(std::size_t k, const SplineArrays& arrays) const {
+        store(arrays.pivot + k, latest);
+        store(arrays.link + k, coupling * before);
+        store(arrays.c + k, reduced);
+    }
 };
 
-/// Every step multiplies p by at most four times the longest distance, 32 bits for any record that
-/// fits in memory: 16 steps and the three of the ends stay within a double's 1023.
-constexpr std::size_t kStepsPerScale = 16;
-
-/// Rows from both ends to the middle: pivot = p_k, former = p_{k-2}, c = z_k.  Rows before `middle`
-/// depend on the row after them, the others on the row before.
-inline void eliminate(std::size_t n, std::size_t middle, const SplineArrays& arrays) {
-    const double* const h = arrays.h;
-    const double* const diagonal = arrays.diagonal;
-    const double* const product = arrays.product;
-    const double* const right = arrays.right;
-    double* const pivot = arrays.pivot;
-    double* const former = arrays.former;
+/// c_k + link_k c_{k'} = c_k' (what c holds), k' the next row towards the middle.
+inline void divide_by_pivots(std::size_t first, std::size_t last, const SplineArrays& arrays) {
+    const double* const pivot = arrays.pivot;
+    double* const link = arrays.link;
     double* const c = arrays.c;
+#pragma GCC ivdep
+    for (std::size_t k = first; k < last; ++k) {
+        const double inverse = 1.0 / pivot[k];
+        link[k] *= inverse;
+        c[k] *= inverse;
+    }
+}
+
+/// Pairs of rows that are set up, eliminated and divided before the next: they stay in the first
+/// cache.  So many steps also stay within a double's 1023 binary places between two rescalings:
+/// every one multiplies p by less than 2 (near + far), and the distances of one block add up to
+/// less than the record's length n, which bounds the product by (n / 8)^32.
+constexpr std::size_t kBlock = 32;
+
+/// Eliminates the rows before `middle` from the left and the others from the right.
+inline void eliminate(const double* x, const double* y, std::size_t n, std::size_t middle,
+                      SplineEnds ends, const SplineArrays& arrays) {
+    const double* const h = arrays.h;
+    const double* const slope = arrays.slope;
     Elimination up;
     Elimination down;
-    const auto step = [&](Elimination& at, std::size_t k, Pair product_k, Pair coupling) {
-        at.step(load(diagonal + k), product_k, load(right + k), coupling);
-        store(former + k, at.before);
-        store(pivot + k, at.latest);
-        store(c + k, at.reduced);
-    };
-    const Pair none = {0.0, 0.0};
-    step(up, 2, none, none);
-    step(down, n - 4, none, none);
+    std::size_t up_ready = 4;
+    std::size_t down_ready = n - 6;
+    set_up(x, y, 0, up_ready, arrays);
+    set_up(x, y, down_ready, n - 2, arrays);
+    const auto right = [&](std::size_t k) { return 3.0 * (load(slope + k) - load(slope + k - 2)); };
+    up.first_step(load(h), load(h + 2), right(2), ends);
+    up.keep(2, arrays);
+    down.first_step(load(h + n - 4), load(h + n - 6), right(n - 4), ends);
+    down.keep(n - 4, arrays);
     std::size_t i = 4;
-    for (std::size_t k = n - 6; k >= middle;) {
-        for (std::size_t count = 0; count < kStepsPerScale && k >= middle; ++count) {
-            step(up, i, load(product + i), load(h + i - 2));
-            step(down, k, load(product + k + 2), load(h + k));
-            i += 2;
-            k -= 2;
+    std::size_t k = n - 6;
+    std::size_t up_divided = 2;
+    std::size_t down_divided = n - 2;
+    while (k >= middle) {
+        const std::size_t steps = (k - middle) / 2 + 1 < kBlock ? (k - middle) / 2 + 1 : kBlock;
+        set_up(x, y, up_ready, i + 2 * steps, arrays);
+        up_ready = i + 2 * steps;
+        set_up(x, y, k - 2 * steps, down_ready, arrays);
+        down_ready = k - 2 * steps;
+        for (std::size_t step = 0; step < steps; ++step, i += 2, k -= 2) {
+            up.step(load(h + i - 2), load(h + i), right(i));
+            up.keep(i, arrays);
+            down.step(load(h + k), load(h + k - 2), right(k));
+            down.keep(k, arrays);
         }
+        divide_by_pivots(up_divided, i, arrays);
+        up_divided = i;
+        divide_by_pivots(k + 2, down_divided, arrays);
+        down_divided = k + 2;
         up.rescale();
         down.rescale();
     }
+    set_up(x, y, up_ready, middle, arrays);
     if (i + 2 <= middle) {
-        step(up, i, load(product + i), load(h + i - 2));
+        up.step(load(h + i - 2), load(h + i), right(i));
+        up.keep(i, arrays);
         i += 2;
     }
     if (i < middle) {
-        former[i] = up.latest[0];
-        pivot[i] = diagonal[i] * up.latest[0] - product[i] * up.before[0];
-        c[i] = right[i] * up.latest[0] - h[i - 2] * up.reduced[0];
+        // One row of one envelope: the pair's other one is the first from the right.
+        const Pair first_right = load(arrays.c + i);
+        const Pair first_pivot = load(arrays.pivot + i);
+        const Pair first_link = load(arrays.link + i);
+        up.step(load(h + i - 2), load(h + i), right(i));
+        up.keep(i, arrays);
+        arrays.c[middle] = first_right[1];
+        arrays.pivot[middle] = first_pivot[1];
+        arrays.link[middle] = first_link[1];
     }
-}
-
-/// Divides by the pivots: c_k + former_k c_{k+2} = c_k' before `middle`, c_{k-2} from there on.
-inline void divide_by_pivots(std::size_t n, std::size_t middle, SplineEnds ends,
-                             const SplineArrays& arrays) {
-    const double* const h = arrays.h;
-    const double* const pivot = arrays.pivot;
-    double* const former = arrays.former;
-    double* const c = arrays.c;
-    const auto divide = [&](std::size_t k, double coupling) {
-        const double inverse = 1.0 / pivot[k];
-        c[k] *= inverse;
-        former[k] *= coupling * inverse;
-    };
-    const bool not_a_knot = ends == SplineEnds::not_a_knot;
-    for (std::size_t k = 2; k <= 3; ++k) divide(k, not_a_knot ? h[k] - h[k - 2] : h[k]);
-#pragma GCC ivdep
-    for (std::size_t k = 4; k < middle; ++k) divide(k, h[k]);
-#pragma GCC ivdep
-    for (std::size_t k = middle; k < n - 4; ++k) divide(k, h[k - 2]);
-    for (std::size_t k = n - 4; k <= n - 3; ++k) divide(k, not_a_knot ? h[k - 2] - h[k] : h[k - 2]);
-}
-
-/// c of all rows, from the middle outwards.
-inline void substitute(std::size_t n, std::size_t middle, const SplineArrays& arrays) {
-    const double* const link = arrays.former;
-    double* const c = arrays.c;
-    Pair up = load(c + middle - 2);
-    Pair down = load(c + middle);
-    const Pair up_link = load(link + middle - 2);
-    const Pair down_link = load(link + middle);
-    up = (up - up_link * down) / (Pair{1.0, 1.0} - up_link * down_link);
-    down = down - down_link * up;
-    store(c + middle - 2, up);
-    store(c + middle, down);
-    std::size_t k = middle - 2;
-    for (std::size_t i = middle + 2; i <= n - 4; i += 2) {
-        k -= 2;
-        up = load(c + k) - load(link + k) * up;
-        down = load(c + i) - load(link + i) * down;
-        store(c + k, up);
-        store(c + i, down);
-    }
-    if (k >= 4) {
-        k -= 2;
-        up = load(c + k) - load(link + k) * up;
-        store(c + k, up);
-    }
-    if (k == 3) c[2] -= link[2] * up[1];
+    divide_by_pivots(up_divided, middle, arrays);
+    divide_by_pivots(middle, down_divided, arrays);
 }
 
 /// c of one envelope of two to four knots, every second from `first`.
@@ -228,36 +203,12 @@ inline void solve_few(const double* x, std::size_t first, std::size_t n, SplineE
     c[a + 4] = (r2 * d1 - r1 * h[a + 2]) / determinant;
 }
 
-inline void solve(const double* x, const double* y, std::size_t n, SplineEnds ends,
-                  const SplineArrays& arrays) {
-    if (n < 8) {  // fewer than two rows from either end for both envelopes
-        // Rounded once: a bow sifted off a monotone rest is symmetric, and the last bit decides
-        // where its extremum is taken to be.
-        for (std::size_t k = 0; k < n - 2; ++k) arrays.slope[k] = (y[k + 2] - y[k]) / arrays.h[k];
-        solve_few(x, 0, n, ends, arrays);
-        solve_few(x, 1, n, ends, arrays);
-        return;
-    }
-    if (ends == SplineEnds::not_a_knot) set_not_a_knot_rows(n, arrays);
-    const std::size_t right_rows = (n - 4) / 4 * 2;  // whole pairs, never more than the left ones
-    const std::size_t middle = n - 2 - right_rows;
-    eliminate(n, middle, arrays);
-    divide_by_pivots(n, middle, ends, arrays);
-    substitute(n, middle, arrays);
-    double* const c = arrays.c;
-    const double* const h = arrays.h;
-    const double* const inverse = arrays.inverse;
-    for (std::size_t k = 0; k <= 1; ++k) {
-        const std::size_t m = n - 1 - k;
-        const bool natural = ends == SplineEnds::natural;
-        c[k] = natural ? 0.0 : c[k + 2] + h[k] * inverse[k + 2] * (c[k + 2] - c[k + 4]);
-        c[m] = natural ? 0.0 : c[m - 2] + h[m - 2] * inverse[m - 4] * (c[m - 2] - c[m - 4]);
-    }
-}
-
-/// Cubics of the mean of both envelopes: that of the envelope a knot belongs to, and that of the
-/// other one expanded about the same position.
-inline void average(const double* x, const double* y, std::size_t n, const SplineArrays& arrays) {
+/// Cubics k, first <= k < last, of the mean of both envelopes: that of the envelope the knot
+/// belongs to, and that of the other one expanded about the same position.  Needs c from first - 1 to
+/// last + 1.  Cubics are summed in halves, here and at the samples: a processor looks ahead too few
+/// operations to fill the waiting in Horner's chain.
+inline void average(const double* x, const double* y, std::size_t first, std::size_t last,
+                    const SplineArrays& arrays) {
     const double* const h = arrays.h;
     const double* const inverse = arrays.inverse;
     const double* const slope = arrays.slope;
@@ -266,7 +217,7 @@ inline void average(const double* x, const double* y, std::size_t n, const Splin
     double* const e = arrays.e;
     constexpr double kThird = 1.0 / 3.0;
 #pragma GCC ivdep
-    for (std::size_t k = 0; k < n - 2; ++k) {
+    for (std::size_t k = first - 1; k < last; ++k) {
         b[k] = slope[k] - kThird * h[k] * (c[k + 2] + 2.0 * c[k]);
         e[k] = kThird * inverse[k] * (c[k + 2] - c[k]);
     }
@@ -275,26 +226,87 @@ inline void average(const double* x, const double* y, std::size_t n, const Splin
     double* const mean_c = arrays.mean_c;
     double* const mean_e = arrays.mean_e;
 #pragma GCC ivdep
-    for (std::size_t k = 1; k < n - 2; ++k) {
+    for (std::size_t k = first; k < last; ++k) {
         const double d = x[k] - x[k - 1];
-        const double other_e = e[k - 1];
-        const double half = c[k - 1] + d * other_e;
-        const double other_c = half + d * (2.0 * other_e);
-        const double other_y = y[k - 1] + d * (b[k - 1] + d * half);
+        const double bend = d * e[k - 1];
+        const double half = c[k - 1] + bend;
+        const double other_c = half + 2.0 * bend;
         const double other_b = b[k - 1] + d * (c[k - 1] + other_c);
+        const double other_y = (y[k - 1] + d * b[k - 1]) + d * d * half;
         mean_y[k] = 0.5 * (y[k] + other_y);
         mean_b[k] = 0.5 * (b[k] + other_b);
         mean_c[k] = 0.5 * (c[k] + other_c);
-        mean_e[k] = 0.5 * (e[k] + other_e);
+        mean_e[k] = 0.5 * (e[k] + e[k - 1]);
     }
+}
+
+/// c of all rows from the middle outwards, and the mean cubics as they become known.
+inline void substitute(const double* x, const double* y, std::size_t n, std::size_t middle,
+                       SplineEnds ends, const SplineArrays& arrays) {
+    const double* const link = arrays.link;
+    double* const c = arrays.c;
+    Pair up = load(c + middle - 2);
+    Pair down = load(c + middle);
+    const Pair up_link = load(link + middle - 2);
+    const Pair down_link = load(link + middle);
+    up = (up - up_link * down) / (1.0 - up_link * down_link);
+    down = down - down_link * up;
+    store(c + middle - 2, up);
+    store(c + middle, down);
+    std::size_t k = middle - 2;  // first row known
+    std::size_t i = middle + 2;  // first row after them
+    std::size_t begin = middle - 1;
+    std::size_t end = middle - 1;
+    const auto average_known = [&](std::size_t first, std::size_t last) {
+        average(x, y, first, begin, arrays);
+        average(x, y, end, last, arrays);
+        begin = first;
+        end = last;
+    };
+    while (i <= n - 4) {
+        for (std::size_t step = 0; step < kBlock && i <= n - 4; ++step, i += 2) {
+            k -= 2;
+            up = load(c + k) - load(link + k) * up;
+            down = load(c + i) - load(link + i) * down;
+            store(c + k, up);
+            store(c + i, down);
+        }
+        average_known(k + 1, i - 2);
+    }
+    if (k >= 4) {
+        k -= 2;
+        up = load(c + k) - load(link + k) * up;
+        store(c + k, up);
+    }
+    if (k == 3) c[2] -= link[2] * up[1];
+    const double* const h = arrays.h;
+    const double* const inverse = arrays.inverse;
+    for (std::size_t j = 0; j <= 1; ++j) {
+        const std::size_t m = n - 1 - j;
+        const bool natural = ends == SplineEnds::natural;
+        c[j] = natural ? 0.0 : c[j + 2] + h[j] * inverse[j + 2] * (c[j + 2] - c[j + 4]);
+        c[m] = natural ? 0.0 : c[m - 2] + h[m - 2] * inverse[m - 4] * (c[m - 2] - c[m - 4]);
+    }
+    average_known(1, n - 2);
 }
 
 /// Fits both envelopes through `n` >= 4 alternating knots and leaves their mean in `arrays`.
 inline void fit_mean_envelope(const double* x, const double* y, std::size_t n, SplineEnds ends,
                               const SplineArrays& arrays) {
-    set_up_rows(x, y, n, arrays);
-    solve(x, y, n, ends, arrays);
-    average(x, y, n, arrays);
+    if (n < 8) {  // fewer than two rows from either end for both envelopes
+        set_up(x, y, 0, n - 2, arrays);
+        // Rounded once: a bow sifted off a monotone rest is symmetric, and the last bit decides
+        // where its extremum is taken to be.
+        for (std::size_t k = 0; k < n - 2; ++k) arrays.slope[k] = (y[k + 2] - y[k]) / arrays.h[k];
+        solve_few(x, 0, n, ends, arrays);
+        solve_few(x, 1, n, ends, arrays);
+        average(x, y, 1, n - 2, arrays);
+        return;
+    }
+    const std::size_t right_rows = (n - 4) / 4 * 2;  // whole pairs, never more than the left ones
+    const std::size_t middle = n - 2 - right_rows;
+    eliminate(x, y, n, middle, ends, arrays);
+    substitute(x, y, n, middle, ends, arrays);
 }
 
 }  // namespace

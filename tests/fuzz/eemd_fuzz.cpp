@@ -96,7 +96,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         };
         for (const Component& mode : result.modes) check(mode);
         check(result.residue);
-        // No noise is larger than 8.6 standard deviations; subnormal components are rounded coarsely.
+        // No noise is larger than 8.6 standard deviations; subnormals are rounded coarsely.
         require(result.closure_error <= 9.0 * result.noise_level + 1e-10 * largest + 1e-322);
     } catch (const std::invalid_argument&) {
         return 0;

@@ -43,8 +43,8 @@ double inner_difference(const std::vector<double>& a, const std::vector<double>&
 
 TEST_CASE("ten sifts of white noise are a bank of octave filters") {
     // P. Flandrin, G. Rilling and P. Goncalves, IEEE Signal Process. Lett. 11, 112-114, 2004; Z. Wu
-    // and N. E. Huang, Proc. R. Soc. A 460, 1597-1611, 2004.  The limits hold for ten sifts, n = 8192
-    // and geometric means over 40 records; a mode's energy times its period is nearly constant.
+    // and N. E. Huang, Proc. R. Soc. A 460, 1597-1611, 2004.  The limits hold for ten sifts, 8192
+    // samples and geometric means over 40 records; energy times period is nearly constant.
     constexpr int kRecords = 40;
     std::array<double, 9> log_period{};
     std::array<double, 9> log_energy{};
