@@ -48,7 +48,8 @@ inline void set_up(const double* x, const double* y, std::size_t first, std::siz
 ///     p_k = diagonal_k p_{k-2} - product_k p_{k-4}
 ///     z_k = right_k p_{k-2} - coupling_k z_{k-2}        pivot of row k: p_k / p_{k-2}
 ///
-/// (product: of the two coefficients between rows k and k - 2) has no division in its chain.  p_{k-2} is brought to 1 now and then, lest it overflow.
+/// (product: of the two coefficients between rows k and k - 2) has no division in its chain.
+/// p_{k-2} is brought to 1 now and then, lest it overflow.
 struct Elimination {
     Pair before = {0.0, 0.0};    ///< p_{k-4}
     Pair latest = {1.0, 1.0};    ///< p_{k-2}
