@@ -103,8 +103,7 @@ std::optional<std::size_t> ArchiveWriter::samples_held(const std::string& name,
     return held->second.sample_count;
 }
 
-ArchiveWriter::Found ArchiveWriter::find(const std::string& name,
-                                         const PackedRecord& record) const {
+ArchiveWriter::Found ArchiveWriter::find(const std::string& name, const PackedRecord& record) {
     if (!is_replaying_) return Found::nothing;
     Channel& channel = replayed(name, record.start);
     if (channel.held.empty()) return Found::nothing;
@@ -113,15 +112,17 @@ ArchiveWriter::Found ArchiveWriter::find(const std::string& name,
         return Found::nothing;
     }
     const Held made = describe(*decode_record(record.bytes));
-    const auto after = channel.held.lower_bound(record.start);
-    if (after != channel.held.end() && after->first == record.start) {
-        const bool is_same = after->second.sample_count == made.sample_count &&
-                             after->second.samples_hash == made.samples_hash;
-        return is_same ? Found::same : Found::other;
+    const auto [begin, end] = channel.held.equal_range(record.start);
+    for (auto held = begin; held != end; ++held) {
+        if (held->second.sample_count != made.sample_count ||
+            held->second.samples_hash != made.samples_hash)
+            continue;
+        channel.held.erase(held);
+        return Found::same;
     }
     const bool overlaps =
-        (after != channel.held.end() && after->first < made.end) ||
-        (after != channel.held.begin() && std::prev(after)->second.end > record.start);
+        begin != end || (end != channel.held.end() && end->first < made.end) ||
+        (begin != channel.held.begin() && std::prev(begin)->second.end > record.start);
     return overlaps ? Found::other : Found::nothing;
 }
 

@@ -33,9 +33,10 @@ public:
     /// After a fault: closes all files, and looks anew at what is there.
     void reopen();
 
-    /// In a replay, a record that the archive holds with the same start and samples is passed over.
-    /// So is one that overlaps others: that is a conflict, and the archive is right; sync() does not
-    /// speak of it.
+    /// In a replay, a record that the archive holds with the same start and samples is passed over,
+    /// once: after a clock that was set back times come twice.  So is one that overlaps others that
+    /// the replay has not met: that is a conflict, and the archive is right; sync() does not speak of
+    /// it.
     /// @throws std::system_error  the archive cannot be written.
     void record(const std::string& channel, const PackedRecord& record,
                 std::int64_t last_index) override;
@@ -67,13 +68,13 @@ private:
         std::optional<int> sequence;  // of the newest record
         std::optional<Newest> newest;
         std::set<std::filesystem::path> days_read;  // in the replay
-        std::map<UtcTime, Held> held;               // by start, until the replay is past it
+        std::multimap<UtcTime, Held> held;          // by start, until the replay meets or passes it
     };
     enum class Found { nothing, same, other };
 
     Channel& replayed(const std::string& name, UtcTime start) const;
     void load(Channel& channel, const std::filesystem::path& day_file) const;
-    [[nodiscard]] Found find(const std::string& name, const PackedRecord& record) const;
+    [[nodiscard]] Found find(const std::string& name, const PackedRecord& record);
     [[nodiscard]] int newest_sequence(const std::string& channel) const;
     static Held describe(const DecodedRecord& record);
 
