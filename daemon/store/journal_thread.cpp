@@ -17,7 +17,7 @@ constexpr milliseconds kShortestClockInterval{100};
 // Together with 12 bytes per stamp below the largest chunk.
 constexpr std::size_t kMostBytes = std::size_t{48} << 10;
 constexpr std::size_t kMostReads = 1000;
-// Polls of the oven during some three hours of a bad disk.
+// Almost three hours of the oven's polls, one a second, while the disk takes nothing.
 constexpr std::size_t kMostPosted = 10'000;
 
 }  // namespace
@@ -73,7 +73,13 @@ bool JournalThread::finish() {
 
 void JournalThread::post(record::JournalChunk chunk) {
     const std::lock_guard lock(mutex_);
-    if (posted_.size() == kMostPosted) posted_.pop_front();
+    if (posted_.size() >= kMostPosted) {
+        const auto is_poll = [](const record::JournalChunk& posted) {
+            return std::holds_alternative<record::OvenChunk>(posted);
+        };
+        const auto oldest = std::find_if(posted_.begin(), posted_.end(), is_poll);
+        if (oldest != posted_.end()) posted_.erase(oldest);
+    }
     posted_.push_back(std::move(chunk));
 }
 
@@ -153,8 +159,15 @@ void JournalThread::work() {
 void JournalThread::make_room() {
     if (faults_running_ < 2) return;
     std::uint64_t dropped = 0;
-    for (; reads_.fill() > reads_.capacity() / 8 * 7; ++dropped) {
-        if (reads_.front()->kind == ReadQueue::Kind::session) unwritten_ = reads_.take_session();
+    while (reads_.fill() > reads_.capacity() / 8 * 7) {
+        const auto kind = reads_.front()->kind;
+        if (kind == ReadQueue::Kind::rx) ++dropped;
+        if (kind == ReadQueue::Kind::session) {
+            const auto* const rx =
+                unwritten_ ? std::get_if<record::RxChunk>(&*unwritten_) : nullptr;
+            if (rx != nullptr) dropped += rx->reads.size();
+            unwritten_ = reads_.take_session();
+        }
         reads_.pop();
     }
     const std::lock_guard lock(mutex_);

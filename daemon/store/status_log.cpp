@@ -48,7 +48,8 @@ void StatusLog::note(const Status& status, Instant now) {
     note_counter("counter anomalies", status.counters.anomalies, now);
     note_counter("duplicates", status.counters.duplicates, now);
     note_counter("frames with error flags", status.counters.error_flags, now);
-    for (const char* name : {"link_stalls", "ports_lost", "journal_faults", "archive_faults"}) {
+    for (const char* name : {"link_stalls", "ports_lost", "journal_faults", "reads_dropped",
+                             "archive_faults", "archive_chunks_lost"}) {
         const auto found = status.more_counters.find(name);
         if (found != status.more_counters.end()) note_counter(name, found->second, now);
     }

@@ -132,6 +132,7 @@ void Store::fill(Status& status) {
     status.more_counters["events_refused"] = journal.events_refused;
     status.more_counters["reads_dropped"] = journal.reads_dropped;
     status.more_counters["archive_faults"] = archive.faults;
+    status.more_counters["archive_chunks_lost"] = archive.chunks_lost;
     status.more_counters["archive_records"] = archive.records;
     status.more_counters["archive_records_waiting"] = archive.records_waiting;
     status.more_counters["archive_waits"] = journal.archive_waits;
@@ -144,15 +145,15 @@ void Store::fill(Status& status) {
     if (journal.is_faulty) complain(status, Status::Level::fault, "journal: " + journal.trouble);
     if (archive.is_faulty) complain(status, Status::Level::fault, "archive: " + archive.trouble);
 
-    if (journal.reads_dropped > 0) {
+    if (journal.is_faulty && journal.reads_dropped > 0) {
         complain(status, Status::Level::fault,
-                 "journal: the disk refused for longer than memory reaches; reads lost: " +
-                     std::to_string(journal.reads_dropped));
+                 "journal: the disk refuses for longer than memory reaches; the oldest reads are "
+                 "dropped");
     }
     if (archive.chunks_lost > 0) {
         complain(status, Status::Level::fault,
-                 "archive: chunks that it could not take: " + std::to_string(archive.chunks_lost) +
-                     "; the journal holds them");
+                 "archive: it could not take all; the journal holds it, and the next start brings "
+                 "it in");
     }
     {
         const std::lock_guard lock(metadata_mutex_);
