@@ -9,8 +9,11 @@ namespace {
 // more was set.
 constexpr std::chrono::seconds kMostJitter{2};
 
-// Polls wander by milliseconds; rounded to a second that is one second.
-constexpr std::chrono::seconds kMostAside{1};
+// Polls wander by milliseconds, some by the pauses of a busy host, and two in a row keep their
+// places in any phase.  At 1 s little more than the half: a poll that follows a failed one is to
+// begin a new row, not to stand on the second of that one.
+constexpr Nanoseconds kMostAside = std::chrono::seconds(1);
+constexpr Nanoseconds kMostAsideAtOneSecond = std::chrono::milliseconds(600);
 
 std::int32_t hundredths(Percent value) {
     return static_cast<std::int32_t>(std::lround(100.0 * value.value()));
@@ -22,11 +25,11 @@ std::int32_t thousandths(DegC value) {
 }  // namespace
 
 void OvenChannels::add(const RecordContext& context, const OvenSample& sample) {
-    std::chrono::sys_seconds second = sample.second;
+    auto second = std::chrono::round<std::chrono::seconds>(sample.utc);
     if (newest_) {
         const auto expected = *newest_ + interval_;
-        if (interval_ > kMostAside && std::chrono::abs(second - expected) <= kMostAside)
-            second = expected;
+        const auto most_aside = interval_ > kMostAside ? kMostAside : kMostAsideAtOneSecond;
+        if (std::chrono::abs(sample.utc - expected) < most_aside) second = expected;
         if (second < expected && *newest_ - second <= kMostJitter) return;
     }
     newest_ = second;

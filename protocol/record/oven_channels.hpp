@@ -12,15 +12,15 @@ namespace a351::record {
 
 /// What the oven's controller answered.
 struct OvenSample {
-    std::chrono::sys_seconds second;  ///< Of UTC, the nearest.
+    UtcTime utc;
     oven::ControllerValues values;
     std::int64_t index = 0;  ///< Of the newest sample of the sensor then.
 };
 
 /// LK2 process value, LK3 set point in 0.001 degC, LYH heating in 0.01 %.  Samples are `interval`
-/// apart; one that comes up to 1 s beside its place, as polls do, stands on it.  Of several answers
-/// within an interval the first one counts; after a pause the next one begins a new row.  A process
-/// value that its status makes unbelievable is missing.
+/// apart; one that comes less than 1 s beside its place, or 0.6 s at an interval of 1 s, stands on
+/// it.  Of several answers for a place the first one counts; after a pause the next one begins a new
+/// row, on the nearest second.  A process value that its status makes unbelievable is missing.
 class OvenChannels {
 public:
     explicit OvenChannels(std::chrono::seconds interval)

@@ -17,7 +17,7 @@ SecondPacker::SecondPacker(std::string_view code, seconds interval)
 }
 
 void SecondPacker::add(const RecordContext& context, const SecondSample& sample) {
-    const auto next = first_ + interval_ * counts_.size();
+    const auto next = first_ + interval_ * static_cast<std::int64_t>(counts_.size());
     const bool is_next_day = floor<days>(sample.second) != floor<days>(first_);
     if (sample.second != next || is_next_day) close(context, false);
     if (counts_.empty()) {
@@ -56,7 +56,7 @@ void SecondPacker::pack_one(const RecordContext& context, bool ends_series) {
     has_started_ = true;
     counts_.erase(counts_.begin(),
                   counts_.begin() + static_cast<std::ptrdiff_t>(packed.sample_count));
-    first_ += interval_ * packed.sample_count;
+    first_ += interval_ * static_cast<std::int64_t>(packed.sample_count);
 }
 
 }  // namespace a351::record

@@ -68,7 +68,7 @@ void SlowChannels::add(std::int64_t index, Nanoseconds after, const OvenChunk& p
 
 void SlowChannels::take(const WaitingPoll& poll) {
     const UtcTime utc = context_.clock.time_of(poll.index)->utc + poll.after;
-    oven_.add(context_, {std::chrono::round<seconds>(utc), poll.values, poll.index});
+    oven_.add(context_, {utc, poll.values, poll.index});
 }
 
 void SlowChannels::take(const Waiting& sample) {

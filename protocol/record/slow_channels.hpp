@@ -23,7 +23,7 @@ namespace a351::record {
 ///     LCQ  timing quality of the last sample of that second, as known when it was over
 ///     LCE  time of a sample minus what start and rate of its record say, in us; the last sample at
 ///          or before s, the records those of the first channel of the layout
-///     LK2, LK3, LYH  the oven's answer nearest to s, at the oven's interval: OvenChannels
+///     LK2, LK3, LYH  the oven's answers, at the oven's interval: OvenChannels
 ///
 /// LK1 and LCQ have a second when its samples were met from the one before to the one after, by the
 /// clock's fixed times: not the first and the last of a run, nor one in which the times jump.  So a

@@ -1,6 +1,7 @@
 #include "protocol/record/slow_channels.hpp"
 
 #include <catch2/catch.hpp>
+#include <random>
 #include <set>
 
 #include "tests/unit/record/collector.hpp"
@@ -238,6 +239,60 @@ TEST_CASE("the oven is archived while the sensor is silent", "[record][slow_chan
     CHECK(sink.decoded.at("LK2").size() <= 4);
     archiver.take(clock_at(400s));
     CHECK(seconds_of(sink, "LK2").size() == 190);
+}
+
+TEST_CASE("a row of polls between two seconds loses none of them", "[record][slow_channels]") {
+    // On a grid that stays half a second off, each a little beside it.
+    const auto jitter = GENERATE(2ms, 8ms);
+    constexpr int kPolls = 3'600;
+    std::mt19937_64 random(7);
+    std::uniform_int_distribution<std::int64_t> beside(-Nanoseconds(jitter).count(),
+                                                       Nanoseconds(jitter).count());
+    JournalStream stream;
+    stream.frames(0, 500);
+    for (int n = 0; n < kPolls; ++n) {
+        const Nanoseconds at = 20s + n * 1s + 500ms;
+        stream.oven(at + Nanoseconds(beside(random)), static_cast<std::uint16_t>(400 + n % 500));
+        stream.second(at + 100ms);
+    }
+    const auto run = archive(stream.chunks);
+    const auto process = seconds_of(run.sink, "LK2");
+    REQUIRE(process.size() == kPolls);
+    for (std::size_t n = 0; n < process.size(); ++n) {
+        REQUIRE(process[n].first == process.front().first + n * 1s);
+        REQUIRE(process[n].second == 40'000 + 100 * static_cast<std::int32_t>(n % 500));
+    }
+    CHECK(run.sink.decoded.at("LK2").size() <= kPolls / 60 + 2);
+}
+
+TEST_CASE("no oven's value stands far from its poll, and only a poll that failed leaves a gap",
+          "[record][slow_channels]") {
+    const auto [interval, every, most] =
+        GENERATE(table<std::chrono::seconds, Nanoseconds, Nanoseconds>(
+            {{1s, 100ms, 600ms}, {1s, 900ms, 600ms}, {1s, 1s, 600ms}, {2s, 1200ms, 1s}}));
+    const auto phase = GENERATE(0ms, 300ms, 450ms, 700ms, 950ms);
+    CAPTURE(every.count(), phase.count());
+    constexpr int kPolls = 400, kFirstFailed = 150, kFailed = 40;
+    JournalStream stream;
+    std::get<JournalHeader>(stream.chunks.front()).oven_interval = interval;
+    stream.frames(0, 500);
+    for (int n = 0; n < kPolls; ++n) {
+        const Nanoseconds at = 20s + phase + n * every;
+        if (n < kFirstFailed || n >= kFirstFailed + kFailed)
+            stream.oven(at, static_cast<std::uint16_t>(400 + n));
+        stream.second(at + 1ms);
+    }
+    const auto run = archive(stream.chunks);
+    std::vector<Nanoseconds> pauses;
+    UtcTime before{};
+    for (const auto& [time, counts] : seconds_of(run.sink, "LK2", interval)) {
+        const auto n = (counts - 40'000) / 100;
+        REQUIRE(std::chrono::abs(time - (kStart + 20s + phase + n * every)) <= most);
+        if (before != UtcTime{} && time != before + interval) pauses.push_back(time - before);
+        before = time;
+    }
+    REQUIRE(pauses.size() == 1);
+    CHECK(std::chrono::abs(pauses.front() - (kFailed + 1) * every) <= interval + most);
 }
 
 TEST_CASE("an oven that is polled seldom has a channel of that rate", "[record][slow_channels]") {
