@@ -173,7 +173,7 @@ ModbusLine::Answer OvenLink::read_monitors() {
             status_.port = line_->description();
         }
         ModbusLine::Answer answer = read_variables(oven::kFirstMonitor, oven::kMonitorCount);
-        if (answer.exception != kIllegalDataAddress || is_four_byte_) return answer;
+        if (answer.exception != kIllegalDataAddress || is_four_byte_ || stop_) return answer;
         is_four_byte_ = true;
         std::this_thread::sleep_for(kPause);
         ModbusLine::Answer other = read_variables(oven::kFirstMonitor, oven::kMonitorCount);

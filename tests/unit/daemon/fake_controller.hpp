@@ -32,6 +32,7 @@ public:
     std::atomic<Manner> decimals_manner{Manner::good};  ///< For 2410h.
     std::atomic<std::uint16_t> decimals{1};
     std::atomic<bool> is_four_byte{false};  ///< Knows 0000h and 0420h, refuses 2000h and 2410h.
+    std::atomic<std::chrono::milliseconds> delay{};  ///< Of the answers for 2000h.
     std::atomic<int> polls{0}, decimal_requests{0};
     std::atomic<int> other_requests{0};  ///< Other functions, addresses or counts.
 
@@ -69,6 +70,7 @@ private:
         if (is_four_byte) return answer_in_four_bytes(request);
         if (request == sim::sealed(frame({0x01, 0x03, 0x20, 0x00, 0x00, 0x05}))) {
             ++polls;
+            std::this_thread::sleep_for(delay.load());
             return spoil(manner, frame({0x01, 0x03, 0x0A, 0x01, 0xA9, 0x01, 0x00, 0x01, 0xA9, 0x00,
                                         0x00, 0x00, 0xFA}));
         }

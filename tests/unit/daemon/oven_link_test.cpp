@@ -188,6 +188,22 @@ TEST_CASE("a controller of four-byte mode is read as one of two-byte mode", "[da
     CHECK(rig.link.status().values->process_value == DegC(42.5));
 }
 
+TEST_CASE("a link that is stopped asks no second question", "[daemon][oven_link]") {
+    bool is_left_alone = false;
+    // Some tries, for a busy host may come to stop it after the answer.
+    for (int i = 0; i < 5 && !is_left_alone; ++i) {
+        Rig rig;
+        rig.controller.manner = Manner::refused;  // Else it would be asked in four-byte mode.
+        rig.controller.delay = ModbusLine::kResponseTimeout / 2;
+        rig.link.start();
+        REQUIRE(eventually([&] { return rig.controller.polls > 0; }));
+        rig.link.stop();
+        is_left_alone =
+            rig.count(OvenOutcome::exception) == 1 && rig.controller.other_requests == 0;
+    }
+    CHECK(is_left_alone);
+}
+
 TEST_CASE("a controller that comes back under another name is found through its link",
           "[daemon][oven_link]") {
     const TemporaryDirectory directory;
