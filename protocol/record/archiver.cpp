@@ -133,12 +133,8 @@ public:
     }
 
     void observe_clock(const timing::ClockReading& reading) {
-        const RawTime awake = clock_.awake(reading.raw);
         clock_.observe_clock(reading);
-        if (retiming_) {
-            if (clock_.awake(reading.raw) != awake) retiming_->host_slept();
-            retiming_->observe_clock(reading);
-        }
+        if (retiming_) retiming_->observe_clock(reading);
         if (last_index_ && clock_.awake(reading.raw) - last_arrival_ > kMostRecordAge)
             close_channels(false, next_index());
         if (const auto last = last_index_ ? clock_.time_of(*last_index_) : std::nullopt)

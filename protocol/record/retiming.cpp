@@ -7,7 +7,8 @@ namespace a351::record {
 void Retiming::begin_run(const JournalHeader& header, timing::SampleClockOptions options,
                          timing::SampleClock& clock) {
     if (!is_second_pass_) {
-        runs_.push_back({header.session, header.boot_id, timing::Hindsight(options), {}});
+        const std::size_t sleeps = histories_[header.boot_id].sleeps();
+        runs_.push_back({header.session, header.boot_id, timing::Hindsight(options, sleeps), {}});
         return;
     }
     if (next_run_ == runs_.size())
@@ -16,20 +17,21 @@ void Retiming::begin_run(const JournalHeader& header, timing::SampleClockOptions
     const timing::UtcHistory& history = histories_[run.boot_id];
     if (history.is_empty()) return;
     clock.use(run.hindsight.times(history), history.is_synchronised());
-    run.hindsight = timing::Hindsight(options);  // no longer needed
+    run.hindsight = timing::Hindsight(options, 0);  // no longer needed
     run.clock = clock;
 }
 
 void Retiming::observe_clock(const timing::ClockReading& reading) {
-    if (!is_second_pass_) histories_[runs_.back().boot_id].observe(reading);
+    if (is_second_pass_) return;
+    Run& run = runs_.back();
+    timing::UtcHistory& history = histories_[run.boot_id];
+    const std::size_t sleeps = history.sleeps();
+    history.observe(reading);
+    if (history.sleeps() != sleeps) run.hindsight.host_slept(history.sleeps());
 }
 
 void Retiming::observe(std::int64_t index, RawTime arrival) {
     if (!is_second_pass_) runs_.back().hindsight.observe(index, arrival);
-}
-
-void Retiming::host_slept() {
-    if (!is_second_pass_) runs_.back().hindsight.host_slept();
 }
 
 void Retiming::begin_second_pass() { is_second_pass_ = true; }

@@ -23,7 +23,6 @@ public:
                    timing::SampleClock& clock);
     void observe_clock(const timing::ClockReading& reading);
     void observe(std::int64_t index, RawTime arrival);
-    void host_slept();
 
     /// The same chunks follow again, from the first.
     void begin_second_pass();

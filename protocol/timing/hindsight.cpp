@@ -28,21 +28,14 @@ void UtcHistory::notice_sleep(const ClockReading& reading) {
     if (last_) {
         const Nanoseconds asleep =
             (reading.boottime - last_->boottime) - (reading.raw - last_->raw);
-        const Nanoseconds before = sleeps_.empty() ? Nanoseconds(0) : sleeps_.back().total;
-        if (asleep > kShortestSleep) sleeps_.push_back({reading.raw, before + asleep});
+        const Nanoseconds before = slept_.empty() ? Nanoseconds(0) : slept_.back();
+        if (asleep > kShortestSleep) slept_.push_back(before + asleep);
     }
     last_ = reading;
 }
 
-std::size_t UtcHistory::sleeps_before(RawTime raw) const {
-    const auto after = std::upper_bound(sleeps_.begin(), sleeps_.end(), raw,
-                                        [](RawTime t, const Sleep& s) { return t < s.woken; });
-    return static_cast<std::size_t>(after - sleeps_.begin());
-}
-
-RawTime UtcHistory::awake(RawTime raw) const {
-    const std::size_t sleeps = sleeps_before(raw);
-    return sleeps == 0 ? raw : raw + sleeps_[sleeps - 1].total;
+RawTime UtcHistory::awake(RawTime raw, std::size_t sleeps) const {
+    return sleeps == 0 ? raw : raw + slept_[sleeps - 1];
 }
 
 void UtcHistory::observe(const ClockReading& reading) {
@@ -57,10 +50,10 @@ void UtcHistory::observe(const ClockReading& reading) {
         is_synchronised_ = true;
     }
     Pair pair;
-    pair.awake = awake(reading.raw);
+    pair.awake = awake(reading.raw, sleeps());
     pair.offset = reading.realtime.time_since_epoch() - pair.awake.time_since_epoch();
     pair.error = std::chrono::microseconds(reading.max_error_us);
-    pair.sleeps = sleeps_.size();
+    pair.sleeps = sleeps();
     if (!is_synchronised_) pair.error = std::max(pair.error, kUnknownClockError);
     if (!pairs_.empty()) join(pair);
     pairs_.push_back(pair);
@@ -106,17 +99,16 @@ UtcHistory::Point UtcHistory::beyond(Pairs::const_iterator pair, RawTime awake,
             pair->error + from_seconds(slope_error * std::abs(away_s)) + asleep, pair->stretch};
 }
 
-UtcHistory::Point UtcHistory::at(RawTime raw) const {
-    Point point = between(raw);
+UtcHistory::Point UtcHistory::at(RawTime raw, std::size_t sleeps) const {
+    Point point = between(raw, sleeps);
     for (const UtcTime leap : leaps_)
         if (abs(point.utc - leap) <= kLeapDoubt)
             point.error = std::max(point.error, kUnknownClockError);
     return point;
 }
 
-UtcHistory::Point UtcHistory::between(RawTime raw) const {
-    const RawTime awake = this->awake(raw);
-    const std::size_t sleeps = sleeps_before(raw);
+UtcHistory::Point UtcHistory::between(RawTime raw, std::size_t sleeps) const {
+    const RawTime awake = this->awake(raw, sleeps);
     const auto after = std::upper_bound(pairs_.begin(), pairs_.end(), awake,
                                         [](RawTime t, const Pair& p) { return t < p.awake; });
     if (after == pairs_.begin()) return beyond(after, awake, sleeps);
@@ -135,13 +127,18 @@ UtcHistory::Point UtcHistory::between(RawTime raw) const {
             before->stretch};
 }
 
-Hindsight::Hindsight(SampleClockOptions options) : options_(options), period_(options.rate) {}
+Hindsight::Hindsight(SampleClockOptions options, std::size_t sleeps)
+    : options_(options), period_(options.rate), sleeps_(sleeps) {}
 
-void Hindsight::host_slept() { begins_stretch_ = true; }
+void Hindsight::host_slept(std::size_t sleeps) {
+    sleeps_ = sleeps;
+    begins_stretch_ = true;
+}
 
 void Hindsight::observe(std::int64_t index, RawTime arrival) {
     if (begins_stretch_)
-        stretches_.push_back({index, ArrivalEdge(options_.rate, ArrivalEdge::Memory::all)});
+        stretches_.push_back(
+            {index, sleeps_, ArrivalEdge(options_.rate, ArrivalEdge::Memory::all)});
     begins_stretch_ = false;
     stretches_.back().edge.observe(index, arrival);
     last_ = index;
@@ -154,11 +151,11 @@ std::vector<TimePiece> Hindsight::times(const UtcHistory& history) const {
         const std::int64_t end =
             std::next(stretch) == stretches_.end() ? last_ + 1 : std::next(stretch)->first;
         EdgeLine line = stretch->edge.line_around(stretch->first);
-        UtcHistory::Point point = history.at(line.arrival);
+        UtcHistory::Point point = history.at(line.arrival, stretch->sleeps);
         bool is_break = !pieces.empty();
         for (std::int64_t k = stretch->first; k < end; k += second) {
             const EdgeLine next_line = stretch->edge.line_around(k + second);
-            const UtcHistory::Point next = history.at(next_line.arrival);
+            const UtcHistory::Point next = history.at(next_line.arrival, stretch->sleeps);
             const bool jumps = next.stretch != point.stretch;
             const Nanoseconds nominal = period_.of(second);
             const Nanoseconds step =

@@ -35,17 +35,17 @@ public:
         Nanoseconds error{0};  ///< Of the host's clock, 95 %.
         int stretch = 0;       ///< Between two jumps.
     };
-    /// There is a reading.
-    [[nodiscard]] Point at(RawTime raw) const;
+    /// There is a reading.  `sleeps` of the host lie before that instant: raw time does not tell, for
+    /// the reading that shows a sleep is later than what came first after it.
+    [[nodiscard]] Point at(RawTime raw, std::size_t sleeps) const;
+
+    /// That the readings so far show.
+    [[nodiscard]] std::size_t sleeps() const noexcept { return slept_.size(); }
 
     [[nodiscard]] bool is_empty() const noexcept { return pairs_.empty(); }
     [[nodiscard]] bool is_synchronised() const noexcept { return is_synchronised_; }
 
 private:
-    struct Sleep {
-        RawTime woken;
-        Nanoseconds total{0};  ///< With all before.
-    };
     struct Pair {
         RawTime awake;          ///< Raw time and what was slept.
         Nanoseconds offset{0};  ///< UTC since 1970 - awake.
@@ -56,16 +56,15 @@ private:
     using Pairs = std::vector<Pair>;
 
     void notice_sleep(const ClockReading& reading);
-    [[nodiscard]] std::size_t sleeps_before(RawTime raw) const;
-    [[nodiscard]] RawTime awake(RawTime raw) const;
+    [[nodiscard]] RawTime awake(RawTime raw, std::size_t sleeps) const;
     void join(Pair& pair);
-    [[nodiscard]] Point between(RawTime raw) const;
+    [[nodiscard]] Point between(RawTime raw, std::size_t sleeps) const;
     [[nodiscard]] Point beyond(Pairs::const_iterator pair, RawTime awake, std::size_t sleeps) const;
 
     bool is_synchronised_ = false;
     std::optional<ClockReading> last_;
-    std::vector<UtcTime> leaps_;  ///< Midnights announced.
-    std::vector<Sleep> sleeps_;
+    std::vector<UtcTime> leaps_;      ///< Midnights announced.
+    std::vector<Nanoseconds> slept_;  ///< Of each sleep, with all before.
     Pairs pairs_;
 };
 
@@ -75,25 +74,28 @@ private:
 /// 0.5 ms.
 class Hindsight {
 public:
-    explicit Hindsight(SampleClockOptions options);
+    /// @param sleeps  of the host, by UtcHistory, before the first arrival.
+    Hindsight(SampleClockOptions options, std::size_t sleeps);
 
     /// As SampleClock::observe.
     void observe(std::int64_t index, RawTime arrival);
 
-    /// The host slept: the next arrival stands for itself.
-    void host_slept();
+    /// The host has slept so often, by UtcHistory: the next arrival stands for itself.
+    void host_slept(std::size_t sleeps);
 
     [[nodiscard]] std::vector<TimePiece> times(const UtcHistory& history) const;
 
 private:
     struct Stretch {
         std::int64_t first;
+        std::size_t sleeps;
         ArrivalEdge edge;
     };
     SampleClockOptions options_;
     SamplePeriod period_;
     std::vector<Stretch> stretches_;
     std::int64_t last_ = 0;
+    std::size_t sleeps_;
     bool begins_stretch_ = true;
 };
 

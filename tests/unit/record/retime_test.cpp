@@ -159,3 +159,47 @@ TEST_CASE("records of a host without a clock stay in the journal, and re-timing 
     static_cast<void>(retime(posix_files(), root.path(), parent.path() / "again"));
     CHECK(read_vertical(parent.path() / "again" / "archive").counts.size() == 9'000);
 }
+
+TEST_CASE(
+    "after a sleep of the host re-timed samples are right from the first one on, however late "
+    "the reading that shows it",
+    "[record][retime]") {
+    constexpr Nanoseconds kSlept = 40s;
+    constexpr std::int64_t kAsleepFrom = 3'010, kAwakeFrom = 5'010;
+    for (const Nanoseconds late : {Nanoseconds(-20ms), Nanoseconds(30ms), Nanoseconds(200ms)}) {
+        CAPTURE(late.count());
+        const auto reading = [&](Nanoseconds now, Nanoseconds slept) {
+            timing::ClockReading clock = clock_at(now);
+            clock.boottime = clock.raw.time_since_epoch();
+            clock.raw -= slept;
+            return clock;
+        };
+        JournalStream stream;
+        std::get<JournalHeader>(stream.chunks.front()).clock = reading(0s, 0s);
+        Nanoseconds slept{0};
+        for (std::int64_t k = 0; k < 9'000; ++k) {
+            if (k >= kAsleepFrom && k < kAwakeFrom) continue;
+            if (k == kAwakeFrom) {
+                slept = kSlept;
+                stream.flush();
+                stream.chunks.emplace_back(reading(due(k) + late, slept));
+            }
+            stream.bytes(frame_of(values_of(k)), due(k) - slept);
+            if (k % 50 != 49) continue;
+            stream.flush();
+            stream.chunks.emplace_back(reading(due(k) + 1ms, slept));
+        }
+        stream.flush();
+        DataRoot root, parent;
+        root.write_journal(stream.chunks);
+        const auto out = parent.path() / "better";
+        CHECK(retime(posix_files(), root.path(), out).counters.gaps == 1);
+        std::int64_t k = 0;
+        for (const DecodedRecord& record : read_vertical(out / "archive").records) {
+            if (k == kAsleepFrom) k = kAwakeFrom;
+            REQUIRE(std::chrono::abs(record.header.start - truth(k)) < Nanoseconds(500us));
+            k += static_cast<std::int64_t>(record.samples.size());
+        }
+        CHECK(k == 9'000);
+    }
+}

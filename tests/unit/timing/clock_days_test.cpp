@@ -82,7 +82,7 @@ std::vector<Sighting> live(const TransportCase& scenario, std::uint64_t seed) {
 std::vector<Sighting> in_hindsight(const TransportCase& scenario, std::uint64_t seed) {
     TransportWorld world(scenario, seed);
     UtcHistory history;
-    Hindsight hindsight({Hertz(TransportWorld::kRate), kFixedDelay});
+    Hindsight hindsight({Hertz(TransportWorld::kRate), kFixedDelay}, 0);
     std::vector<double> taken_s;  // of every second
     for (std::int64_t k = 0; k < kSamples; ++k) {
         const auto frame = world.next();
