@@ -147,11 +147,16 @@ def wake(session, since):
     _, counters = session.end()
     gaps, missing = gaps_of(session.truth())
     errors = errors_s(session, session.scratch / "data")
-    largest_s = max((abs(error) for _, error in errors), default=9e9)
+    run(BIN / "a351-correct", "retime", session.scratch / "data", "--out", session.scratch / "re-timed")
+    retimed = errors_s(session, session.scratch / "re-timed")
+    largest_s, largest_retimed_s = (max((abs(error) for _, error in found), default=9e9)
+                                    for found in (errors, retimed))
     table.note(28, f"host sleeps for {slept_s:.1f} s", f"{counters['gaps']} gaps of {counters['samples_missing']}, truth "
-               f"{gaps} of {missing}; {len(errors)} records within {1e3 * largest_s:.2f} ms",
+               f"{gaps} of {missing}; {len(errors)} records within {1e3 * largest_s:.2f} ms; re-timed, {len(retimed)} "
+               f"within {1e3 * largest_retimed_s:.2f} ms",
                (counters["gaps"], counters["samples_missing"]) == (gaps, missing) == (1, missing)
-               and counters["sessions"] == 1 and largest_s < LARGEST_ERROR_S)
+               and counters["sessions"] == 1
+               and max(largest_s, largest_retimed_s) < LARGEST_ERROR_S)
 
 
 def start_before_leap_second():
@@ -200,6 +205,8 @@ if not IS_SANITIZED:
     end_in_1970(in_1970)
     end_after_leap_second(*before_leap)
     wake(sleeper, asleep_since)
+else:
+    print("left out: #27, #28 and #29, for what is preloaded would come before a sanitizer")
 if FAKETIME and not IS_SANITIZED:
     clocks_set()
 else:

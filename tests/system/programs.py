@@ -80,6 +80,7 @@ def compare_truth(archive, truth):
         fields = dict(part.split("=") for part in line.split())
         name = fields.pop("channel")
         channels[name] = {key: float(value) for key, value in fields.items()}
+    demand(f"the truth was compared with four channels, of {archive}", len(channels) == 4)
     return channels
 
 

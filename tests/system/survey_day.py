@@ -41,7 +41,6 @@ with Scratch() as scratch:
                max(errors) <= 0.01)
 
     channels = compare_truth(out / "data" / "archive", out / "truth.bin")
-    demand("four channels are archived", len(channels) == 4)
     for name, counted in channels.items():
         demand(f"{name}: 0 of {counted['truth']:.0f} samples missing, altered or duplicated",
                counted["missing"] == counted["altered"] == counted["duplicated"] == 0
