@@ -12,12 +12,14 @@
 #include <libmseed.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,15 +64,28 @@ Truth read_truth(const char* file) {
     return truth;
 }
 
+constexpr std::array kChannels{"BN1", "BN2", "BNZ", "BK1"};
+
 struct ArchivedSample {
-    std::int32_t counts;
-    std::int32_t z_counts;  // of the same position in the channel of axis z
-    double time_s;          // relative to the first truth row
+    std::array<std::optional<std::int32_t>, kChannels.size()> counts;  // of this position, each
+    double time_s;  // relative to the first truth row
     bool starts_record;
+    bool follows_gap;
 };
 
-std::vector<ArchivedSample> read_channel(const std::filesystem::path& archive,
-                                         const std::string& channel, std::int64_t zero_ns) {
+/// In all channels: a value of one of them, of some hundreds that noise takes, repeats too often to
+/// tell a place.
+bool is_same(const ArchivedSample& sample, const TruthRow& row) {
+    const std::array true_counts{row.axes[0], row.axes[1], row.axes[2], row.temperature};
+    for (std::size_t c = 0; c < kChannels.size(); ++c) {
+        if (sample.counts[c] && *sample.counts[c] != true_counts[c]) return false;
+    }
+    return true;
+}
+
+std::vector<ArchivedSample> read_channel(const std::filesystem::path& archive, std::size_t place,
+                                         std::int64_t zero_ns) {
+    const std::string channel = kChannels[place];
     std::vector<std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(archive)) {
         if (entry.is_regular_file() && entry.path().parent_path().filename() == channel + ".D") {
@@ -88,8 +103,11 @@ std::vector<ArchivedSample> read_channel(const std::filesystem::path& archive,
                 static_cast<double>(record->starttime - zero_ns / 1000) / HPTMODULUS;
             const auto* values = static_cast<const std::int32_t*>(record->datasamples);
             for (std::int64_t i = 0; i < record->numsamples; ++i) {
-                samples.push_back(
-                    {values[i], 0, start_s + static_cast<double>(i) / record->samprate, i == 0});
+                const double time_s = start_s + static_cast<double>(i) / record->samprate;
+                const bool follows_gap =
+                    samples.empty() || time_s - samples.back().time_s > 1.5 / record->samprate;
+                samples.push_back({{}, time_s, i == 0, follows_gap});
+                samples.back().counts[place] = values[i];
             }
         }
         if (status != MS_ENDOFFILE) {
@@ -107,11 +125,9 @@ struct Comparison {
     double largest_time_error_s = 0.0;
 };
 
-using IsSame = bool (*)(const ArchivedSample&, const TruthRow&);
-
 /// Aligns by value: a run of equal samples decides, since white noise repeats by chance only.
-Comparison compare(const std::vector<ArchivedSample>& archived, const std::vector<TruthRow>& truth,
-                   IsSame is_same) {
+Comparison compare(const std::vector<ArchivedSample>& archived,
+                   const std::vector<TruthRow>& truth) {
     constexpr std::size_t kRun = 24;
     Comparison result;
     const auto may_be_absent = [&](std::size_t j) { return truth[j].fate == misplaced; };
@@ -126,6 +142,7 @@ Comparison compare(const std::vector<ArchivedSample>& archived, const std::vecto
     const auto matches_at = [&](std::size_t i, std::size_t j) {
         std::size_t n = 0;
         for (; n < kRun && i + n < archived.size() && j < truth.size(); ++n, ++j) {
+            if (n > 0 && archived[i + n].follows_gap) break;
             while (j + 1 < truth.size() && may_be_absent(j) &&
                    !is_same(archived[i + n], truth[j])) {
                 ++j;
@@ -188,33 +205,26 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "compare-truth: %s holds no rows\n", argv[2]);
         return 1;
     }
-    using Sample = ArchivedSample;
-    using Row = TruthRow;
-    // A temperature repeats itself: its place is where axis z has the sample of the same position.
-    const struct {
-        const char* name;
-        IsSame is_same;
-    } channels[] = {{"BN1", [](const Sample& s, const Row& r) { return s.counts == r.axes[0]; }},
-                    {"BN2", [](const Sample& s, const Row& r) { return s.counts == r.axes[1]; }},
-                    {"BNZ", [](const Sample& s, const Row& r) { return s.counts == r.axes[2]; }},
-                    {"BK1", [](const Sample& s, const Row& r) {
-                         return s.counts == r.temperature && s.z_counts == r.axes[2];
-                     }}};
-    const auto z = read_channel(argv[1], "BNZ", truth.rows[0].utc_ns);
+    std::array<std::vector<ArchivedSample>, kChannels.size()> channels;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        channels[c] = read_channel(argv[1], c, truth.rows[0].utc_ns);
+    }
     bool is_good = true;
-    for (const auto& channel : channels) {
-        auto archived = read_channel(argv[1], channel.name, truth.rows[0].utc_ns);
-        for (std::size_t i = 0; i < std::min(archived.size(), z.size()); ++i) {
-            archived[i].z_counts = z[i].counts;
+    for (std::size_t own = 0; own < channels.size(); ++own) {
+        std::vector<ArchivedSample> archived = channels[own];
+        for (std::size_t c = 0; c < channels.size(); ++c) {
+            for (std::size_t i = 0; i < std::min(archived.size(), channels[c].size()); ++i) {
+                archived[i].counts[c] = channels[c][i].counts[c];
+            }
         }
-        const Comparison c = compare(archived, truth.rows, channel.is_same);
+        const Comparison c = compare(archived, truth.rows);
         std::printf(
             "channel=%s truth=%zu archived=%zu matched=%zu missing=%zu first_missing=%zu "
             "missing_runs=%zu "
             "altered=%zu "
             "duplicated=%zu steps=%zu largest_time_error_s=%.6f damaged=%zu lost=%zu repeated=%zu "
             "misplaced=%zu\n",
-            channel.name, truth.intact, archived.size(), c.matched, c.missing, c.first_missing,
+            kChannels[own], truth.intact, archived.size(), c.matched, c.missing, c.first_missing,
             c.missing_runs, c.altered, c.duplicated, c.steps, c.largest_time_error_s, truth.damaged,
             truth.lost, truth.repeated, truth.misplaced);
         is_good = is_good && c.altered == 0 && c.duplicated == 0 && c.steps == 0 && c.matched > 0;
