@@ -44,6 +44,9 @@ timing::ClockReading HostClock::read() const {
         reading.is_synchronised = true;
         return reading;
     }
+    // First: a reading across the midnight of a leap second then still announces it.
+    timex kernel{};
+    const int state = adjtimex(&kernel);
     constexpr int kBrackets = 5;
     auto narrowest = Nanoseconds::max();
     for (int i = 0; i < kBrackets; ++i) {
@@ -57,8 +60,6 @@ timing::ClockReading HostClock::read() const {
         reading.realtime = UtcTime(realtime);
         reading.boottime = boottime;
     }
-    timex kernel{};
-    const int state = adjtimex(&kernel);
     reading.is_synchronised =
         state >= 0 && state != TIME_ERROR && (kernel.status & STA_UNSYNC) == 0;
     if (state == TIME_INS) reading.leap = timing::LeapSecond::inserted;

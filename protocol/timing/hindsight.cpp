@@ -41,7 +41,7 @@ RawTime UtcHistory::awake(RawTime raw, std::size_t sleeps) const {
 void UtcHistory::observe(const ClockReading& reading) {
     if (last_ && reading.raw <= last_->raw) return;
     notice_sleep(reading);
-    const UtcTime midnight = std::chrono::ceil<std::chrono::days>(reading.realtime);
+    const UtcTime midnight = announced_midnight(reading.realtime);
     if (reading.leap != LeapSecond::none && (leaps_.empty() || leaps_.back() != midnight))
         leaps_.push_back(midnight);
     if (is_synchronised_ && !reading.is_synchronised) return;

@@ -19,6 +19,12 @@ inline constexpr Nanoseconds kClockStep = std::chrono::milliseconds(50);
 /// records, of up to a minute, that reach into it.
 inline constexpr Nanoseconds kLeapDoubt = std::chrono::minutes(2);
 
+/// The midnight of a leap second, by a reading that announces it.  One across that midnight may be
+/// after it already.
+[[nodiscard]] inline UtcTime announced_midnight(UtcTime realtime) {
+    return std::chrono::ceil<std::chrono::days>(realtime - kLeapDoubt);
+}
+
 /// Of a clock that was never synchronised, or that only a battery clock carried through a sleep.
 inline constexpr Nanoseconds kUnknownClockError = std::chrono::seconds(1);
 

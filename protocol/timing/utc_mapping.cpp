@@ -26,8 +26,7 @@ std::optional<Nanoseconds> UtcMapping::observe(const ClockReading& reading) {
     const Nanoseconds offset = reading.realtime.time_since_epoch() - reading.raw.time_since_epoch();
     const bool slept = std::exchange(has_slept_, false);
     if (slept) awake_since_ = reading.raw;
-    if (reading.leap != LeapSecond::none)
-        leap_at_ = std::chrono::ceil<std::chrono::days>(reading.realtime);
+    if (reading.leap != LeapSecond::none) leap_at_ = announced_midnight(reading.realtime);
     if (!last_) {
         follow(reading, offset);
         return std::nullopt;

@@ -186,6 +186,24 @@ TEST_CASE("an announced leap second is followed at once, and is doubtful for min
     }
 }
 
+TEST_CASE("a reading across the midnight of a leap second is followed too",
+          "[timing][utc_mapping]") {
+    for (const auto& [leap, step_s] :
+         {std::pair(LeapSecond::inserted, -1.0), std::pair(LeapSecond::removed, 1.0)}) {
+        Host host;
+        host.leap = leap;
+        host.run(12 * 3600 - 1);
+        host.offset_s += step_s;  // Announced by this reading still.
+        host.run(1);
+        REQUIRE(host.followed);
+        host.leap = LeapSecond::none;
+        host.run(1);
+        CHECK(host.mapping.at(host.raw()) == host.clock());
+        CHECK(host.mapping.is_synchronised());
+        CHECK(host.mapping.error_at(host.raw()) >= Nanoseconds(1s));
+    }
+}
+
 TEST_CASE("a step of a second at another time than the announced one is doubted",
           "[timing][utc_mapping]") {
     Host host;
