@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cstring>
+#include <type_traits>
 
 namespace a351::daemon {
 
@@ -57,6 +58,10 @@ bool ReadQueue::push_session(record::JournalHeader header, RawTime time) {
     return false;
 }
 
+bool ReadQueue::push_woken(const timing::ClockReading& reading) noexcept {
+    return push(Kind::woken, reading.raw, std::as_bytes(std::span(&reading, 1)));
+}
+
 std::optional<ReadQueue::Item> ReadQueue::front() noexcept {
     std::uint64_t head = head_.load(std::memory_order_relaxed);
     if (head == tail_.load(std::memory_order_acquire)) return std::nullopt;
@@ -81,6 +86,13 @@ record::JournalHeader ReadQueue::take_session() {
     record::JournalHeader header = std::move(sessions_.front());
     sessions_.pop_front();
     return header;
+}
+
+timing::ClockReading ReadQueue::woken() noexcept {
+    static_assert(std::is_trivially_copyable_v<timing::ClockReading>);
+    timing::ClockReading reading;
+    std::memcpy(&reading, front()->bytes.data(), sizeof reading);
+    return reading;
 }
 
 std::size_t ReadQueue::fill() const noexcept {

@@ -23,7 +23,7 @@ public:
         rx,       ///< What one read() returned.
         tx,       ///< What was sent.
         session,  ///< What follows belongs to a new session: take_session().
-        woken,    ///< The host slept before what follows.
+        woken,    ///< The host slept before what follows: push_woken().
     };
     struct Item {
         Kind kind = Kind::rx;
@@ -44,12 +44,16 @@ public:
     [[nodiscard]] bool push(Kind kind, RawTime time, std::span<const std::byte> bytes) noexcept;
     /// Allocates; sessions are rare.
     [[nodiscard]] bool push_session(record::JournalHeader header, RawTime time);
+    /// @param reading  no later than what follows.
+    [[nodiscard]] bool push_woken(const timing::ClockReading& reading) noexcept;
 
     // Consumer.
     [[nodiscard]] std::optional<Item> front() noexcept;
     void pop() noexcept;
     /// The header of the `session` item at the front.
     [[nodiscard]] record::JournalHeader take_session();
+    /// The reading of the `woken` item at the front, which stays.
+    [[nodiscard]] timing::ClockReading woken() noexcept;
 
     [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
 

@@ -256,6 +256,8 @@ void SensorLink::back_off(const std::string& trouble) {
 }
 
 void SensorLink::begin_session() {
+    const timing::ClockReading& told = begun_->header.clock;
+    slept_ = told.boottime - told.raw.time_since_epoch();
     const bool is_new = !known_ || known_->header.session != begun_->header.session;
     // The counter of a device that was just configured starts at 0.
     if (is_new) known_ = record::StreamEnd{begun_->header, 0, begun_->header.clock.raw};
@@ -288,17 +290,16 @@ SensorLink::End SensorLink::read_stream() {
     auto last_byte = steady_clock::now();
     auto last_frame = last_byte;
     has_frames_ = false;
-    Nanoseconds slept = clock_.slept();
     while (!stop_) {
         const auto count = port_->read(bytes, kStopCheck);
-        const RawTime time = clock_.raw();
-        const Nanoseconds slept_before = std::exchange(slept, clock_.slept());
-        if (slept - slept_before > timing::kShortestSleep) push(ReadQueue::Kind::woken, time, {});
+        RawTime time = clock_.raw();
         if (!count) return End::gone;
         const auto now = steady_clock::now();
         if (*count > 0) {
             std::span<const std::byte> input = std::span(bytes).first(*count);
             if (begun_) begin_session();
+            const Nanoseconds slept_before = std::exchange(slept_, clock_.slept());
+            if (slept_ - slept_before > timing::kShortestSleep) time = push_woken();
             push(ReadQueue::Kind::rx, time, input);
             last_byte = now;
             while (const auto event = decoder.next(input)) {
@@ -341,6 +342,15 @@ void SensorLink::push(ReadQueue::Kind kind, RawTime time, std::span<const std::b
         hold_up();
     }
     is_held_up_ = false;
+}
+
+/// After a sleep of the host, before the first bytes that follow it.  @return  when they came, by
+/// a clock that tells of the sleep: the journal may be written much later, after another sleep.
+RawTime SensorLink::push_woken() {
+    const timing::ClockReading reading = clock_.read();
+    while (!queue_.push_woken(reading) && !stop_) hold_up();
+    is_held_up_ = false;
+    return reading.raw;
 }
 
 void SensorLink::hold_up() {

@@ -91,6 +91,7 @@ private:
     void back_off(const std::string& trouble);
     void hold_up();
     void push(ReadQueue::Kind kind, RawTime time, std::span<const std::byte> bytes);
+    [[nodiscard]] RawTime push_woken();
     void stop_sensor();
     void lose_port();
     void wait(std::chrono::seconds instrument_span);
@@ -105,6 +106,7 @@ private:
     std::size_t bauds_tried_ = 0;
     std::size_t failures_in_a_row_ = 0;
     bool has_frames_ = false;  ///< Since sampling began.
+    Nanoseconds slept_{0};     ///< HostClock::slept() when the last bytes came.
     /// A session that was commanded; it begins with its first byte.
     struct Begun {
         record::JournalHeader header;

@@ -204,10 +204,12 @@ void JournalThread::write_reads() {
                 write(std::move(tx));
                 break;
             }
-            case ReadQueue::Kind::woken:
+            case ReadQueue::Kind::woken: {
+                const timing::ClockReading reading = reads_.woken();
                 reads_.pop();
-                if (has_segment_) write_clock();
+                write_clock(reading);
                 break;
+            }
             case ReadQueue::Kind::session: {
                 record::JournalHeader header = reads_.take_session();
                 reads_.pop();
@@ -219,12 +221,11 @@ void JournalThread::write_reads() {
     write_rx();
     if (has_segment_ && time_.now() - last_clock_real_ >= kShortestClockInterval &&
         clock_.raw() - last_clock_ >= kClockInterval) {
-        write_clock();
+        write_clock(clock_.read());
     }
 }
 
-void JournalThread::write_clock() {
-    const timing::ClockReading reading = clock_.read();
+void JournalThread::write_clock(const timing::ClockReading& reading) {
     last_clock_ = reading.raw;
     last_clock_real_ = time_.now();
     write(reading);
@@ -246,8 +247,10 @@ void JournalThread::retry_unwritten() {
         on_disk([&] { writer_.begin_segment(*header); });
         has_segment_ = true;
     } else {
+        // A header later than the reader's own would tell of sleeps to come.
+        const auto* const reading = std::get_if<timing::ClockReading>(&*unwritten_);
         std::optional<record::JournalHeader> rotated;
-        on_disk([&] { rotated = writer_.append(*unwritten_, clock_.read()); });
+        on_disk([&] { rotated = writer_.append(*unwritten_, reading ? *reading : clock_.read()); });
         if (rotated) hand_over(*rotated);  // The archive must see what a reader will see.
     }
     is_dirty_ = true;

@@ -87,7 +87,7 @@ private:
     void work();
     void make_room();
     void write_reads();
-    void write_clock();
+    void write_clock(const timing::ClockReading& reading);
     [[nodiscard]] std::optional<record::JournalChunk> next_posted();
     void write(record::JournalChunk chunk);
     void retry_unwritten();

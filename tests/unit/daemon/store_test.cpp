@@ -50,6 +50,36 @@ TEST_CASE_METHOD(Rig, "an event is in journal and event log once commit returns"
     CHECK(record::read_events(root / "events").events.size() == 2);
 }
 
+TEST_CASE_METHOD(Rig, "after a sleep the journal has the reader's own reading before what follows",
+                 "[daemon][store]") {
+    Store store(files, options(), clock, reads);
+    store.start();
+    begin_session();
+    feed(10);
+    timing::ClockReading woken = clock.read();
+    woken.raw += std::chrono::hours(2);  // A segment ends meanwhile.
+    woken.boottime += std::chrono::hours(10);
+    REQUIRE(reads.push_woken(woken));
+    feed(10);
+    CHECK(store.stop());
+
+    std::size_t bytes_before = 0;
+    std::optional<record::JournalHeader> header;
+    bool is_written = false;
+    record::JournalSequence chunks(record::journal_segments(root / "journal"));
+    for (auto chunk = chunks.next(); chunk && !is_written; chunk = chunks.next()) {
+        if (const auto* rx = std::get_if<record::RxChunk>(&*chunk))
+            bytes_before += rx->bytes.size();
+        if (const auto* next = std::get_if<record::JournalHeader>(&*chunk)) header = *next;
+        if (const auto* reading = std::get_if<timing::ClockReading>(&*chunk))
+            is_written = *reading == woken;
+    }
+    CHECK(is_written);
+    CHECK(bytes_before == bytes.size() / 2);
+    REQUIRE(header);
+    CHECK(header->clock == woken);
+}
+
 TEST_CASE_METHOD(Rig, "the store says which sample belongs to an instant", "[daemon][store]") {
     Store store(files, options(), clock, reads);
     store.start();

@@ -1,0 +1,147 @@
+/// @file
+/// A host that sleeps, or inserts a leap second.  A program of its own, for it replaces the calls by
+/// which clocks are read.
+
+#include <sys/syscall.h>
+#include <sys/timex.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <ctime>
+
+#include "daemon/source/sensor_link.hpp"
+#include "tests/unit/daemon/fake_sensor.hpp"
+
+namespace {
+
+std::atomic<int> slept_s{0};
+std::atomic<int> calls_before_leap{-1};  ///< Of those below; negative: no leap second.
+
+/// Whether the leap second has been inserted.
+bool is_leap_over() {
+    if (calls_before_leap <= 0) return calls_before_leap == 0;
+    --calls_before_leap;
+    return false;
+}
+
+}  // namespace
+
+extern "C" int clock_gettime(clockid_t id, timespec* time) noexcept {
+    const auto result = static_cast<int>(syscall(SYS_clock_gettime, id, time));
+    if (id == CLOCK_BOOTTIME) time->tv_sec += slept_s;
+    if (is_leap_over() && id == CLOCK_REALTIME) --time->tv_sec;
+    return result;
+}
+
+extern "C" int adjtimex(timex* kernel) noexcept {
+    *kernel = {};
+    if (calls_before_leap < 0) return TIME_OK;
+    return is_leap_over() ? TIME_OOP : TIME_INS;
+}
+
+using namespace a351;
+using namespace a351::daemon;
+using Kind = ReadQueue::Kind;
+
+namespace {
+
+struct Sleeper {
+    FakeSensor sensor;
+    ReadQueue queue;
+    HostClock clock;
+    SensorLink link{options(), clock, queue};
+
+    Sleeper() { slept_s = 0; }
+
+    [[nodiscard]] LinkOptions options() const {
+        LinkOptions options;
+        options.address.path = sensor.path();
+        options.profile = wire::find_profile("A351");
+        options.header.profile = "A351";
+        return options;
+    }
+
+    void wait_for_frames() {
+        const auto sent = sensor.frames_sent.load();
+        REQUIRE(eventually([&] { return sensor.frames_sent >= sent + 20; }));
+    }
+
+    /// Kinds in their order, runs of one kind as one.
+    std::vector<Kind> take_all() {
+        std::vector<Kind> kinds;
+        for (auto item = queue.front(); item; item = queue.front()) {
+            if (kinds.empty() || kinds.back() != item->kind) kinds.push_back(item->kind);
+            if (item->kind == Kind::session) static_cast<void>(queue.take_session());
+            if (item->kind == Kind::woken) readings.push_back(queue.woken());
+            if (item->kind == Kind::rx && !readings.empty())
+                is_in_order &= item->time >= readings.back().raw;
+            queue.pop();
+        }
+        return kinds;
+    }
+    std::vector<timing::ClockReading> readings;
+    bool is_in_order = true;  ///< No bytes are older than the reading before them.
+};
+
+}  // namespace
+
+TEST_CASE("each sleep is told by a reading of its own that what follows is not before",
+          "[daemon][sensor_link]") {
+    Sleeper host;
+    host.link.start();
+    host.wait_for_frames();
+    slept_s = 40;
+    host.wait_for_frames();
+    slept_s = 100;
+    host.wait_for_frames();
+    auto kinds = host.take_all();
+    host.link.stop();
+    kinds.resize(7);
+    CHECK(kinds == std::vector{Kind::session, Kind::tx, Kind::rx, Kind::woken, Kind::rx,
+                               Kind::woken, Kind::rx});
+    REQUIRE(host.readings.size() == 2);
+    const auto slept = [&](std::size_t i) {
+        return host.readings[i].boottime - host.readings[i].raw.time_since_epoch();
+    };
+    CHECK(std::chrono::abs(slept(1) - slept(0) - std::chrono::seconds(60)) <
+          Nanoseconds(std::chrono::milliseconds(10)));
+    CHECK(host.is_in_order);
+}
+
+TEST_CASE("a sleep before the first byte of a session is told behind its header",
+          "[daemon][sensor_link]") {
+    Sleeper host;
+    host.sensor.is_idle = true;
+    host.link.start();
+    REQUIRE(eventually([&] { return host.link.status().device.has_value(); }));
+    slept_s = 40;
+    // The reader looks at what it knows of sleeps every 200 ms.
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    CHECK(host.queue.fill() == 0);
+    host.sensor.is_idle = false;
+    host.wait_for_frames();
+    auto kinds = host.take_all();
+    kinds.resize(4);
+    CHECK(kinds == std::vector{Kind::session, Kind::tx, Kind::woken, Kind::rx});
+    host.link.stop();
+}
+
+TEST_CASE("a reading from before a leap second announces it, wherever in it midnight falls",
+          "[daemon][host_clock]") {
+    const HostClock clock;
+    int before = 0, after = 0;
+    for (int calls = 0; calls < 30; ++calls) {
+        CAPTURE(calls);
+        calls_before_leap = -1;
+        const UtcTime start = host_realtime();
+        calls_before_leap = calls;
+        const timing::ClockReading reading = clock.read();
+        const bool is_before = reading.realtime >= start;
+        ++(is_before ? before : after);
+        if (is_before) CHECK(reading.leap == timing::LeapSecond::inserted);
+    }
+    calls_before_leap = -1;
+    CHECK(before > 0);
+    CHECK(after > 0);
+}
