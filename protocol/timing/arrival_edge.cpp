@@ -1,6 +1,7 @@
 #include "protocol/timing/arrival_edge.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace a351::timing {
 namespace {
@@ -38,6 +39,14 @@ void ArrivalEdge::observe(std::int64_t index, RawTime arrival) {
 }
 
 void ArrivalEdge::close_block() {
+    // A few alone may have stood unread through a sleep of the host.
+    const bool is_first = std::exchange(is_first_block_, false);
+    if (is_first &&
+        static_cast<std::int64_t>(open_block_.size()) < kBlock_s * period_.per_second() / 5) {
+        blocks_.clear();
+        open_block_.clear();
+        return;
+    }
     std::sort(open_block_.begin(), open_block_.end());
     if (open_block_.size() >= kFewestOfBlock) {
         Nanoseconds largest{0};
@@ -64,6 +73,7 @@ void ArrivalEdge::restart() {
     blocks_.clear();
     open_block_.clear();
     line_.reset();
+    is_first_block_ = true;
 }
 
 // The newest block may lack its least delayed frame yet.

@@ -61,6 +61,7 @@ private:
     std::int64_t newest_ = 0;
     std::vector<ArrivalBlock> blocks_;
     std::vector<Nanoseconds> open_block_;  ///< Every y of the newest block.
+    bool is_first_block_ = true;           // since restart()
     std::optional<EdgeLine> line_;
 };
 

@@ -277,6 +277,27 @@ TEST_CASE("a sleep of the host is added to its raw clock", "[timing][sample_cloc
     CHECK(world.clock.awake(RawTime(0s)).time_since_epoch() == Nanoseconds(20min) + 400ms);
 }
 
+TEST_CASE("what stood unread through a sleep of the host does not fix the times after it",
+          "[timing][sample_clock]") {
+    for (const std::int64_t unread : {1, 5, 15}) {
+        World world;
+        for (std::int64_t k = 0; k < 10'000; ++k) world.frame(k, 0s);
+        world.slept = 40s;
+        const std::int64_t awake = 10'000 + unread + 40 * 50;
+        world.read_clock(world.truth(awake));
+        for (std::int64_t k = 10'000; k < 10'000 + unread; ++k)
+            world.clock.observe(k, world.raw(world.truth(awake) + kGroupDelay));
+        for (std::int64_t k = awake; k < awake + 1000; ++k) world.frame(k, 0s);
+        CAPTURE(unread);
+        for (std::int64_t k = awake; k < awake + 1000; ++k)
+            REQUIRE(std::chrono::abs(world.clock.time_of(k)->utc - world.truth(k)) <
+                    Nanoseconds(1ms));
+        for (std::int64_t k = 10'000; k < 10'000 + unread; ++k)
+            REQUIRE(std::chrono::abs(world.clock.time_of(k)->utc - world.truth(k)) <
+                    Nanoseconds(1ms));
+    }
+}
+
 TEST_CASE("after a sleep the rate may be another", "[timing][sample_clock]") {
     World world;
     for (std::int64_t k = 0; k < 180'000; ++k) world.frame(k, 0s);
