@@ -14,7 +14,7 @@ namespace a351::text {
 
 class CsvTable {
 public:
-    /// Line ends LF or CRLF; blank lines and a byte-order mark are skipped.
+    /// Line ends and blank lines as in CsvReader.
     /// @throws InputError  no header, a repeated column, a row of another width.
     [[nodiscard]] static CsvTable parse(std::string_view text, std::filesystem::path origin);
 

@@ -58,7 +58,7 @@ bool CsvReader::next() {
     return true;
 }
 
-/// Splits the next line that is not blank.
+/// Splits the next line that is a row.
 bool CsvReader::next_line() {
     while (std::getline(in_, text_)) {
         std::string_view content = text_;
@@ -66,7 +66,7 @@ bool CsvReader::next_line() {
         if (++line_ == 1 && content.starts_with(kByteOrderMark)) {
             content.remove_prefix(kByteOrderMark.size());
         }
-        if (trimmed(content).empty()) continue;
+        if (!is_row(content)) continue;
         split(content, cells_);
         return true;
     }
@@ -75,6 +75,13 @@ bool CsvReader::next_line() {
                          "; allowed: a readable file");
     }
     return false;
+}
+
+/// A blank line between the rows of a single column is a cell that is missing: left out, it would
+/// move all rows after it.
+bool CsvReader::is_row(std::string_view content) {
+    if (!trimmed(content).empty()) return true;
+    return columns_.size() == 1 && !in_.eof() && in_.peek() != std::istream::traits_type::eof();
 }
 
 void CsvReader::refuse(std::size_t column, std::string_view trouble,

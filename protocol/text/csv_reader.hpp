@@ -12,7 +12,8 @@
 
 namespace a351::text {
 
-/// Line ends LF or CRLF; blank lines and a byte-order mark are skipped.
+/// Line ends LF or CRLF; a byte-order mark and blank lines are skipped.  In a table of one column a
+/// blank line is a row with an empty cell, but for one that ends the file.
 class CsvReader {
 public:
     /// Reads the header line.
@@ -36,6 +37,7 @@ public:
 
 private:
     [[nodiscard]] bool next_line();
+    [[nodiscard]] bool is_row(std::string_view content);
 
     std::istream& in_;
     std::filesystem::path origin_;

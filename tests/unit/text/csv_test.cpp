@@ -20,6 +20,17 @@ TEST_CASE("a table is read by column name, whatever the line ends", "[text][csv]
     CHECK_FALSE(table.has_column("c"));
 }
 
+TEST_CASE("a blank line of a single column is an empty cell, but for the last", "[text][csv]") {
+    const auto table = CsvTable::parse("\na\n1\n\n3\r\n \t\r\n5\n\n", "t.csv");
+    REQUIRE(table.row_count() == 5);
+    CHECK(table.number_if_given(1, "a") == std::nullopt);
+    CHECK(table.number(2, "a") == 3.0);
+    CHECK(table.cell(3, "a").empty());
+    CHECK(table.number(4, "a") == 5.0);
+    CHECK(CsvTable::parse("a\n1\n  ", "t.csv").row_count() == 1);
+    CHECK_THROWS_WITH((void)table.number(1, "a"), Catch::Contains("t.csv:4: a = : not a number"));
+}
+
 TEST_CASE("an empty cell is no number, and may be asked for as such", "[text][csv]") {
     const auto table = CsvTable::parse("a,b\n,1\n", "t.csv");
     CHECK(table.number_if_given(0, "a") == std::nullopt);
