@@ -120,7 +120,7 @@ TimeSeries<DegC> decimate_temperature(const OccupationRecord& record,
 }
 
 std::vector<OccupationFlag> flags_of(const Part& part, const Interval& interval, bool has_gap,
-                                     bool has_temperature) {
+                                     bool has_temperature, bool is_settled) {
     std::vector<OccupationFlag> flags;
     const auto raise = [&](OccupationFlag flag, bool condition) {
         if (condition) flags.push_back(flag);
@@ -131,6 +131,7 @@ std::vector<OccupationFlag> flags_of(const Part& part, const Interval& interval,
     raise(OccupationFlag::pulse, part.split);
     raise(OccupationFlag::gap, has_gap);
     raise(OccupationFlag::no_temperature, !has_temperature);
+    raise(OccupationFlag::unsettled, !is_settled);
     return flags;
 }
 
@@ -150,6 +151,8 @@ std::string_view flag_name(OccupationFlag flag) noexcept {
             return "gap";
         case OccupationFlag::no_temperature:
             return "no_temperature";
+        case OccupationFlag::unsettled:
+            return "unsettled";
     }
     return "";
 }
@@ -209,7 +212,8 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
         .interval_start = series.time_of(static_cast<double>(first)),
         .interval_end = series.time_of(static_cast<double>(last)),
         .flags = flags_of(part, interval, present.back() < record.x.size(),
-                          temperature_summary.has_value()),
+                          temperature_summary.has_value(),
+                          options.trend == TrendMethod::eemd || smoothed.converged),
         .counts = count_samples(present, series.size(), reach_of(filter)),
         .x = summarise(record.x),
         .y = summarise(record.y),

@@ -53,6 +53,7 @@ enum class OccupationFlag {
     pulse,            ///< A disturbance inside cut the record; the longer part was used.
     gap,              ///< Samples are missing within the occupation.
     no_temperature,   ///< Fewer than two valid temperatures in the interval.
+    unsettled,        ///< The value is the smoother's, whose weights did not settle.
 };
 
 /// The flag's name in tables: as in the enumeration.

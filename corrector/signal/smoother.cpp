@@ -15,11 +15,16 @@ namespace {
 constexpr double kFullWeight = 3.0;
 constexpr double kNoWeight = 6.0;
 
-/// Weights settle within ten rounds; the limit stops those that alternate.
-constexpr int kMostRounds = 30;
+/// Nearly all weights of Gaussian noise settle within ten rounds; with many samples on the flanks they
+/// can alternate for ever, and the mean of old and new ones brings most of those together.
+constexpr int kPlainRounds = 10;
+constexpr int kMostRounds = 100;
 constexpr double kSettled = 1e-6;
 
-constexpr std::size_t kFewest = 3;  // two make a line, which leaves no residual
+constexpr double kRounding = 1e-12;  // of the largest sample, as in find_disturbances()
+
+/// Of the trace: what is left of it beside the samples is their rounding.
+constexpr double kLeastFreedom = 1e-6;
 
 void require(bool condition, const std::string& trouble) {
     if (!condition) throw std::invalid_argument("smooth: " + trouble);
@@ -42,12 +47,13 @@ double weight_of(double residual, double deviation) {
 }
 
 /// Weights by the residuals of the samples that are there.
-std::vector<double> weights_about(std::span<const double> series, std::span<const double> curve) {
+std::vector<double> weights_about(std::span<const double> series, std::span<const double> curve,
+                                  double rounding) {
     std::vector<double> magnitudes;
     for (std::size_t i = 0; i < series.size(); ++i) {
         if (std::isfinite(series[i])) magnitudes.push_back(std::abs(series[i] - curve[i]));
     }
-    const double deviation = kGaussianPerMad * median(std::move(magnitudes));
+    const double deviation = std::max(kGaussianPerMad * median(std::move(magnitudes)), rounding);
     std::vector<double> weights(series.size());
     for (std::size_t i = 0; i < series.size(); ++i) {
         if (std::isfinite(series[i])) weights[i] = weight_of(series[i] - curve[i], deviation);
@@ -63,7 +69,7 @@ double largest_change(std::span<const double> a, std::span<const double> b) {
 
 /// The fit, its noise level and degrees of freedom, once the weights stand.
 SmoothTrend describe(std::span<const double> series, PenalisedFit fit, std::vector<double> curve,
-                     std::vector<double> weights) {
+                     std::vector<double> weights, bool converged) {
     const std::vector<double> inverse = fit.inverse_diagonal();
     double squares = 0.0;
     double total = 0.0;
@@ -75,8 +81,11 @@ SmoothTrend describe(std::span<const double> series, PenalisedFit fit, std::vect
         total += weights[i];
         degrees_of_freedom += weights[i] * inverse[i];
     }
-    const double noise_level = std::sqrt(squares / (total - degrees_of_freedom));
-    return {std::move(curve), std::move(weights), noise_level, degrees_of_freedom, std::move(fit)};
+    const double freedom = total - degrees_of_freedom;
+    require(freedom >= kLeastFreedom * total, "series: the curve passes through all its samples");
+    const double noise_level = std::sqrt(squares / freedom);
+    return {std::move(curve),   std::move(weights), noise_level,
+            degrees_of_freedom, converged,          std::move(fit)};
 }
 
 }  // namespace
@@ -103,14 +112,18 @@ SmoothTrend smooth(std::span<const double> series, double cutoff_period) {
             "cutoff_period = " + std::to_string(cutoff_period) + ", must be 2 to 5000 samples");
     std::vector<double> weights(series.size());
     double sum = 0.0;
+    double largest = 0.0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < series.size(); ++i) {
         if (!std::isfinite(series[i])) continue;
         weights[i] = 1.0;
         sum += series[i];
+        largest = std::max(largest, std::abs(series[i]));
         ++count;
     }
-    require(count >= kFewest, "series: " + std::to_string(count) + " samples, must be 3 or more");
+    require(count >= kFewestSamples,
+            "series: " + std::to_string(count) + " samples, must be 3 or more");
+    require(largest <= kLargestSample, "series: a sample's magnitude is beyond 1e150");
 
     // Rounding is relative to what is fitted: the departure from the mean.
     const double mean = sum / static_cast<double>(count);
@@ -120,14 +133,20 @@ SmoothTrend smooth(std::span<const double> series, double cutoff_period) {
     const double penalty = penalty_of(cutoff_period);
     PenalisedFit fit(weights, penalty);
     std::vector<double> curve = fit.solve(weighted(weights, departure));
+    bool converged = false;
     for (int round = 1; round < kMostRounds; ++round) {
-        std::vector<double> next = weights_about(departure, curve);
-        if (largest_change(next, weights) <= kSettled) break;
+        std::vector<double> next = weights_about(departure, curve, kRounding * largest);
+        converged = largest_change(next, weights) <= kSettled;
+        if (converged) break;
+        for (std::size_t i = 0; round >= kPlainRounds && i < next.size(); ++i) {
+            next[i] = 0.5 * (next[i] + weights[i]);
+        }
         weights = std::move(next);
         fit = PenalisedFit(weights, penalty);
         curve = fit.solve(weighted(weights, departure));
     }
-    SmoothTrend trend = describe(departure, std::move(fit), std::move(curve), std::move(weights));
+    SmoothTrend trend =
+        describe(departure, std::move(fit), std::move(curve), std::move(weights), converged);
     for (double& value : trend.curve) value += mean;
     return trend;
 }

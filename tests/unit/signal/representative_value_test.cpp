@@ -284,6 +284,7 @@ TEST_CASE("every flag has the name it has in the enumeration") {
     CHECK(flag_name(OccupationFlag::pulse) == "pulse");
     CHECK(flag_name(OccupationFlag::gap) == "gap");
     CHECK(flag_name(OccupationFlag::no_temperature) == "no_temperature");
+    CHECK(flag_name(OccupationFlag::unsettled) == "unsettled");
 }
 
 }  // namespace a351::corrector

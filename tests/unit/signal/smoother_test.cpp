@@ -205,6 +205,48 @@ TEST_CASE("standard errors hold as often as they say") {
     CHECK(mean_squares == Approx(1.0).margin(0.13));  // 3 sigma of a mean of 1000 squares
 }
 
+TEST_CASE("what is left of a clean series is rounding, not outliers") {
+    std::vector<double> series(450);
+    for (std::size_t i = 0; i < 450; ++i) series[i] = 979'800.0 + 0.01 * static_cast<double>(i);
+    CHECK(smooth(series, 150.0).weights == std::vector<double>(450, 1.0));
+    CHECK(smooth(series, 150.0).noise_level < 1e-8);
+    const SmoothTrend three = smooth(std::vector<double>{0.0, 0.1, 0.2}, 2.0);
+    CHECK(three.weights == std::vector<double>(3, 1.0));
+    CHECK(three.noise_level < 1e-15);  // false for NaN as well
+    CHECK(three.curve[1] == Approx(0.1));
+}
+
+TEST_CASE("samples up to 1e150 are smoothed as others are, larger ones refused") {
+    const std::vector<double> noise = white_noise(6, 100);
+    const SmoothTrend plain = smooth(noise, 10.0);
+    std::vector<double> large = noise;
+    for (double& value : large) value *= 2e149;
+    const SmoothTrend trend = smooth(large, 10.0);
+    CHECK(trend.noise_level / 2e149 == Approx(plain.noise_level));
+    for (std::size_t i = 0; i < 100; ++i) {
+        REQUIRE(trend.curve[i] / 2e149 == Approx(plain.curve[i]).margin(1e-12));
+    }
+    large[50] = -1.2e150;
+    CHECK_THROWS_AS(smooth(large, 10.0), std::invalid_argument);
+    large[50] = 1.2e308;
+    CHECK_THROWS_AS(smooth(large, 10.0), std::invalid_argument);
+}
+
+TEST_CASE("weights that would alternate settle, and the result says when they do not") {
+    // Blocks of a tenth of the record five deviations high: many samples on the weights' flanks.
+    std::size_t settled = 0;
+    for (std::uint64_t record = 0; record < 200; ++record) {
+        std::vector<double> series = white_noise(100 + record, 60 + 2 * record);
+        const std::size_t n = series.size();
+        for (std::size_t i = n / 3; i < n / 3 + n / 10; ++i) series[i] += 5.0;
+        const SmoothTrend trend = smooth(series, 10.0 + static_cast<double>(record));
+        settled += trend.converged ? 1 : 0;
+    }
+    CHECK(settled >= 199);
+    const std::vector<double> three_apart = {57, 50, 60, 1, 11, 5, 5, 2, 6, 9, 7, 4};
+    CHECK_FALSE(smooth(three_apart, 10.0).converged);
+}
+
 TEST_CASE("a period or a number of samples that means nothing is refused") {
     const std::vector<double> series(10, 1.0);
     for (const double period : {1.9, 5001.0, kNan}) {
