@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "corrector/signal/smoother.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 
@@ -11,6 +12,9 @@ namespace a351::corrector {
 namespace {
 
 constexpr std::size_t kBlock = 16384;  // samples: 128 kB
+
+/// Of the mean step: stamps of a host scatter so; a missing row doubles a step.
+constexpr double kMostStepError = 0.25;
 
 std::ifstream open(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
@@ -34,9 +38,9 @@ std::optional<Nanoseconds> parse_time(std::string_view text) {
     return from_seconds(*seconds);
 }
 
-std::string in_seconds(Nanoseconds time) {
-    return text::shortest(std::chrono::duration<double>(time).count()) + " s";
-}
+double seconds_of(Nanoseconds time) { return std::chrono::duration<double>(time).count(); }
+
+std::string in_seconds(Nanoseconds time) { return text::shortest(seconds_of(time)) + " s"; }
 
 }  // namespace
 
@@ -59,9 +63,10 @@ bool SampleColumn::read(std::vector<double>& samples) {
             continue;
         }
         const std::optional<double> value = text::parse_number(cell);
-        if (!value) {
-            reader_.refuse(column_, "not a finite number",
-                           "a number with a decimal point, or nothing for a missing sample");
+        if (!value || std::abs(*value) > kLargestSample) {
+            reader_.refuse(column_, value ? "out of range" : "not a finite number",
+                           "a number with a decimal point, at most 1e150 in magnitude, or nothing "
+                           "for a missing sample");
         }
         samples.push_back(*value);
     }
@@ -83,12 +88,17 @@ void SampleColumn::check_time() {
         if (step <= Nanoseconds(0)) {
             reader_.refuse(column, "not after the row before it", "times that ascend");
         }
-        if (!step_) step_ = step;
-        if (2 * step < *step_ || 2 * step > 3 * *step_) {
+        // The first step alone may span a row that is missing: all so far are compared with.
+        const Nanoseconds mean =
+            step_count_ == 0 ? step : (*last_time_ - *first_time_) / step_count_;
+        if (std::abs(seconds_of(step - mean)) > kMostStepError * seconds_of(mean)) {
             reader_.refuse(column, in_seconds(step) + " after the row before it",
-                           "equal steps, here of " + in_seconds(*step_) +
+                           "equal steps, here of " + in_seconds(mean) +
                                "; an empty cell stands for a missing sample");
         }
+        ++step_count_;
+    } else {
+        first_time_ = time;
     }
     last_time_ = time;
 }

@@ -38,7 +38,7 @@ SmoothTrend smooth_column(const SmoothOptions& options, const std::vector<double
         throw InputError(
             options.input + ": " + options.column +
             ": too many samples are missing for --cutoff = " + text::shortest(options.cutoff) +
-            "; allowed: three samples, and ends and gaps not far beyond this period");
+            "; allowed: ends and gaps not far beyond this period");
     }
 }
 
@@ -46,6 +46,12 @@ void write_trend(const SmoothOptions& options) {
     number_option("--cutoff", options.cutoff, kShortestCutoff, kLongestCutoff);
     SampleColumn column(options.input, options.column);
     const std::vector<double> samples = read_all(column);
+    const std::size_t present_count = column.count() - column.missing_count();
+    if (present_count < kFewestSamples) {
+        throw InputError(options.input + ": " + options.column + ": " +
+                         std::to_string(present_count) +
+                         " samples; allowed: " + std::to_string(kFewestSamples) + " or more");
+    }
     const SmoothTrend trend = smooth_column(options, samples);
     const std::vector<double> errors = trend.standard_errors();
     std::string csv = "index,value,standard_error,weight\n";
@@ -57,7 +63,8 @@ void write_trend(const SmoothOptions& options) {
     std::cerr << "a351-correct: smooth: " << column.count() << " samples ("
               << column.missing_count() << " missing), noise level "
               << text::shortest(trend.noise_level) << ", degrees of freedom "
-              << text::shortest(trend.degrees_of_freedom) << '\n';
+              << text::shortest(trend.degrees_of_freedom)
+              << (trend.converged ? "" : "; the weights of its outliers did not settle") << '\n';
 }
 
 }  // namespace

@@ -84,6 +84,9 @@ TEST_CASE("bad usage ends with 2, one line on standard error and nothing written
                  "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\nNo.0,140,36,5,979860\n");
     folder.write("base.toml", "[survey]\nbase = 'No.9'\n");
     folder.write("few.csv", "a\n1\n2\n");
+    std::string far = "a,b\n1,0\n2,0\n1,0\n";
+    for (int i = 0; i < 5000; ++i) far += ",0\n";
+    folder.write("far.csv", far);
     folder.write("inf.csv", "a,b\n1,1\n,inf\n");
     folder.write("back.csv",
                  "time,a\n2020-01-01T00:00:01Z,1\n2020-01-01T00:00:02Z,1\n"
@@ -113,7 +116,9 @@ TEST_CASE("bad usage ends with 2, one line on standard error and nothing written
         {"decimate --factor 1 --input few.csv --column a", "--factor = 1"},
         {"smooth --cutoff 1 --input few.csv --column a", "--cutoff = 1: "},
         {"smooth --cutoff 10 --input few.csv --column a",
-         "few.csv: a: too many samples are missing for --cutoff = 10"},
+         "few.csv: a: 2 samples; allowed: 3 or more"},
+        {"smooth --cutoff 200 --input far.csv --column a",
+         "far.csv: a: too many samples are missing for --cutoff = 200"},
         {"survey key.toml", "key.toml:2: survey.basis"},
         {"survey base.toml", "base.toml:2: survey.base = 'No.9': no such site; allowed: No.0"},
         {"tide --latitude 91 --longitude 0 --height 0 --from 2020-01-01T00:00:00Z "
@@ -205,6 +210,63 @@ TEST_CASE("decimate counts what is missing and keeps what is good", "[command]")
     CHECK(table.number(50, "value") == Approx(7.0).epsilon(1e-14));
     CHECK(table.cell(60, "value").empty());
     CHECK(table.cell(60, "valid") == "0");
+}
+
+TEST_CASE("a blank line in a single column is a missing sample to every step", "[command]") {
+    const ScratchFolder folder;
+    std::string rows = "a\n";
+    for (int i = 0; i < 100; ++i) rows += i == 40 ? "\n" : std::to_string(i % 7) + "\n";
+    folder.write("in.csv", rows + "\n");
+    const std::string input = " --input in.csv --column a";
+    CHECK_THAT(run(folder, "decimate --factor 2" + input).errors,
+               Catch::Contains("100 samples (1 missing)"));
+    const Outcome smoothed = run(folder, "smooth --cutoff 5" + input);
+    CHECK_THAT(smoothed.errors, Catch::Contains("100 samples (1 missing)"));
+    const auto table = text::CsvTable::parse(smoothed.output, "stdout");
+    CHECK(table.row_count() == 100);
+    CHECK(table.number(40, "weight") == 0.0);
+    const Outcome refused = run(folder, "emd --output out.csv" + input);
+    CHECK(refused.status == 2);
+    CHECK_THAT(refused.errors, Catch::Contains("in.csv:42: a = "));
+}
+
+TEST_CASE("smooth says when the weights did not settle", "[command]") {
+    const ScratchFolder folder;
+    folder.write("in.csv", "a\n57\n50\n60\n1\n11\n5\n5\n2\n6\n9\n7\n4\n");
+    const Outcome outcome = run(folder, "smooth --cutoff 10 --input in.csv --column a");
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.errors, Catch::Contains("did not settle"));
+}
+
+TEST_CASE("smooth and decimate refuse samples whose squares overflow, and too few", "[command]") {
+    const ScratchFolder folder;
+    folder.write("huge.csv", "a\n1\n1.2e308\n-1.2e308\n3\n");
+    folder.write("two.csv", "a,b\n1,0\n,0\n2,0\n");
+    for (const std::string command : {"smooth --cutoff 5", "decimate --factor 2"}) {
+        const Outcome huge = run(folder, command + " --input huge.csv --column a");
+        CHECK(huge.status == 2);
+        CHECK_THAT(huge.errors, Catch::Contains("huge.csv:3: a = 1.2e308: out of range; allowed:"));
+        CHECK(huge.output.empty());
+    }
+    const Outcome two = run(folder, "smooth --cutoff 5 --input two.csv --column a");
+    CHECK(two.status == 2);
+    CHECK_THAT(two.errors, Catch::Contains("two.csv: a: 2 samples; allowed: 3 or more"));
+}
+
+TEST_CASE("a time column of unequal steps is refused where the step changes", "[command]") {
+    const ScratchFolder folder;
+    const auto refused = [&](const std::string& times, const std::string& place) {
+        folder.write("in.csv", times);
+        const Outcome outcome = run(folder, "smooth --cutoff 3 --input in.csv --column a");
+        CHECK(outcome.status == 2);
+        CHECK_THAT(outcome.errors, Catch::Contains(place));
+    };
+    refused("time_s,a\n0,1\n2,1\n3,2\n4,1\n5,1\n",
+            "in.csv:4: time_s = 3: 1 s after the row before it");
+    refused("time_s,a\n0,1\n1,1\n2,2\n3.4,1\n4.8,1\n", "in.csv:5: time_s = 3.4: 1.4 s after");
+    refused("time_s,a\n0,1\n1,1\n2,2\n4,1\n5,1\n", "here of 1 s");
+    folder.write("in.csv", "time_s,a\n0,1\n1.1,1\n2,2\n3.1,1\n3.9,1\n");
+    CHECK(run(folder, "smooth --cutoff 3 --input in.csv --column a").status == 0);
 }
 
 TEST_CASE("smooth draws a line through a line, its gap and its outlier", "[command]") {
