@@ -82,8 +82,8 @@ void EmdWorkspace::sift(const double* curve, const SiftOptions& options) noexcep
                                envelope_.arrays());
     kernels_.subtract_mean_envelope(curve, mode_.data(), sample_count_, knots_.segment_starts(),
                                     x.data(), knots_.first_segment(), envelope_.arrays());
-    if (x[x.size() - 2] == static_cast<double>(sample_count_ - 1)) {
-        // Both envelopes end here: the knots themselves, not the cubic that runs up to them.
+    if (knots_.ends_at_last_sample()) {
+        // The knots themselves, not the cubic that runs up to them.
         mode_.data()[sample_count_ - 1] = last_sample - 0.5 * (y[y.size() - 2] + y.back());
     }
 }

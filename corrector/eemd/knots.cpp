@@ -27,7 +27,8 @@ void AlternatingKnots::take(std::size_t count, bool first_is_maximum) noexcept {
 void AlternatingKnots::add_ends(std::span<const double> curve, EndRule rule) noexcept {
     begin_ = kMostAdded;
     end_ = kMostAdded + extrema_count_;
-    if (rule == EndRule::mirror && extrema_count_ >= 3) {
+    ends_at_last_sample_ = rule != EndRule::mirror || extrema_count_ < 3;
+    if (!ends_at_last_sample_) {
         mirror_left_end(curve.front());
         mirror_right_end(curve.back(), static_cast<double>(curve.size() - 1));
     } else {

@@ -62,6 +62,9 @@ public:
     /// Precondition: curve.size() >= 2.
     void add_ends(std::span<const double> curve, EndRule rule) noexcept;
 
+    /// Whether add_ends() ended both envelopes at the last sample, not beyond.
+    [[nodiscard]] bool ends_at_last_sample() const noexcept { return ends_at_last_sample_; }
+
     /// All knots; valid after add_ends().
     [[nodiscard]] std::span<const double> positions() const noexcept {
         return {positions_.data() + begin_, end_ - begin_};
@@ -91,6 +94,7 @@ private:
     std::size_t begin_ = kMostAdded;  ///< First extremum: always element kMostAdded.
     std::size_t end_ = kMostAdded;
     bool first_is_maximum_ = true;
+    bool ends_at_last_sample_ = false;
 };
 
 }  // namespace a351::corrector
