@@ -40,7 +40,8 @@ struct DecimationFilter {
 ///
 ///     y[k] = sum over m of h[m] x[M k + D - m],   D = (taps - 1) / 2,   k = 0 ... ceil(n / M) - 1
 ///
-/// An output is valid when all its inputs exist and are finite, and NaN otherwise.  Nothing is
+/// An output is valid when all its inputs exist and are finite, at most 1e307 in magnitude (the sum
+/// of a pair must not overflow), and NaN otherwise.  Nothing is
 /// padded and no gap is bridged: a missing input (NaN) costs the outputs that touch it, no others.
 ///
 /// Accuracy: a constant returns unchanged to 1e-14 relative (decimation_test.cpp).

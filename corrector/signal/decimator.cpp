@@ -1,9 +1,10 @@
 #include "corrector/signal/decimator.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace a351::corrector {
 namespace {
@@ -96,20 +97,30 @@ Decimator::Stage::Outputs Decimator::Stage::filter_from(std::size_t first) const
 }
 
 Decimator::Decimator(const DecimationFilter& filter, int stages)
-    : stages_(static_cast<std::size_t>(stages), Stage(filter)), made_(stages_.size()) {
-    assert(stages >= 1);
+    : stages_(static_cast<std::size_t>(std::max(stages, 0)), Stage(filter)), made_(stages_.size()) {
+    if (stages < 1) {
+        throw std::invalid_argument("Decimator: stages = " + std::to_string(stages) +
+                                    ", must be >= 1");
+    }
 }
 
 void Decimator::push(std::span<const double> input, std::vector<double>& output) {
+    require_unfinished();
     push_from(0, input, output);
 }
 
 void Decimator::finish(std::vector<double>& output) {
+    require_unfinished();
+    is_finished_ = true;
     for (std::size_t k = 0; k < stages_.size(); ++k) {
         made_[k].clear();
         stages_[k].finish(made_[k]);
         push_from(k + 1, made_[k], output);
     }
+}
+
+void Decimator::require_unfinished() const {
+    if (is_finished_) throw std::logic_error("Decimator: used after finish()");
 }
 
 /// Through stage k and all after it.

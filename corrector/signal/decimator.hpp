@@ -25,12 +25,15 @@ namespace a351::corrector {
 class Decimator {
 public:
     /// @param stages  >= 1: the output of one is the input of the next.
+    /// @throws std::invalid_argument  fewer.
     explicit Decimator(const DecimationFilter& filter, int stages = 1);
 
     /// Takes the next samples and appends every output that is complete with them.
+    /// @throws std::logic_error  after finish().
     void push(std::span<const double> input, std::vector<double>& output);
 
-    /// The input ends: appends the outputs that reach beyond it.  Nothing may be pushed after.
+    /// The input ends: appends the outputs that reach beyond it.
+    /// @throws std::logic_error  the second time.
     void finish(std::vector<double>& output);
 
 private:
@@ -61,10 +64,12 @@ private:
         std::size_t emitted_ = 0;  ///< Outputs made from what phases_ holds.
     };
 
+    void require_unfinished() const;
     void push_from(std::size_t k, std::span<const double> input, std::vector<double>& output);
 
     std::vector<Stage> stages_;
     std::vector<std::vector<double>> made_;  ///< By each stage from the last push; kept for reuse.
+    bool is_finished_ = false;
 };
 
 }  // namespace a351::corrector

@@ -121,4 +121,14 @@ TEST_CASE("an output comes with the last sample it needs, not later") {
     }
 }
 
+TEST_CASE("a decimator without stages, or used after its end, is refused") {
+    CHECK_THROWS_AS(Decimator(design_decimation(2), 0), std::invalid_argument);
+    CHECK_THROWS_AS(Decimator(design_decimation(2), -1), std::invalid_argument);
+    Decimator decimator(design_decimation(2));
+    std::vector<double> output;
+    decimator.finish(output);
+    CHECK_THROWS_AS(decimator.push(std::vector<double>{1.0}, output), std::logic_error);
+    CHECK_THROWS_AS(decimator.finish(output), std::logic_error);
+}
+
 }  // namespace a351::corrector
