@@ -85,7 +85,11 @@ std::vector<double> reflected(std::span<const double> record, std::size_t margin
     return out;
 }
 
-/// Standard error of the mean of one component, rms over its samples.
+/// Of the sums of squares of a whole record and ensemble.
+constexpr double kRounding = 1e-14;
+
+/// Standard error of the mean of one component, rms over its samples.  The squares of the draws and
+/// of their mean are nearly equal where the draws are: at least their rounding is stated.
 ///
 /// @param sum      of all members, sample by sample.
 /// @param squares  sum over draws and samples of (draw - origin)^2.
@@ -99,7 +103,8 @@ std::optional<double> standard_error(std::span<const double> sum, double squares
         const double deviation = value / count - origin;
         of_means += deviation * deviation;
     }
-    const double variance = std::max(0.0, squares - count * of_means) / (count - 1.0);
+    const double variance =
+        std::max(kRounding * squares, squares - count * of_means) / (count - 1.0);
     return std::sqrt(variance / static_cast<double>(sum.size()) / count) / draw_size;
 }
 

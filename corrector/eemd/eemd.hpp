@@ -51,8 +51,9 @@ struct Component {
     /// Of the components' variances, each about its own mean; they add up to 1, or are 0 for a
     /// constant.
     double energy_share = 0.0;
-    /// Standard error of the ensemble mean, rms over the samples, unit of the signal.  Absent for
-    /// one member: there is nothing to estimate it from.
+    /// Standard error of the ensemble mean, rms over the samples, unit of the signal.  At least 1e-7
+    /// of the component's rms (of the residue's departure from the signal's mean) over the root of
+    /// the draws, which is rounding.  Absent for one member: there is nothing to estimate it from.
     std::optional<double> standard_error;
 };
 

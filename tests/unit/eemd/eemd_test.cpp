@@ -133,6 +133,24 @@ TEST_CASE("the standard error is the scatter of repeated ensembles") {
     CHECK(std::sqrt(stated / found) == Approx(1.0).margin(0.2));
 }
 
+TEST_CASE("the standard error falls with the noise, down to the rounding of its squares") {
+    const std::vector<double> signal = mixed_series(300);
+    EemdOptions options = small_ensemble(16);
+    options.noise_ratio = 1e-5;
+    const EemdResult faint = eemd(signal, options);
+    options.noise_ratio = 1e-6;
+    const EemdResult fainter = eemd(signal, options);
+    CHECK(*fainter.modes[0].standard_error ==
+          Approx(0.1 * *faint.modes[0].standard_error).epsilon(0.05));
+    options.noise_ratio = 1e-12;
+    const EemdResult nothing = eemd(signal, options);
+    for (const Component& mode : nothing.modes) {
+        const double rounding = 1e-7 / std::sqrt(16.0) * rms(mode.values);
+        CHECK(*mode.standard_error >= 0.99 * rounding);
+        CHECK(*mode.standard_error <= 1.5 * rounding);
+    }
+}
+
 TEST_CASE("complementary pairs leave nothing over") {
     const std::vector<double> signal = mixed_series(450);
     EemdOptions options = small_ensemble(20);
