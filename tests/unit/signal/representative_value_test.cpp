@@ -264,6 +264,22 @@ TEST_CASE("a wave of the cut-off period stands half as high in the smoother's tr
     CHECK(*most - *least == Approx(4.0).epsilon(0.01));
 }
 
+TEST_CASE("a value whose weights did not settle is flagged when it is the smoother's") {
+    // Levels of 2 s each in which no threshold finds a disturbance, but the weights do.
+    const std::vector<double> levels = {5, 36, 7, 1, 2, 9, 4, 1, 58, 11, 2, 20, 9, 5, 1, 1,  7, 6,
+                                        5, 45, 0, 9, 2, 3, 3, 6, 6,  0,  2, 9,  6, 9, 2, 18, 5};
+    const auto level = [&](double t) {
+        return levels[std::min(static_cast<std::size_t>(t / 2.0), levels.size() - 1)];
+    };
+    const auto record = make_record(70, level, kConstantTemperature);
+    RepresentativeOptions options;
+    options.cutoff_s = 24.0;
+    options.disturbance_threshold = 1e9;
+    CHECK_FALSE(has(*representative_value(record, options), OccupationFlag::unsettled));
+    options.trend = TrendMethod::smoother;
+    CHECK(has(*representative_value(record, options), OccupationFlag::unsettled));
+}
+
 TEST_CASE("an option outside its range is refused") {
     const auto record = make_record(100, kConstantLevel, kConstantTemperature);
     RepresentativeOptions options;

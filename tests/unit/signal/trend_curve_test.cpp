@@ -76,10 +76,11 @@ TEST_CASE(
     }
     INFO("paper " << std::sqrt(squares[0]) << ", slow " << std::sqrt(squares[1]) << ", smoother "
                   << std::sqrt(squares[2]));
+    // 1.1 times what decimation.md states.
     CHECK(squares[1] < squares[0]);
-    CHECK(std::sqrt(squares[1]) < 0.2);
+    CHECK(std::sqrt(squares[1]) < 1.1 * 0.093);
     CHECK(squares[2] < squares[1]);
-    CHECK(std::sqrt(squares[2]) < 0.1);
+    CHECK(std::sqrt(squares[2]) < 1.1 * 0.063);
 }
 
 }  // namespace a351::corrector
