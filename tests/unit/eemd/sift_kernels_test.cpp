@@ -13,6 +13,9 @@
 namespace a351::corrector {
 namespace {
 
+constexpr const char* kPortableOnly =
+    "this processor, or this build, has the portable loops only: nothing to compare";
+
 std::vector<std::uint64_t> bits(std::span<const double> values) {
     std::vector<std::uint64_t> out;
     for (const double value : values) out.push_back(std::bit_cast<std::uint64_t>(value));
@@ -35,7 +38,7 @@ std::vector<std::vector<std::uint64_t>> decompose(std::span<const double> signal
 
 TEST_CASE("every instruction set sifts out the same bits") {
     if (avx2_kernels() == nullptr) {
-        WARN("this processor has the portable loops only: nothing to compare");
+        WARN(kPortableOnly);
         return;
     }
     for (const EndRule ends : {EndRule::line, EndRule::mirror, EndRule::pinned}) {
@@ -58,7 +61,10 @@ TEST_CASE("every instruction set sifts out the same bits") {
 }
 
 TEST_CASE("every instruction set gives an ensemble the same bits") {
-    if (avx2_kernels() == nullptr) return;
+    if (avx2_kernels() == nullptr) {
+        WARN(kPortableOnly);
+        return;
+    }
     const std::vector<double> signal = mixed_series(1201);
     EnsemblePlan plan;
     plan.signal = signal;
