@@ -23,7 +23,8 @@ constexpr double kSettled = 1e-6;
 
 constexpr double kRounding = 1e-12;  // of the largest sample, as in find_disturbances()
 
-/// Of the trace: what is left of it beside the samples is their rounding.
+/// Of the samples' weight.  The trace is known so well for cut-offs of 1000 samples
+/// (PenalisedFit::inverse_diagonal()): a smaller difference may be its error.
 constexpr double kLeastFreedom = 1e-6;
 
 void require(bool condition, const std::string& trouble) {

@@ -265,6 +265,10 @@ TEST_CASE("a period or a number of samples that means nothing is refused") {
     CHECK(smooth(far, 10.0).degrees_of_freedom > 2.0);
     far.resize(3);
     CHECK(smooth(far, 5000.0).degrees_of_freedom == Approx(2.0).epsilon(0.001));
+    // Three samples far apart: the curve bends through them all and leaves less than 1e-6.
+    std::vector<double> apart(161, kNan);
+    for (const std::size_t i : {0U, 80U, 160U}) apart[i] = static_cast<double>(i % 3);
+    CHECK_THROWS_WITH(smooth(apart, 2.0), Catch::Contains("passes through all its samples"));
     CHECK_THROWS_AS(PenalisedFit(std::vector<double>{0.0, 1.0, 0.0, 0.0}, 1.0),
                     std::invalid_argument);
 }
