@@ -192,7 +192,7 @@ def session_of_kills(number, kills, speed):
         for kill in range(kills):
             session.kill_in(aims.get(kill, "early" if generator.random() < 1 / 3 else "recording"), generator)
             session.start_again()
-        session.wait_for_frames(500)
+        wait_for("the last life records", session.publishes)
         report, _ = session.end()
         session.recovery_is_good()
         session.recovery_adds_nothing()
