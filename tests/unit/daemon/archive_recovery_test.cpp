@@ -74,14 +74,14 @@ TEST_CASE_METHOD(Rig, "a replay that keeps failing is given up before the journa
         feed(kFrames);
         REQUIRE(eventually([&] { return status_of(store).more_counters["archive_faults"] > 1; }));
         CHECK_FALSE(has_reason(status_of(store), "given up until the next start"));
-        feed(2 * kFrames);
+        feed(kFrames);  // More than half of what the queue holds.
         REQUIRE(eventually(
             [&] { return has_reason(status_of(store), "given up until the next start"); }));
-        feed(4 * kFrames);  // More than the queue holds.
-        REQUIRE(eventually([&] { return reads.fill() == 0; }));
         const Status status = status_of(store);
         CHECK(status.level == Status::Level::fault);
         CHECK(status.more_counters.at("archive_waits") == 0);
+        feed(4 * kFrames);  // More than the queue holds.
+        REQUIRE(eventually([&] { return reads.fill() == 0; }));
         CHECK_FALSE(store.stop());
     }
     CHECK(read_journal(again.root).bytes == bytes);
