@@ -11,6 +11,9 @@ using std::chrono::seconds;
 constexpr std::int64_t kBlock_s = 2;
 constexpr Nanoseconds kWindow = seconds(900);  // 600 to 1200 s differ little; oscillators wander
 
+// 0.4 s of data: what a kernel holds for a host that falls asleep is less, unless that was busy.
+constexpr std::int64_t kFewShare = 5;
+
 // Of fewer arrivals in 2 s the largest step says nothing.
 constexpr std::size_t kFewestOfBlock = 20;
 
@@ -39,10 +42,9 @@ void ArrivalEdge::observe(std::int64_t index, RawTime arrival) {
 }
 
 void ArrivalEdge::close_block() {
-    // A few alone may have stood unread through a sleep of the host.
-    const bool is_first = std::exchange(is_first_block_, false);
-    if (is_first &&
-        static_cast<std::int64_t>(open_block_.size()) < kBlock_s * period_.per_second() / 5) {
+    const auto count = static_cast<std::int64_t>(open_block_.size());
+    const std::int64_t few = kBlock_s * period_.per_second() / kFewShare;
+    if (std::exchange(is_first_block_, false) && count < few) {
         blocks_.clear();
         open_block_.clear();
         return;

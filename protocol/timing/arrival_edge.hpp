@@ -25,6 +25,8 @@ struct EdgeLine {
 };
 
 /// Keeps the blocks of the last 900 s, or of all data, and fits lines to them (fit_edge).
+/// A first block of few arrivals takes no part: they may have stood unread through a sleep of the
+/// host, and would be the whole line.
 class ArrivalEdge {
 public:
     enum class Memory { window, all };

@@ -2,29 +2,15 @@
 /// The reader thread allocates nothing while it samples: an allocator may wait for a lock that a
 /// thread without its urgency holds.  A program of its own, for it replaces operator new.
 
-#include <unistd.h>
-
-#include <atomic>
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <filesystem>
-#include <new>
 #include <set>
 
 #include "daemon/source/sensor_link.hpp"
+#include "tests/support/counted_allocations.hpp"
 #include "tests/unit/daemon/fake_sensor.hpp"
 
 namespace {
-
-std::atomic<pid_t> watched{0};
-std::atomic<int> allocations{0};
-
-void* allocate(std::size_t size) {
-    if (watched != 0 && gettid() == watched) ++allocations;
-    void* const memory = std::malloc(size == 0 ? 1 : size);
-    if (memory == nullptr) throw std::bad_alloc();
-    return memory;
-}
 
 std::set<pid_t> threads() {
     std::set<pid_t> ids;
@@ -34,13 +20,6 @@ std::set<pid_t> threads() {
 }
 
 }  // namespace
-
-void* operator new(std::size_t size) { return allocate(size); }
-void* operator new[](std::size_t size) { return allocate(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
 using namespace a351;
 using namespace a351::daemon;
@@ -61,15 +40,15 @@ TEST_CASE("the reader allocates nothing while it samples", "[daemon][sensor_link
     for (const pid_t id : before) after.erase(id);
     REQUIRE(after.size() == 1);
 
-    watched = *after.begin();
+    test::watched_thread = *after.begin();
     REQUIRE(eventually([&] { return sensor.frames_sent >= 20; }));
-    CHECK(allocations > 0);  // It has configured the sensor: it is the right thread.
-    allocations = 0;
+    CHECK(test::allocations > 0);  // It has configured the sensor: it is the right thread.
+    test::allocations = 0;
     const auto sent = sensor.frames_sent.load();
     REQUIRE(eventually([&] { return sensor.frames_sent >= sent + 150; }));
-    CHECK(allocations == 0);
+    CHECK(test::allocations == 0);
     CHECK(link.status().state == LinkStatus::State::sampling);
-    watched = 0;
+    test::watched_thread = 0;
     std::size_t frames_read = 0;
     for (auto item = queue.front(); item; item = queue.front()) {
         if (item->kind == ReadQueue::Kind::session) static_cast<void>(queue.take_session());

@@ -1,0 +1,30 @@
+#pragma once
+/// @file
+/// Counts what one thread allocates.  It replaces operator new: for one file of a program of its own.
+
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace a351::test {
+
+inline std::atomic<pid_t> watched_thread{0};  ///< 0: none.
+inline std::atomic<int> allocations{0};
+
+inline void* allocate(std::size_t size) {
+    if (watched_thread != 0 && gettid() == watched_thread) ++allocations;
+    void* const memory = std::malloc(size == 0 ? 1 : size);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+}
+
+}  // namespace a351::test
+
+void* operator new(std::size_t size) { return a351::test::allocate(size); }
+void* operator new[](std::size_t size) { return a351::test::allocate(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
