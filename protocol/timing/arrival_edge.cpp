@@ -68,9 +68,9 @@ void ArrivalEdge::close_block() {
 void ArrivalEdge::restart() {
     if (is_settled()) {
         const EdgeLine last = line();
-        const double half = std::max(last.rate_uncertainty, kKeptRate);
-        limits_ = {std::max(last.excess_rate - half, -RateLimits::kLargest),
-                   std::min(last.excess_rate + half, RateLimits::kLargest)};
+        const double half = std::max(last.skew_uncertainty, kKeptRate);
+        limits_ = {std::max(last.skew - half, -RateLimits::kLargest),
+                   std::min(last.skew + half, RateLimits::kLargest)};
     }
     blocks_.clear();
     open_block_.clear();
@@ -107,7 +107,7 @@ EdgeLine ArrivalEdge::fit(std::span<const ArrivalBlock> blocks, std::int64_t ind
     const bool knows_rate = blocks.back().due - blocks.front().due >= kRateKnown;
     const RateLimits limits = knows_rate ? RateLimits{} : limits_;
     const EdgeFit fit = fit_edge(blocks, due, period_.of(1), limits);
-    return {index, zero_ + due + fit.y, fit.excess_rate, fit.uncertainty, fit.rate_uncertainty};
+    return {index, zero_ + due + fit.y, fit.skew, fit.uncertainty, fit.skew_uncertainty};
 }
 
 }  // namespace a351::timing

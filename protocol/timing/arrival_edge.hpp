@@ -15,13 +15,18 @@
 namespace a351::timing {
 
 /// When frames would arrive if nothing delayed them: at `arrival` for the sample `index`, and from
-/// there 1 + `excess_rate` seconds of the raw clock per nominal second of data.
+/// there 1 + `skew` seconds of the raw clock per nominal second of data.
 struct EdgeLine {
     std::int64_t index = 0;
     RawTime arrival;
-    double excess_rate = 0.0;
+    double skew = 0.0;
     Nanoseconds uncertainty{0};  ///< 95 %, at `index`.
-    double rate_uncertainty = 0.0;
+    double skew_uncertainty = 0.0;
+
+    [[nodiscard]] RawTime at(std::int64_t other, const SamplePeriod& period) const {
+        const Nanoseconds after = period.of(other - index);
+        return arrival + after + from_seconds(skew * std::chrono::duration<double>(after).count());
+    }
 };
 
 /// Keeps the blocks of the last 900 s, or of all data, and fits lines to them (fit_edge).

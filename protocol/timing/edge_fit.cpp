@@ -187,9 +187,9 @@ EdgeFit fit_edge(std::span<const ArrivalBlock> blocks, Nanoseconds at, Nanosecon
                                2.0 * kSlack_ns + busy + (usual ? 0.0 : kUnseenTimer_ns);
     EdgeFit fit;
     fit.y = Nanoseconds(std::llround(level));
-    fit.excess_rate = slope;
+    fit.skew = slope;
     fit.uncertainty = Nanoseconds(std::llround(uncertainty));
-    fit.rate_uncertainty = 0.5 * (allowed.largest_slope - allowed.least_slope);
+    fit.skew_uncertainty = 0.5 * (allowed.largest_slope - allowed.least_slope);
     return fit;
 }
 

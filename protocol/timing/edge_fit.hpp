@@ -30,9 +30,9 @@ struct RateLimits {
 
 struct EdgeFit {
     Nanoseconds y{0};  ///< Of a frame that nothing delayed.
-    double excess_rate = 0.0;
+    double skew = 0.0;
     Nanoseconds uncertainty{0};     ///< 95 %.
-    double rate_uncertainty = 0.0;  ///< Half the range of rates that the arrivals allow.
+    double skew_uncertainty = 0.0;  ///< Half the range of rates that the arrivals allow.
 };
 
 /// Delays are never negative, so the truth lies below the cloud of

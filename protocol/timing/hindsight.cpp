@@ -16,6 +16,9 @@ constexpr Nanoseconds kBreak = milliseconds(5);
 // A host's crystal at another temperature: some tenths of a ppm per degC.
 constexpr double kHostRateWander = 5e-6;
 
+// As often as a block of arrivals comes to the window's end.
+constexpr std::int64_t kFitEvery_s = 2;
+
 constexpr Nanoseconds kSetBackWithin = std::chrono::seconds(60);
 
 double ratio(Nanoseconds a, Nanoseconds b) {
@@ -154,13 +157,15 @@ std::vector<TimePiece> Hindsight::times(const UtcHistory& history) const {
         UtcHistory::Point point = history.at(line.arrival, stretch->sleeps);
         bool is_break = !pieces.empty();
         for (std::int64_t k = stretch->first; k < end; k += second) {
-            const EdgeLine next_line = stretch->edge.line_around(k + second);
-            const UtcHistory::Point next = history.at(next_line.arrival, stretch->sleeps);
+            const bool is_fitted = (k - stretch->first) / second % kFitEvery_s != 0;
+            const EdgeLine next_line = is_fitted ? stretch->edge.line_around(k + second) : line;
+            const UtcHistory::Point next =
+                history.at(next_line.at(k + second, period_), stretch->sleeps);
             const bool jumps = next.stretch != point.stretch;
             const Nanoseconds nominal = period_.of(second);
             const Nanoseconds step =
-                jumps ? nominal + from_seconds(line.excess_rate *
-                                               std::chrono::duration<double>(nominal).count())
+                jumps ? nominal +
+                            from_seconds(line.skew * std::chrono::duration<double>(nominal).count())
                       : next.utc - point.utc;
             pieces.push_back({k, point.utc - options_.fixed_delay, step,
                               line.uncertainty + point.error, is_break});

@@ -105,11 +105,7 @@ void SampleClock::fix_second() {
     fixed_until_ = next;
 }
 
-RawTime SampleClock::line_at(std::int64_t index) const {
-    const Nanoseconds after = period_.of(index - line_->index);
-    return line_->arrival + after +
-           from_seconds(line_->excess_rate * std::chrono::duration<double>(after).count());
-}
+RawTime SampleClock::line_at(std::int64_t index) const { return line_->at(index, period_); }
 
 UtcTime SampleClock::target(std::int64_t index) const {
     return mapping_.at(line_at(index)) - options_.fixed_delay;
@@ -151,7 +147,7 @@ std::optional<SampleTime> SampleClock::time_of(std::int64_t index) const {
     const auto age = abs(period_.of(index - line_->index));
     const Nanoseconds uncertainty =
         line_->uncertainty +
-        from_seconds(line_->rate_uncertainty * std::chrono::duration<double>(age).count()) +
+        from_seconds(line_->skew_uncertainty * std::chrono::duration<double>(age).count()) +
         abs(utc - target(index)) + mapping_.error_at(line_at(index));
     return SampleTime{utc, uncertainty, state(), mapping_.is_synchronised()};
 }

@@ -34,7 +34,7 @@ struct TimePiece {
     UtcTime time;
     Nanoseconds step{0};
     Nanoseconds uncertainty{0};  ///< Of `time`.
-    bool is_break = false;  ///< The times jump.
+    bool is_break = false;       ///< The times jump.
 };
 
 /// Samples over time, between two samples whose times do not jump.
