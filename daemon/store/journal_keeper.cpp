@@ -84,7 +84,7 @@ void JournalKeeper::note_fault(const std::string& trouble) {
 void JournalKeeper::tidy() noexcept {
     try {
         if (options_.keep_days > 0) remove_old();
-        compress_closed();
+        if (!are_names_read_) compress_closed();
     } catch (const std::exception& error) {
         note_fault(error.what());
     }

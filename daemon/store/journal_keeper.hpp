@@ -36,6 +36,9 @@ public:
 
     void start();
 
+    /// While someone reads segments by their names none is compressed; removed is none that matters.
+    void keep_names(bool are_read) noexcept { are_names_read_ = are_read; }
+
     /// Removes sessions that ended `keep_days` before the newest segment began, by headers whose
     /// clocks were synchronised, and that are wholly in the archive: a later session has a MARK.  A
     /// session goes from its last segment to its first, so that what is left of it keeps its indices.
@@ -54,6 +57,7 @@ private:
     record::FileLayer& files_;
     std::filesystem::path journal_;
     Options options_;
+    std::atomic<bool> are_names_read_{false};
 
     mutable std::mutex mutex_;
     std::condition_variable stopped_;

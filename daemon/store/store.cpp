@@ -36,7 +36,9 @@ Store::Store(record::FileLayer& files, StoreOptions options, const HostClock& cl
 Store::~Store() { stop(); }
 
 void Store::start() {
-    is_running_ = is_started_ = true;
+    is_running_ = true;
+    keeper_.keep_names(true);  // The replay reads what begin_recovery() found.
+    keeper_.start();           // A full disk may hold up the replay until old segments are gone.
     archive_.start();
     journal_.start();
 }
@@ -75,7 +77,7 @@ record::RecoveryPlan Store::plan_recovery() {
 
 void Store::go_on(const record::RecoveryReport& report) {
     options_.recovered(report);
-    if (is_started_) keeper_.start();  // Not before: it renames what the replay reads.
+    keeper_.keep_names(false);
 }
 
 /// Trouble with it is shown, and does not hold up the archive; the next header tries again.

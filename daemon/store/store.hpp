@@ -96,7 +96,6 @@ private:
     ArchiveThread archive_;
     std::mutex metadata_mutex_;
     std::string metadata_trouble_;
-    bool is_started_ = false;
     bool is_running_ = false;
 };
 

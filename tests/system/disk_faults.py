@@ -15,16 +15,11 @@ import subprocess
 import sys
 import time
 
-from programs import BIN, SKIPPED, Scratch, compare_truth, daemon_config, daemon_status, demand, run
+import small_disk
+from programs import BIN, Scratch, compare_truth, daemon_config, daemon_status, demand, run, skip
+from small_disk import RESERVE
 
 SPEED = 5  # strace stops every call of the daemon twice.
-RESERVE = 64 << 20
-OWN_MOUNTS = "A351_OWN_MOUNTS"
-
-
-def skip(reason):
-    print("skipped:", reason)
-    sys.exit(SKIPPED)
 
 
 class Day:
@@ -96,41 +91,19 @@ def archive_size(scratch):
     return sum(file.stat().st_size for file in (scratch / "data" / "archive").rglob("*.D.*"))
 
 
-def fill(file):
-    """Takes what is free."""
-    with open(file, "wb", buffering=0) as out, contextlib.suppress(OSError):
-        while True:
-            out.write(bytes(1 << 16))
-
-
 # A full disk
 
-def enter_own_mounts():
-    """Starts this script again where it may mount: as root, or as root of a name space of its own."""
-    for way in (["unshare", "-m"], ["unshare", "-rm"]):
-        if shutil.which("unshare") is None:
-            break
-        with Scratch() as scratch:
-            trial = run(*way, "mount", "-t", "tmpfs", "none", scratch, check=False)
-        if trial.returncode == 0:
-            os.environ[OWN_MOUNTS] = "1"
-            os.execvp(way[0], way + [sys.executable, os.path.abspath(__file__), *sys.argv[1:]])
-    skip("neither `unshare -m` nor `unshare -rm` may mount a tmpfs here")
-
-
 def full_disk():
-    if OWN_MOUNTS not in os.environ:
-        enter_own_mounts()
+    small_disk.enter_own_mounts()
     with Scratch() as scratch:
         data = scratch / "data"
-        data.mkdir()
-        run("mount", "-t", "tmpfs", "-o", f"size={4 * RESERVE}", "none", data)
+        small_disk.mount(data)
         day = Day(scratch)
         reserve = data / "state" / "reserve"
         demand("64 MiB are set aside, blocks and all", day.status()["disk"]["reserve"] == "present"
                and reserve.stat().st_size == RESERVE and reserve.stat().st_blocks * 512 >= RESERVE)
 
-        fill(data / "filler")
+        small_disk.fill(data / "filler")
         day.wait_for("the reserve is given up", lambda state: state["disk"]["reserve"] == "given_up")
         before = archive_size(scratch)
         day.wait_for_more(3000)
@@ -143,7 +116,7 @@ def full_disk():
                and state["counters"]["archive_records_waiting"] > 0)
         demand("an event goes through", day.is_noted("in the reserve"))
 
-        fill(data / "filler2")
+        small_disk.fill(data / "filler2")
         state = day.wait_for("the journal has a fault",
                              lambda state: state["counters"]["journal_faults"] > 0)
         demand(f"the status says so: {state['reasons']}", has_reason(state, "journal: "))

@@ -1,15 +1,13 @@
 """The archive and the station metadata open in ObsPy as they are."""
 
-import sys
 
-from programs import BIN, SKIPPED, Scratch, demand, run
+from programs import BIN, Scratch, demand, run, skip
 
 try:
     import obspy
     from obspy.clients.filesystem.sds import Client
 except ImportError:
-    print("skipped: ObsPy is not installed")
-    sys.exit(SKIPPED)
+    skip("ObsPy is not installed")
 
 with Scratch() as scratch:
     root = scratch / "day"

@@ -91,6 +91,11 @@ def demand(claim, is_true):
         sys.exit(1)
 
 
+def skip(reason):
+    print("skipped:", reason)
+    sys.exit(SKIPPED)
+
+
 class Scratch:
     """A directory that goes when the test succeeded and stays to be looked at when it did not."""
 

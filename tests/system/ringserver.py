@@ -10,11 +10,10 @@ import shutil
 import signal
 import socket
 import subprocess
-import sys
 import time
 
 from emulated_session import Session, wait_for
-from programs import IS_SANITIZED, ONE_SITE, SKIPPED, Scratch, demand
+from programs import IS_SANITIZED, ONE_SITE, Scratch, demand, skip
 
 # Ten minutes before a midnight, and as long after it: two day files of each channel.
 SCENARIO = """base = "quiet"
@@ -31,8 +30,7 @@ FRAMES = 20 * 60 * 50
 def program(name, variable):
     found = shutil.which(os.environ.get(variable) or name)
     if found is None:
-        print(f"skipped: {name} is neither in PATH nor named by {variable}")
-        sys.exit(SKIPPED)
+        skip(f"{name} is neither in PATH nor named by {variable}")
     version = subprocess.run([found, "-V"], capture_output=True, text=True)
     print((version.stdout + version.stderr).strip())
     return found

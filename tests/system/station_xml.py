@@ -1,9 +1,8 @@
 """Station metadata of one and of two epochs, with and without an oven, are valid and give ObsPy the right values."""
 
 import pathlib
-import sys
 
-from programs import BIN, SKIPPED, TOOLS, Scratch, demand, run
+from programs import BIN, TOOLS, Scratch, demand, run, skip
 
 try:
     import numpy
@@ -11,13 +10,11 @@ try:
     import obspy.io.stationxml
     from lxml import etree
 except ImportError as error:
-    print(f"skipped: {error}")
-    sys.exit(SKIPPED)
+    skip(error)
 
 SCHEMA = pathlib.Path(obspy.io.stationxml.__file__).parent / "data" / "fdsn-station-1.2.xsd"
 if not SCHEMA.exists():
-    print(f"skipped: ObsPy {obspy.__version__} has no {SCHEMA.name}")
-    sys.exit(SKIPPED)
+    skip(f"ObsPy {obspy.__version__} has no {SCHEMA.name}")
 
 FIRST, SECOND, THIRD = (obspy.UTCDateTime(2026, 3, day, 18) for day in (1, 2, 3))
 

@@ -72,6 +72,19 @@ TEST_CASE("closed segments are compressed, the newest is not", "[daemon][keeper]
     CHECK(keeper.status().compressed == 3);
 }
 
+TEST_CASE("segments whose names are read are not compressed, but go when they are old",
+          "[daemon][keeper]") {
+    const Journal journal(Journal::sessions(20));
+    JournalKeeper keeper(record::posix_files(), journal.path, kEager);
+    keeper.keep_names(true);
+    keeper.tidy();
+    CHECK(keeper.status().compressed == 0);
+    CHECK(keeper.status().removed == 9);
+    keeper.keep_names(false);
+    keeper.tidy();
+    CHECK(keeper.status().compressed > 0);
+}
+
 TEST_CASE("what was written lately is not compressed", "[daemon][keeper]") {
     const Journal journal(Journal::sessions(4));
     JournalKeeper keeper(record::posix_files(), journal.path, {});
