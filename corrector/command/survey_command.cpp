@@ -89,10 +89,11 @@ Day correct_day(const SurveyFile& survey) {
         survey, [&bar](std::size_t done, std::size_t total) { bar.show(done, total); });
     Day day;
     day.name = survey.name;
-    day.result = correct_survey(read.rows, survey.survey);
-    day.files =
-        result_files(day.result, settings_of(survey, day.result, read.warnings), read.inputs);
-    for (const std::string& warning : read.warnings) {
+    day.result = correct_survey(read.rows, survey.survey, read.day ? &*read.day : nullptr);
+    std::vector<std::string> warnings = read.warnings;
+    warnings.insert(warnings.end(), day.result.remarks.begin(), day.result.remarks.end());
+    day.files = result_files(day.result, settings_of(survey, day.result, warnings), read.inputs);
+    for (const std::string& warning : warnings) {
         std::cerr << "a351-correct: " << survey.name << ": " << warning << '\n';
     }
     return day;

@@ -1,48 +1,15 @@
 #include "corrector/survey/occupation_rows.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
-#include <mutex>
 #include <optional>
-#include <thread>
 
 #include "corrector/survey/occupation_window.hpp"
+#include "corrector/survey/on_all_cores.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/record/sds.hpp"
 
 namespace a351::corrector {
 namespace {
-
-/// Calls work(0) ... work(count - 1) from as many threads as there are cores.
-/// @throws  what the first failing call threw, by number.
-void on_all_cores(std::size_t count, const std::function<void(std::size_t)>& work,
-                  const Progress& progress) {
-    std::vector<std::exception_ptr> errors(count);
-    std::atomic<std::size_t> next = 0;
-    std::mutex mutex;
-    std::size_t done = 0;
-    const auto run = [&] {
-        for (std::size_t i = next++; i < count; i = next++) {
-            try {
-                work(i);
-            } catch (...) {
-                errors[i] = std::current_exception();
-            }
-            const std::lock_guard lock(mutex);
-            progress(++done, count);
-        }
-    };
-    {
-        const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-        std::vector<std::jthread> threads;
-        for (std::size_t k = 1; k < std::min(cores, count); ++k) threads.emplace_back(run);
-        run();
-    }
-    for (const std::exception_ptr& error : errors) {
-        if (error) std::rethrow_exception(error);
-    }
-}
 
 void add_axis(std::vector<SurveyRow::Detail>& details, const std::string& name,
               const AxisSummary& axis) {
@@ -77,6 +44,7 @@ SurveySamples read_samples(const SurveyFile& survey, const record::StationCodes&
                            const SurveyChannels& channels,
                            const std::vector<OccupationWindow>& windows) {
     constexpr std::chrono::minutes kMargin(1);  // for the filters of the temperature
+    constexpr std::chrono::hours kBefore(8);    // what the slowest response to it remembers
     const UtcTime from = windows.front().start - kMargin;
     const UtcTime to = windows.back().end + kMargin;
     SurveySamples samples;
@@ -84,9 +52,10 @@ SurveySamples read_samples(const SurveyFile& survey, const record::StationCodes&
         const bool is_axis = k < samples.axes.size();
         (is_axis ? samples.axes[k] : samples.temperature) = record::read_channel(
             survey.root / "archive", codes,
-            is_axis ? channels.axes[k].code : channels.temperature.code, from, to);
+            is_axis ? channels.axes[k].code : channels.temperature.code,
+            is_axis ? from : windows.front().start - kBefore, to);
     };
-    on_all_cores(samples.axes.size() + 1, read, [](std::size_t, std::size_t) {});
+    on_all_cores(samples.axes.size() + 1, read);
     return samples;
 }
 
@@ -117,6 +86,18 @@ std::vector<InputFile> inputs_of(const SurveyFile& survey, const std::filesystem
     const auto archive = archive_files(survey, codes, channels, windows);
     inputs.insert(inputs.end(), archive.begin(), archive.end());
     return inputs;
+}
+
+/// The temperature from hours before the first occupation to the end of the last.
+std::optional<DayTemperature> temperature_of_day(const SurveySamples& samples,
+                                                 const SurveyChannels& channels,
+                                                 const std::vector<OccupationWindow>& windows) {
+    const auto& segments = samples.temperature.segments;
+    if (segments.empty()) return std::nullopt;
+    const auto grid = sampling_grid(segments, segments.front().time_of(0), windows.back().end);
+    if (!grid) return std::nullopt;
+    return day_temperature(TimeSeries<DegC>(grid->origin, Hertz(grid->rate_hz),
+                                            place_on_grid(segments, channels.temperature, *grid)));
 }
 
 RepresentativeOptions options_of(const SurveyFile& survey) {
@@ -183,6 +164,7 @@ OccupationRows average_occupations(const SurveyFile& survey, const Progress& pro
 
     std::vector<std::optional<SurveyRow>> rows(list.windows.size());
     std::vector<std::string> troubles(list.windows.size());
+    std::vector<std::vector<DayBin>> bins(list.windows.size());
     const auto average = [&](std::size_t i) {
         const OccupationWindow& window = list.windows[i];
         const auto record = cut_occupation(samples, channels, window.start, window.end);
@@ -195,11 +177,14 @@ OccupationRows average_occupations(const SurveyFile& survey, const Progress& pro
             troubles[i] = "no temperature";
         } else {
             rows[i] = row_of(window, *value);
+            bins[i] = bin_set_up(0, *record, options.disturbance_threshold);
         }
     };
     on_all_cores(list.windows.size(), average, progress);
 
     OccupationRows result;
+    if (auto temperature = temperature_of_day(samples, channels, list.windows))
+        result.day = DayRecord{std::move(*temperature), {}};
     result.warnings = list.warnings;
     for (const record::ChannelData& axis : samples.axes) add_damage(result.warnings, axis);
     add_damage(result.warnings, samples.temperature);
@@ -211,6 +196,10 @@ OccupationRows average_occupations(const SurveyFile& survey, const Progress& pro
             continue;
         }
         rows[i]->reference = text::find_site(sites, window.site)->gravity;
+        for (DayBin& bin : bins[i]) {
+            bin.set_up = result.rows.size();
+            if (result.day) result.day->bins.push_back(std::move(bin));
+        }
         result.rows.push_back(std::move(*rows[i]));
     }
     if (result.rows.empty()) {

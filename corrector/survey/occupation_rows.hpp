@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "corrector/day/day_record.hpp"
 #include "corrector/signal/representative_value.hpp"
 #include "corrector/survey/occupation_list.hpp"
+#include "corrector/survey/on_all_cores.hpp"
 #include "corrector/survey/result_files.hpp"
 #include "corrector/survey/survey_file.hpp"
 #include "corrector/survey/survey_row.hpp"
@@ -15,13 +17,10 @@ namespace a351::corrector {
 
 struct OccupationRows {
     std::vector<SurveyRow> rows;        ///< With tide and the rate within the interval; by time.
+    std::optional<DayRecord> day;       ///< Set-ups numbered as the rows; absent: no temperature.
     std::vector<std::string> warnings;  ///< Occupations without a value, and why.
     std::vector<InputFile> inputs;      ///< Every file read.
 };
-
-/// Called now and then with the number of occupations done and in all, from any thread but never
-/// from two at once; does not throw.
-using Progress = std::function<void(std::size_t done, std::size_t total)>;
 
 /// The representative value of a record as a row of the survey, reference and tide left open.
 /// @param value  with a temperature.

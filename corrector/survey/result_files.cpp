@@ -88,7 +88,7 @@ Json row_json(const CorrectedRow& row, const SurveyOptions& options) {
     json["corrected_mgal"] = row.corrected.value();
     json["reference_mgal"] = json_of(row.row.reference);
     json["residual_mgal"] = json_of(row.residual);
-    json["leverage"] = row.leverage;
+    json["leverage"] = json_of(row.leverage);
     json["u_corrected_mgal"] = json_of(row.u_corrected);
     json["studentised_residual"] = json_of(row.studentised_residual);
     json["corrected1_mgal"] = json_of(row.corrected1);

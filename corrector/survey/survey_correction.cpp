@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corrector/survey/day_correction.hpp"
 #include "corrector/survey/paper_correction.hpp"
 #include "protocol/core/input_error.hpp"
 
@@ -75,20 +76,21 @@ Applied apply_model(const LinearModel& model, const std::vector<SurveyRow>& rows
 
 void set_uncertainty(CorrectedRow& out, const LinearFit& fit, std::optional<double> s_mgal,
                      const Eigen::VectorXd& x) {
-    out.leverage = fit.leverage_at(x);
-    if (s_mgal) out.u_corrected = MilliGal(*s_mgal * std::sqrt(1.0 + out.leverage));
+    const double leverage = fit.leverage_at(x);
+    out.leverage = leverage;
+    if (s_mgal) out.u_corrected = MilliGal(*s_mgal * std::sqrt(1.0 + leverage));
 }
 
 /// Residual / its standard deviation with s from the other rows only (Draper and Smith, 8.1).
 std::optional<double> studentised(const CorrectedRow& row, const LinearFit& fit) {
     const Eigen::Index dof = fit.row_count() - fit.parameter_count() - 1;
     if (!row.residual || dof <= 0) return std::nullopt;
-    const double residual = row.residual->value();
-    double variance = fit.rss / static_cast<double>(dof + 1) * (1.0 + row.leverage);
+    const double residual = row.residual->value(), leverage = row.leverage.value();
+    double variance = fit.rss / static_cast<double>(dof + 1) * (1.0 + leverage);
     if (row.is_used) {
-        if (row.leverage > 1.0 - 1e-9) return std::nullopt;
-        const double own = residual * residual / (1.0 - row.leverage);
-        variance = (fit.rss - own) / static_cast<double>(dof) * (1.0 - row.leverage);
+        if (leverage > 1.0 - 1e-9) return std::nullopt;
+        const double own = residual * residual / (1.0 - leverage);
+        variance = (fit.rss - own) / static_cast<double>(dof) * (1.0 - leverage);
     }
     if (!(variance > 0.0)) return std::nullopt;
     return residual / std::sqrt(variance);
@@ -181,7 +183,8 @@ std::vector<StationValue> average_stations(const std::vector<CorrectedRow>& rows
         for (std::size_t i = 0; i < rows.size(); ++i) {
             if (rows[i].row.site != site) continue;
             if (rows[i].is_used) {
-                station.redundancy = station.redundancy.value_or(0.0) + 1.0 - rows[i].leverage;
+                station.redundancy =
+                    station.redundancy.value_or(0.0) + 1.0 - rows[i].leverage.value();
             }
             if (has_unflagged && !not_flagged[i]) continue;
             ++station.row_count;
@@ -204,14 +207,15 @@ std::vector<StationValue> average_stations(const std::vector<CorrectedRow>& rows
 
 const std::vector<std::string>& model_names() {
     static const std::vector<std::string> names = [] {
-        std::vector<std::string> list{"auto", "paper"};
+        std::vector<std::string> list{"auto", "paper", "day"};
         for (const LinearModel& model : kLinearModels) list.emplace_back(model.name);
         return list;
     }();
     return names;
 }
 
-SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const SurveyOptions& options) {
+SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const SurveyOptions& options,
+                                const DayRecord* day) {
     const auto& names = model_names();
     if (std::find(names.begin(), names.end(), options.model) == names.end()) {
         throw InputError("model = " + options.model + ": unknown; allowed: " + joined(names));
@@ -249,6 +253,14 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
 
     const std::vector<SurveyRow> used = chosen_rows(rows, in_use);
     result.model = options.model;
+    const auto refusal = day_refusal(rows, in_use, day);
+    if (options.model == "day" && refusal) {
+        throw InputError("model = day: " + *refusal + "; allowed: another model");
+    }
+    if (options.model == "day" || (options.model == "auto" && !refusal)) {
+        correct_by_day(result, {usable, unflagged_usable}, *day);
+        return result;
+    }
     if (options.model == "auto") {
         result.choice = choose_model(used, origin, base);
         result.choice_loso_mgal = choice_loso_mgal(used, origin, base);

@@ -7,12 +7,13 @@
 #include <string_view>
 #include <vector>
 
+#include "corrector/day/day_record.hpp"
 #include "corrector/survey/model_fit.hpp"
 #include "corrector/survey/survey_row.hpp"
 
 namespace a351::corrector {
 
-/// Names for SurveyOptions::model: auto, paper and those of kLinearModels.
+/// Names for SurveyOptions::model: auto, paper, day and those of kLinearModels.
 [[nodiscard]] const std::vector<std::string>& model_names();
 
 struct SurveyOptions {
@@ -34,7 +35,7 @@ struct CorrectedRow {
     MilliGal drift_correction;
     MilliGal corrected;
     std::optional<MilliGal> residual;     ///< reference - corrected.
-    double leverage = 0.0;                ///< Of an unused row: what it would have at its place.
+    std::optional<double> leverage;       ///< Of an unused row: as at its place.  Not for `day`.
     std::optional<MilliGal> u_corrected;  ///< s sqrt(1 + leverage): as of a new station.
     std::optional<double> studentised_residual;  ///< External; not for `paper`.
     std::optional<MilliGal> corrected1;          ///< `paper` only: before the drift step.
@@ -72,12 +73,15 @@ struct SurveyCorrection {
     ModelScore score;                        ///< Of `model` on the rows of the fit.
     std::optional<ModelChoice> choice;       ///< `auto` only.
     std::optional<double> choice_loso_mgal;  ///< `auto` only: LOSO of choosing and fitting.
+    std::vector<std::string> remarks;        ///< What a reader of the result has to know.
 };
 
 /// @param rows  in strictly ascending time, with tide and rates set.
+/// @param day   of these rows, for the model `day`; null: there are only averages.
 /// @throws InputError  base or datum unknown or without a row, no such model, too few rows for the
 ///                     model, a term that does not vary, the drift step of `paper` refused.
 [[nodiscard]] SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows,
-                                              const SurveyOptions& options);
+                                              const SurveyOptions& options,
+                                              const DayRecord* day = nullptr);
 
 }  // namespace a351::corrector

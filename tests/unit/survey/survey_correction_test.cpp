@@ -103,7 +103,7 @@ TEST_CASE("the uncertainty of a new station is s sqrt(1 + leverage)", "[survey]"
     const auto result = correct_survey(rows, with_model("t-rate-drift"));
     for (const CorrectedRow& row : result.rows) {
         CHECK(row.u_corrected->value() ==
-              Approx(result.score.s_mgal.value() * std::sqrt(1.0 + row.leverage)));
+              Approx(result.score.s_mgal.value() * std::sqrt(1.0 + row.leverage.value())));
     }
 }
 

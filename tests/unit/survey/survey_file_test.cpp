@@ -87,7 +87,7 @@ TEST_CASE("a bad survey file is refused with line, key and value", "[survey][sur
         {"[surveys]\n", "unknown key"},
         {"[survey]\nbase='No.9'\n", "no such site; allowed: No.0, No.1"},
         {"[survey]\ndatum=['No.0','No.9']\n", "survey.datum"},
-        {"[survey]\nmodel='network'\n", "allowed: auto, paper, t, t-rate, t-drift, t-rate-drift"},
+        {"[survey]\nmodel='network'\n", "allowed: auto, paper, day, t, t-rate, t-drift, t-rate-drift"},
         {"[survey]\ntide='given'\n", "survey.tide"},
         {"[survey]\nroot='nowhere'\n", "no such directory"},
         {"[survey]\ncalibration='unit.toml'\n", "survey.calibration"},

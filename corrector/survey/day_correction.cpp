@@ -1,0 +1,222 @@
+#include "corrector/survey/day_correction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "corrector/day/day_model.hpp"
+#include "corrector/survey/on_all_cores.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr std::size_t kFewestRows = 6;    // fewer say little beside the priors
+constexpr double kLongestGap_s = 1800.0;  // less than the slow lag
+constexpr double kWantedLead_s = 7200.0;  // some slow lags
+
+/// What the fit holds: the reference of rows in use, but for those of the station left out.
+/// Unknown: one value for each other station, and one for every flagged row.
+std::vector<DayStation> stations_of(const std::vector<CorrectedRow>& rows,
+                                    const std::vector<bool>& in_use,
+                                    const std::vector<bool>& usable, const std::string& left_out) {
+    std::vector<DayStation> stations;
+    std::map<std::string, std::size_t> unknowns;
+    const auto number_of = [&](const std::string& name) {
+        return unknowns.emplace(name, unknowns.size()).first->second;
+    };
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const SurveyRow& row = rows[i].row;
+        DayStation station{row.tide, std::nullopt, 0};
+        if (in_use[i] && row.site != left_out) {
+            station.gravity = row.reference;
+        } else if (usable[i] && !in_use[i]) {
+            station.unknown = number_of("flagged row " + std::to_string(i));
+        } else {
+            station.unknown = number_of("station " + row.site);
+        }
+        stations.push_back(station);
+    }
+    return stations;
+}
+
+/// The fit of one set of rows, and of each station what it says without that station.
+struct DayFits {
+    std::vector<DayStation> stations;
+    DayFit fit;
+    std::vector<std::string> left_out;  ///< Stations.
+    std::vector<std::vector<DayStation>> others;
+    std::vector<DayFit> without;
+
+    [[nodiscard]] std::optional<std::size_t> number_of(const std::string& site) const {
+        const auto found = std::find(left_out.begin(), left_out.end(), site);
+        if (found == left_out.end()) return std::nullopt;
+        return static_cast<std::size_t>(found - left_out.begin());
+    }
+};
+
+DayFits fit_with_and_without(const std::vector<CorrectedRow>& rows, const std::vector<bool>& in_use,
+                             const std::vector<bool>& usable, const DayRecord& day) {
+    DayFits fits;
+    fits.stations = stations_of(rows, in_use, usable, "");
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (in_use[i] && !fits.number_of(rows[i].row.site))
+            fits.left_out.push_back(rows[i].row.site);
+    if (fits.left_out.size() < 2) fits.left_out.clear();  // nothing would be held
+    for (const std::string& site : fits.left_out)
+        fits.others.push_back(stations_of(rows, in_use, usable, site));
+    fits.without.resize(fits.left_out.size());
+    fits.fit = fit_day(day, fits.stations).value();
+    on_all_cores(fits.left_out.size(), [&](std::size_t k) {
+        fits.without[k] = fit_day(day, fits.others[k], &fits.fit).value();
+    });
+    return fits;
+}
+
+ModelScore score_of(const std::vector<CorrectedRow>& rows, const std::vector<bool>& in_use,
+                    const DayFits& fits) {
+    ModelScore score;
+    score.model = "day";
+    score.parameter_count = kDayTerms;
+    double in_sample = 0.0, left_out = 0.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (!in_use[i]) continue;
+        ++score.row_count;
+        const double reference = rows[i].row.reference->value();
+        in_sample += std::pow(reference - fits.fit.set_ups[i].corrected.value(), 2);
+        const auto k = fits.number_of(rows[i].row.site);
+        if (k) left_out += std::pow(reference - fits.without[*k].set_ups[i].corrected.value(), 2);
+    }
+    const auto n = static_cast<double>(score.row_count);
+    score.rms_mgal = std::sqrt(in_sample / n);
+    if (!fits.left_out.empty()) score.loso_mgal = std::sqrt(left_out / n);
+    return score;
+}
+
+std::vector<Coefficient> coefficients_of(const DayFit& fit) {
+    std::vector<Coefficient> list;
+    for (std::size_t k = 0; k < kDayTerms; ++k)
+        list.push_back({std::string(day_term_name(static_cast<DayTerm>(k))),
+                        fit.coefficients.at(k).value, fit.coefficients.at(k).standard_error});
+    list.push_back({"fast_lag_s", fit.fast_lag_s, std::nullopt});
+    list.push_back({"slow_lag_s", fit.slow_lag_s, std::nullopt});
+    list.push_back({"placement_mgal", fit.noise.placement_mgal, std::nullopt});
+    list.push_back({"flicker_mgal", fit.noise.flicker_mgal, std::nullopt});
+    list.push_back({"white_mgal", fit.noise.white_mgal, std::nullopt});
+    return list;
+}
+
+/// Gravity of an unknown, with its uncertainty.
+Estimate unknown_of(const DayFit& fit, const std::vector<DayStation>& stations, std::size_t row) {
+    return fit.unknown_mgal[stations[row].unknown];
+}
+
+void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits) {
+    const DaySetUp& set_up = fits.fit.set_ups[i];
+    const auto effect = [&](DayTerm term) {
+        return MilliGal(set_up.effect_mgal.at(static_cast<std::size_t>(term)));
+    };
+    out.row.acceleration = set_up.reading;
+    out.row.temperature = set_up.temperature;
+    out.row.rate_degc_per_h = set_up.rate_degc_per_h;
+    out.temperature_correction =
+        -(effect(DayTerm::constant) + effect(DayTerm::level) + effect(DayTerm::slow));
+    out.rate_correction = -effect(DayTerm::fast);
+    out.drift_correction = -(effect(DayTerm::drift) + effect(DayTerm::warm_up));
+    out.corrected = set_up.corrected;
+    const MilliGal tilt = -(effect(DayTerm::x) + effect(DayTerm::y));
+    out.row.details.push_back({"tilt_correction_mgal", tilt.value()});
+    out.row.details.push_back({"flicker_correction_mgal", -set_up.flicker.value()});
+    out.row.details.push_back({"left_out_mgal", std::nullopt});
+    if (out.row.reference) {
+        out.difference = out.row.acceleration - *out.row.reference - out.row.tide;
+        out.residual = *out.row.reference - out.corrected;
+    }
+    if (!fits.stations[i].gravity) {
+        out.u_corrected = MilliGal(unknown_of(fits.fit, fits.stations, i).standard_error);
+        return;
+    }
+    const auto k = fits.number_of(out.row.site);
+    if (!k) return;
+    const DayFit& without = fits.without[*k];
+    const MilliGal predicted = without.set_ups[i].corrected;
+    out.row.details.back().value = predicted.value();
+    out.u_corrected = MilliGal(unknown_of(without, fits.others[*k], i).standard_error);
+    out.studentised_residual = (*out.row.reference - predicted).value() / out.u_corrected->value();
+}
+
+std::vector<StationValue> station_values(const std::vector<CorrectedRow>& rows) {
+    std::vector<StationValue> stations;
+    std::set<std::string> done;
+    for (const CorrectedRow& first : rows) {
+        if (!done.insert(first.row.site).second) continue;
+        StationValue station;
+        station.site = first.row.site;
+        station.reference = first.row.reference;
+        const auto is_flagged = [](const CorrectedRow& row) { return row.row.is_flagged; };
+        std::vector<const CorrectedRow*> own;
+        for (const CorrectedRow& row : rows)
+            if (row.row.site == station.site) own.push_back(&row);
+        station.is_flagged_only = std::all_of(own.begin(), own.end(), [&](const CorrectedRow* row) {
+            return is_flagged(*row) && !row->is_used;
+        });
+        double sum = 0.0;
+        for (const CorrectedRow* row : own) {
+            if (!station.is_flagged_only && is_flagged(*row) && !row->is_used) continue;
+            ++station.row_count;
+            sum += row->corrected.value();
+            station.u_gravity = row->u_corrected;
+        }
+        station.gravity = MilliGal(sum / static_cast<double>(station.row_count));
+        if (station.reference) station.residual = *station.reference - station.gravity;
+        stations.push_back(std::move(station));
+    }
+    return stations;
+}
+
+}  // namespace
+
+std::optional<std::string> day_refusal(const std::vector<SurveyRow>& rows,
+                                       const std::vector<bool>& in_use, const DayRecord* day) {
+    if (day == nullptr) return "needs the record of the day's temperature";
+    const auto used = static_cast<std::size_t>(std::count(in_use.begin(), in_use.end(), true));
+    if (used < kFewestRows)
+        return "needs at least " + std::to_string(kFewestRows) + " rows with a reference, has " +
+               std::to_string(used);
+    if (day->temperature.longest_gap_s > kLongestGap_s)
+        return "the temperature is missing for " +
+               std::to_string(std::lround(day->temperature.longest_gap_s / 60.0)) +
+               " min at a time, allowed are " + std::to_string(std::lround(kLongestGap_s / 60.0));
+    std::vector<bool> has_bins(rows.size(), false);
+    for (const DayBin& bin : day->bins) has_bins[bin.set_up] = true;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (!has_bins[i])
+            return rows[i].site + " (" + std::to_string(rows[i].occupation) +
+                   ") has no half minute without a disturbance";
+    return std::nullopt;
+}
+
+void correct_by_day(SurveyCorrection& result, const DayRowSets& sets, const DayRecord& day) {
+    result.model = "day";
+    std::vector<CorrectedRow> rows = result.rows;
+    const std::vector<bool>& in_use = result.options.use_flags ? sets.used : sets.all;
+    const DayFits fits = fit_with_and_without(rows, in_use, sets.all, day);
+    result.score = score_of(rows, in_use, fits);
+    for (ScoredRowSet& set : result.row_sets) {
+        const std::vector<bool>& others = set.rows == "used" ? sets.used : sets.all;
+        set.scores.push_back(
+            others == in_use
+                ? result.score
+                : score_of(rows, others, fit_with_and_without(rows, others, sets.all, day)));
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) correct_row(result.rows[i], i, fits);
+    result.coefficients = coefficients_of(fits.fit);
+    result.stations = station_values(result.rows);
+    const double lead_s = seconds_between(day.temperature.series.start(), day.bins.front().time);
+    if (lead_s < kWantedLead_s)
+        result.remarks.push_back(
+            "the temperature is known from " + std::to_string(std::lround(lead_s / 60.0)) +
+            " min before the first occupation on; its slow effect wants two hours");
+}
+
+}  // namespace a351::corrector

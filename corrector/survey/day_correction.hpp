@@ -1,0 +1,34 @@
+#pragma once
+/// @file
+/// The whole-day model (corrector/day) as a model of a survey.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corrector/day/day_record.hpp"
+#include "corrector/survey/survey_correction.hpp"
+
+namespace a351::corrector {
+
+/// Why the whole-day model cannot be fitted to these rows; std::nullopt when it can.
+/// @param in_use  one per row.
+[[nodiscard]] std::optional<std::string> day_refusal(const std::vector<SurveyRow>& rows,
+                                                     const std::vector<bool>& in_use,
+                                                     const DayRecord* day);
+
+/// Rows with a reference that may enter a fit, one flag per row.
+struct DayRowSets {
+    std::vector<bool> all;   ///< Flagged ones too.
+    std::vector<bool> used;  ///< Not flagged.
+};
+
+/// Fills in what the model gives.  Acceleration, temperature and rate of a row become those of the
+/// model: means of its bins, and (T - lag(T)) / lag.  A row's uncertainty is that of its station when
+/// its reference is not known, and its studentised residual the error of that prediction over it:
+/// found by fitting anew without each station.  Flagged rows, which the fit leaves out, stand for
+/// stations of their own.
+/// @param result  with options, rows, row sets and `model`; day_refusal() found nothing.
+void correct_by_day(SurveyCorrection& result, const DayRowSets& sets, const DayRecord& day);
+
+}  // namespace a351::corrector
