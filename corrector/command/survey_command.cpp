@@ -36,7 +36,7 @@ struct SurveyCommandOptions {
 SurveyFile with_overrides(SurveyFile survey, const SurveyCommandOptions& options) {
     if (!options.model.empty()) survey.survey.model = options.model;
     if (!options.flags.empty()) survey.survey.use_flags = options.flags == "use";
-    if (!options.tide.empty()) survey.tide.source = options.tide;
+    if (!options.tide.empty()) set_tide_option(survey.tide, options.tide);
     if (!options.trend.empty()) {
         survey.trend = options.trend == "eemd" ? TrendMethod::eemd : TrendMethod::smoother;
     }
@@ -53,9 +53,7 @@ nlohmann::ordered_json settings_of(const SurveyFile& survey, const SurveyCorrect
     settings["name"] = survey.name;
     settings["model"] = survey.survey.model;
     settings["flags"] = survey.survey.use_flags ? "use" : "ignore";
-    settings["tide"] = survey.tide.source;
-    settings["delta2"] = survey.tide.factors.delta2;
-    settings["delta3"] = survey.tide.factors.delta3;
+    describe_tide(settings, survey.tide);
     settings["base"] = result.options.base;
     settings["datum"] = survey.survey.datum;
     settings["trend"] = trend_method_of(survey) == TrendMethod::eemd ? "eemd" : "smoother";
@@ -147,8 +145,9 @@ void add_survey_command(CLI::App& program) {
         .add_option("--flags", options->flags,
                     "use: occupations with used 0 stay out of the fit; ignore: they take part")
         ->check(CLI::IsMember({"use", "ignore"}));
-    command.add_option("--tide", options->tide, "Tide, subtracted from the readings")
-        ->check(CLI::IsMember({"direct", "catalogue", "longman", "none"}));
+    command.add_option("--tide", options->tide,
+                       "Tide as its effect on gravity, subtracted from the readings: " +
+                           std::string(kTideSources));
     command
         .add_option("--trend", options->trend,
                     "Trend that is averaged; the model paper always takes eemd")

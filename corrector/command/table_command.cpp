@@ -28,10 +28,11 @@ void correct_table(TableOptions options) {
     const std::vector<text::Site> sites = text::read_sites(options.sites);
     std::vector<SurveyRow> rows = read_observations(options.observations, sites);
     if (options.tide.empty()) options.tide = rows.front().given_tide ? "given" : "direct";
-    const TideChoice tide{
-        options.tide,
-        {number_option("--delta2", options.factors.delta2, kLeastFactor, kGreatestFactor),
-         number_option("--delta3", options.factors.delta3, kLeastFactor, kGreatestFactor)}};
+    TideChoice tide;
+    set_tide_option(tide, options.tide);
+    tide.factors = {
+        number_option("--delta2", options.factors.delta2, kLeastFactor, kGreatestFactor),
+        number_option("--delta3", options.factors.delta3, kLeastFactor, kGreatestFactor)};
     apply_tide(rows, sites, tide);
     options.survey.use_flags = options.flags == "use";
     const SurveyCorrection result = correct_survey(rows, options.survey);
@@ -40,17 +41,15 @@ void correct_table(TableOptions options) {
     settings["command"] = "table";
     settings["model"] = options.survey.model;
     settings["flags"] = options.flags;
-    settings["tide"] = options.tide;
-    settings["delta2"] = tide.factors.delta2;
-    settings["delta3"] = tide.factors.delta3;
+    describe_tide(settings, tide);
     settings["base"] = result.options.base;
     settings["datum"] = options.survey.datum;
     settings["rate"] = "backward";
     settings["seed"] = nullptr;  // nothing here is random
-    write_together(options.out,
-                   result_files(result, settings,
-                                {describe_input("sites", options.sites),
-                                 describe_input("observations", options.observations)}));
+    std::vector<InputFile> inputs{describe_input("sites", options.sites),
+                                  describe_input("observations", options.observations)};
+    if (!tide.series.empty()) inputs.push_back(describe_input("tide", tide.series));
+    write_together(options.out, result_files(result, settings, inputs));
     std::cout << survey_text(result) << "written to " << options.out << '\n';
 }
 
@@ -74,11 +73,10 @@ void add_table_command(CLI::App& program) {
                     "use: rows with outlier 1 stay out of the fit; ignore: they take part")
         ->check(CLI::IsMember({"use", "ignore"}))
         ->capture_default_str();
-    command
-        .add_option("--tide", options->tide,
-                    "Tide, subtracted from the readings (default: given where the column "
-                    "exists, else direct)")
-        ->check(CLI::IsMember(tide_sources()));
+    command.add_option("--tide", options->tide,
+                       "Tide as its effect on gravity, subtracted from the readings: " +
+                           std::string(kTideSources) +
+                           " (default: given where the column exists, else direct)");
     command.add_option("--delta2", options->factors.delta2, "Gravimetric factor of degree 2")
         ->capture_default_str();
     command.add_option("--delta3", options->factors.delta3, "Gravimetric factor of degree 3")

@@ -63,6 +63,10 @@ OccupationList read_occupation_table(const std::filesystem::path& file,
             table.refuse(row, "used", "not a mark", "1, 0 or empty");
         }
         window.is_flagged = used == "0";
+        if (table.has_column("earth_tide_mgal")) {
+            const auto tide = table.number_if_given(row, "earth_tide_mgal", -1.0, 1.0);
+            if (tide) window.given_tide = MilliGal(*tide);
+        }
         list.windows.push_back(std::move(window));
     }
     return in_order(std::move(list), file);

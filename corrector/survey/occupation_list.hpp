@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,8 @@ struct OccupationWindow {
     int number = 1;  ///< Of the stay at this site; several set-ups of one stay share it.
     UtcTime start;
     UtcTime end;
-    bool is_flagged = false;  ///< Not to be used in the fit.
+    bool is_flagged = false;                  ///< Not to be used in the fit.
+    std::optional<MilliGal> given_tide = {};  ///< Effect on gravity.
 };
 
 struct OccupationList {
@@ -23,7 +25,8 @@ struct OccupationList {
     std::vector<std::string> warnings;      ///< What was passed over, and why.
 };
 
-/// Reads `site,occupation,start_utc,end_utc,used,note`; `used` is 1, 0 or empty (= 1).
+/// Reads `site,occupation,start_utc,end_utc,used,note`; `used` is 1, 0 or empty (= 1).  A column
+/// `earth_tide_mgal` may follow.
 /// @throws InputError  unknown site, an end not after its start, windows that overlap, no row.
 [[nodiscard]] OccupationList read_occupation_table(const std::filesystem::path& file,
                                                    const std::vector<text::Site>& sites);

@@ -83,6 +83,7 @@ std::vector<InputFile> inputs_of(const SurveyFile& survey, const std::filesystem
         std::sort(logs.begin(), logs.end());
         for (const auto& log : logs) inputs.push_back(describe_input("events", log));
     }
+    if (!survey.tide.series.empty()) inputs.push_back(describe_input("tide", survey.tide.series));
     const auto archive = archive_files(survey, codes, channels, windows);
     inputs.insert(inputs.end(), archive.begin(), archive.end());
     return inputs;
@@ -121,6 +122,7 @@ SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& valu
     row.end = value.interval_end;
     row.time = value.interval_start + (value.interval_end - value.interval_start) / 2;
     row.is_flagged = window.is_flagged;
+    row.given_tide = window.given_tide;
     for (const OccupationFlag flag : value.flags) row.notes.emplace_back(flag_name(flag));
     row.acceleration = value.acceleration;
     row.temperature = temperature.mean;

@@ -8,9 +8,6 @@
 namespace a351::corrector {
 namespace {
 
-/// `given` needs a column that records do not have.
-const std::vector<std::string> kTides{"direct", "catalogue", "longman", "none"};
-
 /// Gravimetric factors between which an Earth could be.
 constexpr double kLeastFactor = 0.5;
 constexpr double kGreatestFactor = 2.0;
@@ -47,7 +44,9 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     survey.survey.datum = table.strings("datum");
     survey.survey.model = table.choice_or("model", "auto", model_names());
     survey.survey.use_flags = table.choice_or("flags", "use", {"use", "ignore"}) == "use";
-    survey.tide.source = table.choice_or("tide", "direct", kTides);
+    if (!set_tide_source(survey.tide, table.string_or("tide", "direct"), beside)) {
+        table.refuse("tide", "neither a source nor a file", kTideSources);
+    }
     survey.tide.factors.delta2 =
         table.number_or("delta2", survey.tide.factors.delta2, kLeastFactor, kGreatestFactor);
     survey.tide.factors.delta3 =

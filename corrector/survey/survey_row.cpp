@@ -119,7 +119,8 @@ void set_given_tide(std::vector<SurveyRow>& rows) {
     for (SurveyRow& row : rows) {
         if (!row.given_tide) {
             throw InputError("tide = given: " + row.site +
-                             " has no earth_tide_mgal; allowed: direct, longman, none");
+                             " has no earth_tide_mgal; allowed: direct, catalogue, longman, none, "
+                             "or a CSV time,tide_mgal");
         }
         row.tide = *row.given_tide;
     }

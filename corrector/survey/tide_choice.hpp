@@ -1,6 +1,9 @@
 #pragma once
 
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "corrector/survey/survey_row.hpp"
@@ -9,19 +12,35 @@ namespace a351::corrector {
 
 /// Where the tide of a survey comes from.
 struct TideChoice {
-    std::string source = "direct";  ///< given (of the table), direct = catalogue, longman, none.
-    TideFactors factors;            ///< Not for `given`.
+    /// given (of the table), direct = catalogue, longman, none; or the name of `series`.
+    std::string source = "direct";
+    TideFactors factors;           ///< Of direct and longman.
+    std::filesystem::path series;  ///< CSV for TideSeries::read; empty: one of the names.
 };
 
-[[nodiscard]] const std::vector<std::string>& tide_sources();
+/// What may stand for a tide, for messages and help.
+inline constexpr std::string_view kTideSources =
+    "given, direct, catalogue, longman, none, or a CSV time,tide_mgal";
 
-/// The computed model behind a source other than `given`.
+/// Sets the source from its name, or from a file's, relative to `directory`.
+/// @return  whether `text` is either.
+[[nodiscard]] bool set_tide_source(TideChoice& choice, const std::string& text,
+                                   const std::filesystem::path& directory);
+
+/// The same for an option.
+/// @throws InputError  `text` is neither.
+void set_tide_option(TideChoice& choice, const std::string& text);
+
+/// The computed model behind a source other than `given` or a series.
 /// @throws InputError  unknown source; names those allowed.
 [[nodiscard]] TideModel tide_model(const std::string& source);
 
 /// Sets the tide of every row.
-/// @throws InputError  unknown source, a row without a given tide.
+/// @throws InputError  a row without a given tide, or one that the series does not cover.
 void apply_tide(std::vector<SurveyRow>& rows, const std::vector<text::Site>& sites,
                 const TideChoice& choice);
+
+/// Adds source, model, factors (null where none apply) and sign to the settings of a result.
+void describe_tide(nlohmann::ordered_json& settings, const TideChoice& choice);
 
 }  // namespace a351::corrector

@@ -1,34 +1,17 @@
 // The program a351-correct as a script sees it: exit status, streams, files.
-#include <sys/wait.h>
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "protocol/text/csv.hpp"
 #include "protocol/text/text_file.hpp"
-#include "tests/unit/survey/scratch_folder.hpp"
+#include "tests/unit/survey/run_command.hpp"
 
 using namespace a351;
 
 namespace {
-
-struct Outcome {
-    int status = 0;
-    std::string output;
-    std::string errors;
-};
-
-Outcome run(const ScratchFolder& folder, const std::string& arguments) {
-    const std::string command = "cd '" + folder.path().string() + "' && '" A351_CORRECT "' " +
-                                arguments + " > stdout.txt 2> stderr.txt";
-    const int status = std::system(command.c_str());
-    return {WEXITSTATUS(status), text::read_text_file(folder.path() / "stdout.txt"),
-            text::read_text_file(folder.path() / "stderr.txt")};
-}
 
 const std::string kTsukuba =
     "table --sites '" A351_GOLDEN "/tsukuba/sites.csv' --observations '" A351_GOLDEN
@@ -134,6 +117,37 @@ TEST_CASE("bad usage ends with 2, one line on standard error and nothing written
     CHECK_THAT(outcome.errors, Catch::StartsWith("a351-correct: ") && Catch::Contains(message));
     CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
     CHECK(outcome.output.empty());
+    CHECK_FALSE(has_result(folder));
+}
+
+TEST_CASE("a tide from a file does what the model it was written by does", "[command]") {
+    const ScratchFolder folder;
+    // Mean position of the calibration line; over it the tide differs by less than 0.0001 mGal.
+    CHECK(run(folder,
+              "tide --latitude 36.215 --longitude 140.1 --height 300 --from 2017-07-15T23:00:00Z "
+              "--to 2017-07-16T10:00:00Z --step 600 --output tide.csv")
+              .status == 0);
+    CHECK(run(folder, kTsukuba + "--tide tide.csv --out file").status == 0);
+    CHECK(run(folder, kTsukuba + "--tide direct --out direct").status == 0);
+    const auto file = text::read_csv(folder.path() / "file/occupations.csv");
+    const auto direct = text::read_csv(folder.path() / "direct/occupations.csv");
+    REQUIRE(file.row_count() == 19);
+    for (std::size_t row = 0; row < 19; ++row) {
+        for (const char* const column : {"tide_mgal", "corrected_mgal"}) {
+            CHECK(file.number(row, column) ==
+                  Approx(direct.number(row, column)).epsilon(0).margin(0.0002));
+        }
+    }
+    const auto json =
+        nlohmann::json::parse(text::read_text_file(folder.path() / "file/result.json"));
+    CHECK(json["settings"]["tide"] == "tide.csv");
+    CHECK(json["settings"]["delta2"].is_null());
+    CHECK(json["inputs"][2]["role"] == "tide");
+    std::string morning = text::read_text_file(folder.path() / "tide.csv");
+    folder.write("morning.csv", morning.substr(0, morning.find("2017-07-16T05")));
+    const Outcome outcome = run(folder, kTsukuba + "--tide morning.csv");
+    CHECK(outcome.status == 2);
+    CHECK_THAT(outcome.errors, Catch::Contains("morning.csv: time = 2017-07-16T05:"));
     CHECK_FALSE(has_result(folder));
 }
 

@@ -80,6 +80,14 @@ TEST_CASE("the model paper has the publication's trend and curve whatever is ask
           TrendMethod::smoother);
 }
 
+TEST_CASE("the tide may be a file beside the survey file", "[survey][survey_file]") {
+    const Desk desk;
+    desk.folder.write("tide.csv", "");
+    const SurveyFile survey = desk.read("[survey]\ntide='tide.csv'\n");
+    CHECK(survey.tide.source == "tide.csv");
+    CHECK(survey.tide.series == desk.folder.path() / "tide.csv");
+}
+
 TEST_CASE("a bad survey file is refused with line, key and value", "[survey][survey_file]") {
     const Desk desk;
     const auto [toml, message] = GENERATE(table<std::string, std::string>({
@@ -88,7 +96,7 @@ TEST_CASE("a bad survey file is refused with line, key and value", "[survey][sur
         {"[survey]\nbase='No.9'\n", "no such site; allowed: No.0, No.1"},
         {"[survey]\ndatum=['No.0','No.9']\n", "survey.datum"},
         {"[survey]\nmodel='network'\n", "allowed: auto, paper, day, t, t-rate, t-drift, t-rate-drift"},
-        {"[survey]\ntide='given'\n", "survey.tide"},
+        {"[survey]\ntide='moon'\n", ":2: survey.tide = 'moon': neither a source nor a file"},
         {"[survey]\nroot='nowhere'\n", "no such directory"},
         {"[survey]\ncalibration='unit.toml'\n", "survey.calibration"},
         {"[survey]\ndelta2=116\n", "survey.delta2 = 116"},
