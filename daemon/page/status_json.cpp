@@ -181,10 +181,11 @@ json to_json(const record::Occupation& occupation) {
 }
 
 json to_json(const text::Site& site) {
+    const auto placed = [&site](double value) { return site.is_placed ? json(value) : json(); };
     return {{"site", site.name},
-            {"longitude_deg", site.longitude.value()},
-            {"latitude_deg", site.latitude.value()},
-            {"altitude_m", site.altitude.value()},
+            {"longitude_deg", placed(site.longitude.value())},
+            {"latitude_deg", placed(site.latitude.value())},
+            {"altitude_m", placed(site.altitude.value())},
             {"gravity_mgal", site.gravity ? json(site.gravity->value()) : json()}};
 }
 

@@ -1,13 +1,58 @@
 #include "protocol/text/sites.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
 
+#include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 
 namespace a351::text {
+namespace {
+
+/// A column of coordinates; its empty cells become the mean of the others, which does not depend on
+/// the order of the rows.
+/// @param turn  difference that makes no difference: 360 for longitudes.
+std::vector<double> filled_column(const CsvTable& table, std::string_view column, double low,
+                                  double high, double turn, std::vector<bool>& is_placed,
+                                  const std::filesystem::path& file) {
+    std::vector<double> given;
+    std::vector<double> values(table.row_count());
+    for (std::size_t row = 0; row < values.size(); ++row) {
+        const auto value = table.number_if_given(row, column, low, high);
+        if (value) given.push_back(*value);
+        if (!value) is_placed[row] = false;
+        values[row] = value.value_or(std::numeric_limits<double>::quiet_NaN());
+    }
+    if (given.empty() && !values.empty()) {
+        throw InputError(file.string() + ": " + std::string(column) +
+                         " = : empty for every site; allowed: a number for at least one");
+    }
+    std::sort(given.begin(), given.end());
+    for (double& value : values) {
+        if (!std::isnan(value)) continue;
+        const double sum =
+            std::accumulate(given.begin(), given.end(), 0.0, [&](double total, double one) {
+                return total + std::remainder(one - given.front(), turn);
+            });
+        value = given.front() + sum / static_cast<double>(given.size());
+    }
+    return values;
+}
+
+}  // namespace
 
 std::vector<Site> read_sites(const std::filesystem::path& file) {
+    constexpr double kNoTurn = 1e9;
     const CsvTable table = read_csv(file);
+    std::vector<bool> is_placed(table.row_count(), true);
+    const auto column = [&](std::string_view name, double low, double high, double turn) {
+        return filled_column(table, name, low, high, turn, is_placed, file);
+    };
+    const auto longitudes = column("longitude_deg", -180.0, 360.0, 360.0);
+    const auto latitudes = column("latitude_deg", -90.0, 90.0, kNoTurn);
+    const auto altitudes = column("altitude_m", -500.0, 9000.0, kNoTurn);
     std::vector<Site> sites;
     for (std::size_t row = 0; row < table.row_count(); ++row) {
         const std::string& name = table.cell(row, "site");
@@ -17,9 +62,10 @@ std::vector<Site> read_sites(const std::filesystem::path& file) {
         }
         Site site;
         site.name = name;
-        site.longitude = Degrees(table.number(row, "longitude_deg", -180.0, 360.0));
-        site.latitude = Degrees(table.number(row, "latitude_deg", -90.0, 90.0));
-        site.altitude = Metres(table.number(row, "altitude_m", -500.0, 9000.0));
+        site.longitude = Degrees(longitudes[row]);
+        site.latitude = Degrees(latitudes[row]);
+        site.altitude = Metres(altitudes[row]);
+        site.is_placed = is_placed[row];
         // Gravity on the Earth's surface: 976 400 (Huascaran) to 983 400 mGal (Arctic Ocean).
         if (const auto gravity = table.number_if_given(row, "gravity_mgal", 976000.0, 984000.0)) {
             site.gravity = MilliGal(*gravity);

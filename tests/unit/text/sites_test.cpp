@@ -40,6 +40,22 @@ TEST_CASE("an unknown station has no reference value", "[text][sites]") {
     CHECK_FALSE(sites[0].gravity.has_value());
 }
 
+TEST_CASE("a site without coordinates has the mean of the others, in any order", "[text][sites]") {
+    const std::vector<std::string> rows{"W,179.9,-17.1,10,\n", "E,-179.7,-17.3,40,\n", "X,,,,\n",
+                                        "H,179.9,-17.2,,\n"};
+    const auto sites = read_sites(written(kHeader + rows[0] + rows[1] + rows[2] + rows[3]));
+    CHECK(sites[2].longitude.value() == Approx(180.0333333 - 360.0));
+    CHECK(sites[2].latitude.value() == Approx(-17.2));
+    CHECK(sites[2].altitude == Metres(25.0));
+    CHECK(sites[3].altitude == Metres(25.0));
+    CHECK(sites[3].latitude == Degrees(-17.2));
+    const std::vector<bool> is_placed{true, true, false, false};
+    for (std::size_t i = 0; i < 4; ++i) CHECK(sites[i].is_placed == is_placed[i]);
+    const auto turned = read_sites(written(kHeader + rows[3] + rows[2] + rows[1] + rows[0]));
+    CHECK(turned[1].longitude == sites[2].longitude);
+    CHECK(turned[1].latitude == sites[2].latitude);
+}
+
 TEST_CASE("a bad sites file is refused with its line", "[text][sites]") {
     CHECK_THROWS_WITH(read_sites(written("site,longitude_deg\nX,1\n")),
                       Catch::Contains(":1: column latitude_deg is missing"));
@@ -49,6 +65,8 @@ TEST_CASE("a bad sites file is refused with its line", "[text][sites]") {
                       Catch::Contains(":3: site = X: stands twice"));
     CHECK_THROWS_WITH(read_sites(written(kHeader + ",1,36,0,\n")),
                       Catch::Contains(":2: site = : empty"));
+    CHECK_THROWS_WITH(read_sites(written(kHeader + "X,1,36,,\nY,1,36,,\n")),
+                      Catch::Contains("altitude_m = : empty for every site"));
     // m/s2 instead of mGal.
     CHECK_THROWS_WITH(read_sites(written(kHeader + "X,1,36,0,9.799\n")),
                       Catch::Contains(":2: gravity_mgal = 9.799: out of range"));
