@@ -47,7 +47,7 @@ SurveyFile with_overrides(SurveyFile survey, const SurveyCommandOptions& options
 }
 
 nlohmann::ordered_json settings_of(const SurveyFile& survey, const SurveyCorrection& result,
-                                   const std::vector<std::string>& warnings) {
+                                   const OccupationRows& read) {
     nlohmann::ordered_json settings;
     settings["command"] = "survey";
     settings["name"] = survey.name;
@@ -63,7 +63,8 @@ nlohmann::ordered_json settings_of(const SurveyFile& survey, const SurveyCorrect
     settings["rate"] = "interval";
     settings["calibration"] = "";
     settings["seed"] = survey.seed;
-    settings["warnings"] = warnings;
+    settings["amendments"] = amendments_json(read.amendments);
+    settings["warnings"] = read.warnings;
     return settings;
 }
 
@@ -71,6 +72,7 @@ nlohmann::ordered_json settings_of(const SurveyFile& survey, const SurveyCorrect
 struct Day {
     std::string name;
     SurveyCorrection result;
+    std::string amendments;
     std::vector<NamedText> files;
 };
 
@@ -81,17 +83,31 @@ std::string folder_name(std::string name) {
     return name;
 }
 
+/// @throws InputError  as correct_survey(), naming the survey file and all that was left out.
+SurveyCorrection corrected(const SurveyFile& survey, OccupationRows& read) {
+    try {
+        SurveyCorrection result = correct_survey(read.rows, with_sites_of(read, survey.survey),
+                                                 read.day ? &*read.day : nullptr);
+        read.warnings.insert(read.warnings.end(), result.remarks.begin(), result.remarks.end());
+        result.left_out = read.left_out;
+        return result;
+    } catch (const InputError& error) {
+        std::string message = survey.path.string() + ": " + error.what();
+        for (const std::string& warning : read.warnings) message += "; " + warning;
+        throw InputError(message);
+    }
+}
+
 Day correct_day(const SurveyFile& survey) {
     ProgressBar bar(std::cerr, ::isatty(STDERR_FILENO) == 1, survey.name);
-    const OccupationRows read = average_occupations(
+    OccupationRows read = average_occupations(
         survey, [&bar](std::size_t done, std::size_t total) { bar.show(done, total); });
     Day day;
     day.name = survey.name;
-    day.result = correct_survey(read.rows, survey.survey, read.day ? &*read.day : nullptr);
-    std::vector<std::string> warnings = read.warnings;
-    warnings.insert(warnings.end(), day.result.remarks.begin(), day.result.remarks.end());
-    day.files = result_files(day.result, settings_of(survey, day.result, warnings), read.inputs);
-    for (const std::string& warning : warnings) {
+    day.result = corrected(survey, read);
+    day.amendments = amendments_text(read.amendments);
+    day.files = result_files(day.result, settings_of(survey, day.result, read), read.inputs);
+    for (const std::string& warning : read.warnings) {
         std::cerr << "a351-correct: " << survey.name << ": " << warning << '\n';
     }
     return day;
@@ -118,7 +134,8 @@ void correct_days(const SurveyCommandOptions& options) {
     for (const Day& day : days) {
         write_together(is_joint ? out / folder_name(day.name) : out, day.files);
         std::cout << "survey " << day.name << '\n'
-                  << survey_text(day.result) << trend_comparison_text(day.result) << '\n';
+                  << survey_text(day.result) << day.amendments << trend_comparison_text(day.result)
+                  << '\n';
         results.push_back(day.result);
     }
     if (is_joint) {

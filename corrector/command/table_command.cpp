@@ -45,11 +45,14 @@ void correct_table(TableOptions options) {
     settings["base"] = result.options.base;
     settings["datum"] = options.survey.datum;
     settings["rate"] = "backward";
+    const std::vector<std::string> warnings = position_warnings(rows, sites);
+    settings["warnings"] = warnings;
     settings["seed"] = nullptr;  // nothing here is random
     std::vector<InputFile> inputs{describe_input("sites", options.sites),
                                   describe_input("observations", options.observations)};
     if (!tide.series.empty()) inputs.push_back(describe_input("tide", tide.series));
     write_together(options.out, result_files(result, settings, inputs));
+    for (const std::string& warning : warnings) std::cerr << "a351-correct: " << warning << '\n';
     std::cout << survey_text(result) << "written to " << options.out << '\n';
 }
 

@@ -1,6 +1,7 @@
 #include "corrector/survey/occupation_list.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/record/event_log.hpp"
@@ -9,28 +10,52 @@
 namespace a351::corrector {
 namespace {
 
-std::string described(const OccupationWindow& window) {
-    return window.site + " (" + std::to_string(window.number) + ") from " +
-           to_rfc3339(window.start) + " to " + to_rfc3339(window.end);
+std::string named(const OccupationWindow& window) {
+    return window.site + " (" + std::to_string(window.number) + ") at " + to_rfc3339(window.start);
 }
 
-OccupationList in_order(OccupationList list, const std::filesystem::path& origin) {
-    if (list.windows.empty()) {
-        throw InputError(origin.string() + ": no occupation; allowed: at least one, with its end");
-    }
-    std::sort(list.windows.begin(), list.windows.end(),
-              [](const auto& a, const auto& b) { return a.start < b.start; });
-    for (std::size_t i = 0; i < list.windows.size(); ++i) {
-        if (list.windows[i].end <= list.windows[i].start) {
-            throw InputError(origin.string() + ": " + described(list.windows[i]) +
-                             ": ends before it starts; allowed: a later end");
+void sort_by_start(std::vector<OccupationWindow>& windows) {
+    std::stable_sort(windows.begin(), windows.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.start, a.end, a.site, a.number) <
+               std::tie(b.start, b.end, b.site, b.number);
+    });
+}
+
+bool do_overlap(const OccupationWindow& a, const OccupationWindow& b) {
+    return a.start < b.end && b.start < a.end;
+}
+
+/// Those that overlap the largest number of others, by place in the list.
+std::vector<std::size_t> most_overlapping(const std::vector<OccupationWindow>& windows) {
+    std::vector<std::size_t> most;
+    std::size_t largest = 1;
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < windows.size(); ++k) {
+            if (k != i && do_overlap(windows[i], windows[k])) ++count;
         }
-        if (i > 0 && list.windows[i].start < list.windows[i - 1].end) {
-            throw InputError(origin.string() + ": " + described(list.windows[i]) + " overlaps " +
-                             described(list.windows[i - 1]) + "; allowed: one after the other");
+        if (count > largest) most.clear();
+        if (count >= largest) most.push_back(i);
+        largest = std::max(largest, count);
+    }
+    return most;
+}
+
+void leave_out_overlapping(OccupationList& list) {
+    auto& windows = list.windows;
+    for (auto most = most_overlapping(windows); !most.empty(); most = most_overlapping(windows)) {
+        for (const std::size_t i : most) {
+            const auto other =
+                std::find_if(windows.begin(), windows.end(), [&](const OccupationWindow& window) {
+                    return &window != &windows[i] && do_overlap(window, windows[i]);
+                });
+            leave_out(list.left_out, list.warnings, windows[i], "overlaps another",
+                      ", " + named(*other));
+        }
+        for (auto i = most.rbegin(); i != most.rend(); ++i) {
+            windows.erase(windows.begin() + static_cast<std::ptrdiff_t>(*i));
         }
     }
-    return list;
 }
 
 UtcTime instant(const text::CsvTable& table, std::size_t row, std::string_view column) {
@@ -69,11 +94,11 @@ OccupationList read_occupation_table(const std::filesystem::path& file,
         }
         list.windows.push_back(std::move(window));
     }
-    return in_order(std::move(list), file);
+    sort_by_start(list.windows);
+    return list;
 }
 
-OccupationList read_logged_occupations(const std::filesystem::path& events,
-                                       const std::vector<text::Site>& sites) {
+OccupationList read_logged_occupations(const std::filesystem::path& events) {
     const record::EventLog log = record::read_events(events);
     OccupationList list;
     for (const record::EventDamage& damage : log.damage) {
@@ -81,12 +106,6 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
                                 std::to_string(damage.line) + ": not an event, passed over");
     }
     for (const record::Occupation& occupation : record::occupations_of(log.events)) {
-        if (text::find_site(sites, occupation.site) == nullptr) {
-            list.warnings.push_back(events.string() + ": site = " + occupation.site + ", started " +
-                                    to_rfc3339(occupation.set_ups.front().start) +
-                                    ": not in the table of sites, left out");
-            continue;
-        }
         for (const record::Occupation::SetUp& set_up : occupation.set_ups) {
             list.windows.push_back({occupation.site, occupation.number, set_up.start, set_up.end,
                                     !occupation.used.value_or(true)});
@@ -96,7 +115,41 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
         list.warnings.push_back(events.string() + ": the last occupation, of " + *site +
                                 ", has no stop, left out");
     }
-    return in_order(std::move(list), events);
+    sort_by_start(list.windows);
+    return list;
+}
+
+OccupationList leave_out_impossible(OccupationList list, const std::vector<text::Site>& sites,
+                                    const std::filesystem::path& origin) {
+    std::vector<OccupationWindow> windows;
+    for (OccupationWindow& window : list.windows) {
+        const auto drop = [&](const std::string& reason, const std::string& detail) {
+            leave_out(list.left_out, list.warnings, window, reason, detail);
+        };
+        if (text::find_site(sites, window.site) == nullptr) {
+            drop("not in the table of sites", "");
+        } else if (window.end <= window.start) {
+            drop("ends before it starts", ", at " + to_rfc3339(window.end));
+        } else {
+            windows.push_back(std::move(window));
+        }
+    }
+    list.windows = std::move(windows);
+    sort_by_start(list.windows);
+    leave_out_overlapping(list);
+    if (list.windows.empty()) {
+        std::string message = origin.string() + ": no occupation";
+        for (const std::string& warning : list.warnings) message += "; " + warning;
+        throw InputError(message + "; allowed: at least one, with its end");
+    }
+    return list;
+}
+
+void leave_out(std::vector<LeftOut>& left_out, std::vector<std::string>& warnings,
+               const OccupationWindow& window, const std::string& reason,
+               const std::string& detail) {
+    left_out.push_back({window.site, window.number, window.start, window.end, reason});
+    warnings.push_back(named(window) + " is left out: " + reason + detail);
 }
 
 }  // namespace a351::corrector

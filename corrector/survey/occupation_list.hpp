@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "corrector/survey/survey_row.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "protocol/text/sites.hpp"
 
@@ -18,23 +19,39 @@ struct OccupationWindow {
     UtcTime end;
     bool is_flagged = false;                  ///< Not to be used in the fit.
     std::optional<MilliGal> given_tide = {};  ///< Effect on gravity.
+    std::vector<std::string> notes = {};      ///< What became of it on the way.
 };
 
 struct OccupationList {
-    std::vector<OccupationWindow> windows;  ///< By start; they do not overlap.
-    std::vector<std::string> warnings;      ///< What was passed over, and why.
+    std::vector<OccupationWindow> windows;  ///< By start, as they were read.
+    std::vector<LeftOut> left_out;
+    std::vector<std::string> warnings;  ///< What was passed over or left out, and why.
 };
 
 /// Reads `site,occupation,start_utc,end_utc,used,note`; `used` is 1, 0 or empty (= 1).  A column
 /// `earth_tide_mgal` may follow.
-/// @throws InputError  unknown site, an end not after its start, windows that overlap, no row.
+/// @throws InputError  unknown site, a cell that is not what its column says.
 [[nodiscard]] OccupationList read_occupation_table(const std::filesystem::path& file,
                                                    const std::vector<text::Site>& sites);
 
-/// The occupations of an event log (directory `events` of a data root).  One at an unknown site,
-/// a slip made in the field, is left out with a warning, and so is one that was never stopped.
-/// @throws InputError  windows that overlap, no occupation left.
-[[nodiscard]] OccupationList read_logged_occupations(const std::filesystem::path& events,
-                                                     const std::vector<text::Site>& sites);
+/// The occupations of an event log (directory `events` of a data root).  One that was never stopped
+/// is left out with a warning.
+[[nodiscard]] OccupationList read_logged_occupations(const std::filesystem::path& events);
+
+/// Leaves out, with a warning each, what cannot be: occupations at unknown sites (a slip made in the
+/// field), those that end before they start, and those that overlap others.  Of these the one that
+/// overlaps most goes first, until none does; where two overlap each other alone both go, since
+/// nobody knows which is right.
+/// @param origin  file or directory they were read from, for messages.
+/// @throws InputError  none is left.
+[[nodiscard]] OccupationList leave_out_impossible(OccupationList list,
+                                                  const std::vector<text::Site>& sites,
+                                                  const std::filesystem::path& origin);
+
+/// Notes that a window has no row, with a warning.
+/// @param detail  follows the reason in the warning.
+void leave_out(std::vector<LeftOut>& left_out, std::vector<std::string>& warnings,
+               const OccupationWindow& window, const std::string& reason,
+               const std::string& detail = "");
 
 }  // namespace a351::corrector

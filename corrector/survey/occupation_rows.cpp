@@ -17,6 +17,9 @@ void add_axis(std::vector<SurveyRow::Detail>& details, const std::string& name,
     details.push_back({"rms_" + name + "_mgal", axis.rms.value()});
 }
 
+constexpr std::chrono::minutes kMargin(1);  // for the filters of the temperature
+
+/// Every file that read_samples() looks at.
 std::vector<InputFile> archive_files(const SurveyFile& survey, const record::StationCodes& codes,
                                      const SurveyChannels& channels,
                                      const std::vector<OccupationWindow>& windows) {
@@ -24,16 +27,17 @@ std::vector<InputFile> archive_files(const SurveyFile& survey, const record::Sta
     for (const record::ChannelScale& axis : channels.axes) names.push_back(axis.code);
     std::sort(names.begin(), names.end());
     std::vector<std::filesystem::path> files;
+    using std::chrono::days;
+    using std::chrono::floor;
+    const auto last_day = floor<days>(windows.back().end + kMargin);
     for (const std::string& channel : names) {
-        for (const OccupationWindow& window : windows) {
-            for (const UtcTime time : {window.start, window.end}) {
-                const auto file = record::sds_file(survey.root / "archive", codes, channel, time);
-                if (std::filesystem::exists(file)) files.push_back(file);
-            }
+        for (auto day = floor<days>(windows.front().start - kMargin); day <= last_day;
+             day += days(1)) {
+            const auto file = record::sds_file(survey.root / "archive", codes, channel, day);
+            if (std::filesystem::exists(file)) files.push_back(file);
         }
     }
     std::sort(files.begin(), files.end());
-    files.erase(std::unique(files.begin(), files.end()), files.end());
     std::vector<InputFile> inputs;
     for (const auto& file : files) inputs.push_back(describe_input("archive", file));
     return inputs;
@@ -43,8 +47,7 @@ std::vector<InputFile> archive_files(const SurveyFile& survey, const record::Sta
 SurveySamples read_samples(const SurveyFile& survey, const record::StationCodes& codes,
                            const SurveyChannels& channels,
                            const std::vector<OccupationWindow>& windows) {
-    constexpr std::chrono::minutes kMargin(1);  // for the filters of the temperature
-    constexpr std::chrono::hours kBefore(8);    // what the slowest response to it remembers
+    constexpr std::chrono::hours kBefore(8);  // what the slowest response to it remembers
     const UtcTime from = windows.front().start - kMargin;
     const UtcTime to = windows.back().end + kMargin;
     SurveySamples samples;
@@ -83,6 +86,9 @@ std::vector<InputFile> inputs_of(const SurveyFile& survey, const std::filesystem
         std::sort(logs.begin(), logs.end());
         for (const auto& log : logs) inputs.push_back(describe_input("events", log));
     }
+    if (!survey.amendments.empty()) {
+        inputs.push_back(describe_input("amendments", survey.amendments));
+    }
     if (!survey.tide.series.empty()) inputs.push_back(describe_input("tide", survey.tide.series));
     const auto archive = archive_files(survey, codes, channels, windows);
     inputs.insert(inputs.end(), archive.begin(), archive.end());
@@ -99,6 +105,17 @@ std::optional<DayTemperature> temperature_of_day(const SurveySamples& samples,
     if (!grid) return std::nullopt;
     return day_temperature(TimeSeries<DegC>(grid->origin, Hertz(grid->rate_hz),
                                             place_on_grid(segments, channels.temperature, *grid)));
+}
+
+std::pair<OccupationList, std::vector<Amendment>> read_occupations(
+    const SurveyFile& survey, const std::vector<text::Site>& sites) {
+    const bool is_logged = survey.occupations.empty();
+    const auto origin = is_logged ? survey.root / "events" : survey.occupations;
+    OccupationList list =
+        is_logged ? read_logged_occupations(origin) : read_occupation_table(origin, sites);
+    std::vector<Amendment> amendments;
+    if (!survey.amendments.empty()) amendments = amend(list.windows, survey.amendments, sites);
+    return {leave_out_impossible(std::move(list), sites, origin), std::move(amendments)};
 }
 
 RepresentativeOptions options_of(const SurveyFile& survey) {
@@ -123,6 +140,7 @@ SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& valu
     row.time = value.interval_start + (value.interval_end - value.interval_start) / 2;
     row.is_flagged = window.is_flagged;
     row.given_tide = window.given_tide;
+    row.notes = window.notes;
     for (const OccupationFlag flag : value.flags) row.notes.emplace_back(flag_name(flag));
     row.acceleration = value.acceleration;
     row.temperature = temperature.mean;
@@ -152,11 +170,30 @@ SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& valu
     return row;
 }
 
+SurveyOptions with_sites_of(OccupationRows& read, SurveyOptions options) {
+    const auto is_absent = [&read](const std::string& site) {
+        return std::none_of(read.rows.begin(), read.rows.end(),
+                            [&site](const SurveyRow& row) { return row.site == site; });
+    };
+    if (!options.base.empty() && is_absent(options.base) && options.model != "paper") {
+        read.warnings.push_back("base " + options.base +
+                                " has no occupation with a value: the first site stands in");
+        options.base.clear();
+    }
+    auto& datum = options.datum;
+    if (std::all_of(datum.begin(), datum.end(), is_absent)) return options;
+    for (const std::string& site : datum) {
+        if (!is_absent(site)) continue;
+        read.warnings.push_back("datum " + site + " has no occupation with a value: left out");
+    }
+    std::erase_if(datum, is_absent);
+    return options;
+}
+
 OccupationRows average_occupations(const SurveyFile& survey, const Progress& progress) {
     const std::vector<text::Site> sites = text::read_sites(survey.sites);
-    const OccupationList list = survey.occupations.empty()
-                                    ? read_logged_occupations(survey.root / "events", sites)
-                                    : read_occupation_table(survey.occupations, sites);
+    const auto occupations = read_occupations(survey, sites);
+    const OccupationList& list = occupations.first;
     const std::filesystem::path metadata = survey.root / "metadata" / "station.xml";
     const record::StationMetadata station =
         record::read_station_xml(metadata, list.windows.front().start);
@@ -187,14 +224,16 @@ OccupationRows average_occupations(const SurveyFile& survey, const Progress& pro
     OccupationRows result;
     if (auto temperature = temperature_of_day(samples, channels, list.windows))
         result.day = DayRecord{std::move(*temperature), {}};
+    result.left_out = list.left_out;
     result.warnings = list.warnings;
+    result.amendments = occupations.second;
+    result.sites = sites;
     for (const record::ChannelData& axis : samples.axes) add_damage(result.warnings, axis);
     add_damage(result.warnings, samples.temperature);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const OccupationWindow& window = list.windows[i];
         if (!rows[i]) {
-            result.warnings.push_back(window.site + " (" + std::to_string(window.number) + ") at " +
-                                      to_rfc3339(window.start) + " is left out: " + troubles[i]);
+            leave_out(result.left_out, result.warnings, window, troubles[i]);
             continue;
         }
         rows[i]->reference = text::find_site(sites, window.site)->gravity;
@@ -208,6 +247,11 @@ OccupationRows average_occupations(const SurveyFile& survey, const Progress& pro
         throw InputError(survey.path.string() + ": root = " + survey.root.string() +
                          ": no occupation has samples; last: " + result.warnings.back() +
                          "; allowed: an archive of those hours");
+    }
+    std::stable_sort(result.left_out.begin(), result.left_out.end(),
+                     [](const LeftOut& a, const LeftOut& b) { return a.start < b.start; });
+    for (std::string& warning : position_warnings(result.rows, sites)) {
+        result.warnings.push_back(std::move(warning));
     }
     apply_tide(result.rows, sites, survey.tide);
 

@@ -7,6 +7,7 @@
 
 #include "corrector/day/day_record.hpp"
 #include "corrector/signal/representative_value.hpp"
+#include "corrector/survey/amendments.hpp"
 #include "corrector/survey/occupation_list.hpp"
 #include "corrector/survey/on_all_cores.hpp"
 #include "corrector/survey/result_files.hpp"
@@ -18,13 +19,21 @@ namespace a351::corrector {
 struct OccupationRows {
     std::vector<SurveyRow> rows;        ///< With tide and the rate within the interval; by time.
     std::optional<DayRecord> day;       ///< Set-ups numbered as the rows; absent: no temperature.
-    std::vector<std::string> warnings;  ///< Occupations without a value, and why.
-    std::vector<InputFile> inputs;      ///< Every file read.
+    std::vector<LeftOut> left_out;      ///< Occupations without a value, by start.
+    std::vector<std::string> warnings;  ///< What is doubtful or left out, and why.
+    std::vector<Amendment> amendments;
+    std::vector<text::Site> sites;
+    std::vector<InputFile> inputs;  ///< Every file read.
 };
 
 /// The representative value of a record as a row of the survey, reference and tide left open.
 /// @param value  with a temperature.
 [[nodiscard]] SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& value);
+
+/// The options without a base or datum stations that have no row, each with a warning; as they are
+/// where the result would be another: for `paper`, whose drift step needs the base, and when no datum
+/// station would be left.
+[[nodiscard]] SurveyOptions with_sites_of(OccupationRows& read, SurveyOptions options);
 
 /// Reads the record of a survey and averages every occupation, on all cores.  The result does not
 /// depend on their number.

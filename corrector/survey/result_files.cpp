@@ -1,5 +1,6 @@
 #include "corrector/survey/result_files.hpp"
 
+#include <algorithm>
 #include <boost/crc.hpp>
 #include <nlohmann/json.hpp>
 
@@ -128,8 +129,20 @@ std::string occupations_csv(const SurveyCorrection& result) {
     for (const SurveyRow::Detail& detail : result.rows.front().row.details) {
         csv += ',' + detail.name;
     }
+    const auto column_count = std::count(csv.begin(), csv.end(), ',') + 1;
     csv += '\n';
+    auto left_out = result.left_out.begin();
+    const auto add_left_out_before = [&](UtcTime time) {
+        for (; left_out != result.left_out.end() && left_out->start < time; ++left_out) {
+            CsvLine line;
+            line.text(left_out->site).text(std::to_string(left_out->occupation)).text("");
+            line.time(left_out->start).time(left_out->end).text("0").text(flag_of(*left_out));
+            for (auto column = column_count - 7; column > 0; --column) line.text("");
+            csv += line.end();
+        }
+    };
     for (const CorrectedRow& row : result.rows) {
+        add_left_out_before(row.row.time);
         CsvLine line;
         line.text(row.row.site).text(std::to_string(row.row.occupation)).time(row.row.time);
         line.time(row.row.start).time(row.row.end).text(row.is_used ? "1" : "0");
@@ -143,6 +156,7 @@ std::string occupations_csv(const SurveyCorrection& result) {
         for (const SurveyRow::Detail& detail : row.row.details) line.number(detail.value);
         csv += line.end();
     }
+    add_left_out_before(UtcTime::max());
     return csv;
 }
 
@@ -220,6 +234,14 @@ std::string result_json(const SurveyCorrection& result, const Json& settings,
     json["occupations"] = Json::array();
     for (const CorrectedRow& row : result.rows) {
         json["occupations"].push_back(row_json(row, result.options));
+    }
+    json["left_out"] = Json::array();
+    for (const LeftOut& occupation : result.left_out) {
+        json["left_out"].push_back({{"site", occupation.site},
+                                    {"occupation", occupation.occupation},
+                                    {"start_utc", to_rfc3339(occupation.start, 3)},
+                                    {"end_utc", to_rfc3339(occupation.end, 3)},
+                                    {"reason", occupation.reason}});
     }
     // A name of a site may be in any encoding; JSON is UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';

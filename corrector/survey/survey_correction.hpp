@@ -68,6 +68,7 @@ struct SurveyCorrection {
     std::string model;      ///< Applied; with `auto` the chosen one.
     std::vector<Coefficient> coefficients;
     std::vector<CorrectedRow> rows;
+    std::vector<LeftOut> left_out;  ///< By start; correct_survey() knows of none.
     std::vector<StationValue> stations;
     std::vector<ScoredRowSet> row_sets;      ///< used, all.
     ModelScore score;                        ///< Of `model` on the rows of the fit.

@@ -40,6 +40,7 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     survey.root = path_or(table, "root", beside / "data");
     survey.sites = path_or(table, "sites", beside / "sites.csv");
     survey.occupations = table.path_or_empty("occupations");
+    survey.amendments = table.path_or_empty("amendments");
     survey.survey.base = table.string_or("base", "");
     survey.survey.datum = table.strings("datum");
     survey.survey.model = table.choice_or("model", "auto", model_names());

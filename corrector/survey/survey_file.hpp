@@ -19,6 +19,7 @@ struct SurveyFile {
     std::filesystem::path root;         ///< Data root: archive/, metadata/, events/.
     std::filesystem::path sites;        ///< CSV of the benchmarks.
     std::filesystem::path occupations;  ///< CSV; empty: the event log of the root.
+    std::filesystem::path amendments;   ///< TOML for amend(); empty: none.
     SurveyOptions survey;
     TideChoice tide;
     std::optional<TrendCurve> curve;  ///< Absent: the signal's default.  `paper` has its own.

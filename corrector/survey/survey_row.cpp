@@ -126,4 +126,19 @@ void set_given_tide(std::vector<SurveyRow>& rows) {
     }
 }
 
+std::vector<std::string> position_warnings(const std::vector<SurveyRow>& rows,
+                                           const std::vector<text::Site>& sites) {
+    std::vector<std::string> warnings;
+    for (const SurveyRow& row : rows) {
+        const text::Site* const site = text::find_site(sites, row.site);
+        if (site == nullptr || site->is_placed) continue;
+        std::string warning = row.site;
+        warning += ": no position in the table of sites; the mean of the others is taken";
+        if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) {
+            warnings.push_back(std::move(warning));
+        }
+    }
+    return warnings;
+}
+
 }  // namespace a351::corrector

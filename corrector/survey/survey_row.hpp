@@ -36,6 +36,15 @@ struct SurveyRow {
     std::vector<Detail> details;
 };
 
+/// An occupation that has no row.
+struct LeftOut {
+    std::string site;
+    int occupation = 1;
+    UtcTime start;  ///< Of the stay, as it was given.
+    UtcTime end;
+    std::string reason;  ///< In a few words.
+};
+
 /// Reads `site,occupation[,outlier],time_utc|time_jst|time[,earth_tide_mgal],acceleration_mgal,
 /// temperature_degc` and brings the rows into the order of time.  A zone written in a cell counts;
 /// without one it is the column's, and `time` needs one.  `tide` stays zero, rates are set.
@@ -55,5 +64,9 @@ void set_tide(std::vector<SurveyRow>& rows, const std::vector<text::Site>& sites
 /// Takes the tide from the table read.
 /// @throws InputError  a row has none.
 void set_given_tide(std::vector<SurveyRow>& rows);
+
+/// A warning for every site of the rows whose position is not known.
+[[nodiscard]] std::vector<std::string> position_warnings(const std::vector<SurveyRow>& rows,
+                                                         const std::vector<text::Site>& sites);
 
 }  // namespace a351::corrector

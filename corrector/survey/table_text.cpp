@@ -18,7 +18,18 @@ std::string cell(const std::optional<Value>& value, int decimals) {
 std::string occupations_text(const SurveyCorrection& result) {
     std::vector<Cells> rows{{"site", "occ", "time UTC", "fit", "accel. mGal", "T degC", "degC/h",
                              "tide", "diff.", "corrected", "reference", "residual", "u", "flags"}};
+    auto left_out = result.left_out.begin();
+    const auto add_left_out_before = [&](UtcTime time) {
+        for (; left_out != result.left_out.end() && left_out->start < time; ++left_out) {
+            Cells& cells = rows.emplace_back(rows.front().size(), "-");
+            cells[0] = left_out->site;
+            cells[1] = std::to_string(left_out->occupation);
+            cells[2] = to_rfc3339(left_out->start);
+            cells.back() = flag_of(*left_out);
+        }
+    };
     for (const CorrectedRow& row : result.rows) {
+        add_left_out_before(row.row.time);
         rows.push_back({row.row.site, std::to_string(row.row.occupation), to_rfc3339(row.row.time),
                         row.is_used ? "yes" : "no", fixed(row.row.acceleration.value(), 3),
                         fixed(row.row.temperature.value(), 3), fixed(row.row.rate_degc_per_h, 3),
@@ -27,6 +38,7 @@ std::string occupations_text(const SurveyCorrection& result) {
                         cell(row.residual, 3), cell(row.u_corrected, 2),
                         flags_of(row, result.options)});
     }
+    add_left_out_before(UtcTime::max());
     return aligned(rows);
 }
 
@@ -107,6 +119,12 @@ std::string flags_of(const CorrectedRow& row, const SurveyOptions& options) {
         add("not-datum");
     }
     return flags;
+}
+
+std::string flag_of(const LeftOut& occupation) {
+    std::string flag = occupation.reason;
+    std::replace(flag.begin(), flag.end(), ' ', '-');
+    return flag;
 }
 
 bool is_selected(const SurveyCorrection& result, const ScoredRowSet& set, const ModelScore& score) {

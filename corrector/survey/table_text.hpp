@@ -11,6 +11,9 @@ namespace a351::corrector {
 /// Reasons why a row is doubtful or not in the fit, joined by ';'.
 [[nodiscard]] std::string flags_of(const CorrectedRow& row, const SurveyOptions& options);
 
+/// The reason as a flag.
+[[nodiscard]] std::string flag_of(const LeftOut& occupation);
+
 /// Whether this score is that of the applied model on the rows of its fit.
 [[nodiscard]] bool is_selected(const SurveyCorrection& result, const ScoredRowSet& set,
                                const ModelScore& score);

@@ -17,7 +17,8 @@ const std::string kHeader = "site,occupation,start_utc,end_utc,used,note\n";
 
 OccupationList read(const std::string& rows) {
     const ScratchFolder folder;
-    return read_occupation_table(folder.write("occupations.csv", kHeader + rows), kSites);
+    const auto file = folder.write("occupations.csv", kHeader + rows);
+    return leave_out_impossible(read_occupation_table(file, kSites), kSites, file);
 }
 
 }  // namespace
@@ -43,10 +44,8 @@ TEST_CASE("a bad table of occupations is refused with line, column and value",
         {"A,0,2020-01-01T00:00:00Z,2020-01-01T00:06:00Z,1,\n", "occupation = 0"},
         {"A,1,noon,2020-01-01T00:06:00Z,1,\n", "start_utc = noon"},
         {"A,1,2020-01-01T00:00:00Z,2020-01-01T00:06:00Z,yes,\n", "used = yes"},
-        {"A,1,2020-01-01T00:06:00Z,2020-01-01T00:06:00Z,1,\n", "ends before it starts"},
-        {"A,1,2020-01-01T00:00:00Z,2020-01-01T00:06:00Z,1,\n"
-         "B,1,2020-01-01T00:05:00Z,2020-01-01T00:09:00Z,1,\n",
-         "overlaps"},
+        {"A,1,2020-01-01T00:06:00Z,2020-01-01T00:06:00Z,1,\n",
+         "no occupation; A (1) at 2020-01-01T00:06:00Z is left out: ends before it starts"},
         {"", "no occupation"},
     }));
     CAPTURE(rows);
@@ -64,10 +63,43 @@ TEST_CASE("a slip in the field costs its own occupation and is named, not the da
                      "{\"type\":\"start\",\"utc\":\"2020-01-01T01:00:00Z\",\"site\":\"AA\"}\n"
                      "{\"type\":\"stop\",\"utc\":\"2020-01-01T01:10:00Z\"}\n"
                      "{\"type\":\"start\",\"utc\":\"2020-01-01T02:00:00Z\",\"site\":\"B\"}\n");
-    const auto list = read_logged_occupations(file.parent_path(), kSites);
+    const auto list =
+        leave_out_impossible(read_logged_occupations(file.parent_path()), kSites, file);
     REQUIRE(list.windows.size() == 1);
     CHECK(list.windows[0].site == "A");
     REQUIRE(list.warnings.size() == 2);
-    CHECK_THAT(list.warnings[0], Catch::Contains("site = AA, started 2020-01-01T01:00:00Z"));
-    CHECK_THAT(list.warnings[1], Catch::Contains("of B, has no stop"));
+    CHECK_THAT(list.warnings[0], Catch::Contains("of B, has no stop"));
+    CHECK(list.warnings[1] ==
+          "AA (1) at 2020-01-01T01:00:00Z is left out: not in the table of sites");
+    REQUIRE(list.left_out.size() == 1);
+    CHECK(list.left_out[0].site == "AA");
+}
+
+TEST_CASE("one end typed too late costs its own occupation, not those it overlaps",
+          "[survey][occupations]") {
+    const auto list = read(
+        "A,1,2020-01-01T00:00:00Z,2020-01-01T05:06:00Z,1,\n"
+        "B,1,2020-01-01T01:00:00Z,2020-01-01T01:06:00Z,1,\n"
+        "A,2,2020-01-01T02:00:00Z,2020-01-01T02:06:00Z,1,\n"
+        "B,2,2020-01-01T02:06:00Z,2020-01-01T02:12:00Z,1,\n");
+    CHECK(list.windows.size() == 3);
+    REQUIRE(list.warnings.size() == 1);
+    CHECK(list.warnings[0] ==
+          "A (1) at 2020-01-01T00:00:00Z is left out: overlaps another, "
+          "B (1) at 2020-01-01T01:00:00Z");
+}
+
+TEST_CASE("of two that overlap each other neither is trusted; swapped times cost one",
+          "[survey][occupations]") {
+    const auto list = read(
+        "A,1,2020-01-01T00:00:00Z,2020-01-01T00:06:00Z,1,\n"
+        "B,1,2020-01-01T00:05:00Z,2020-01-01T00:11:00Z,1,\n"
+        "A,2,2020-01-01T02:06:00Z,2020-01-01T02:00:00Z,1,\n"
+        "B,2,2020-01-01T03:00:00Z,2020-01-01T03:06:00Z,1,\n");
+    REQUIRE(list.windows.size() == 1);
+    CHECK(list.windows[0].number == 2);
+    REQUIRE(list.left_out.size() == 3);
+    CHECK(list.left_out[0].reason == "ends before it starts");
+    CHECK(list.left_out[1].reason == "overlaps another");
+    CHECK(list.left_out[2].site == "B");
 }
