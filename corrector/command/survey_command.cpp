@@ -11,6 +11,7 @@
 #include <set>
 
 #include "corrector/command/progress_bar.hpp"
+#include "corrector/survey/export_files.hpp"
 #include "corrector/survey/joint_table.hpp"
 #include "corrector/survey/occupation_rows.hpp"
 #include "corrector/survey/result_files.hpp"
@@ -107,6 +108,9 @@ Day correct_day(const SurveyFile& survey) {
     day.result = corrected(survey, read);
     day.amendments = amendments_text(read.amendments);
     day.files = result_files(day.result, settings_of(survey, day.result, read), read.inputs);
+    for (NamedText& file : export_files(day.result, read.sites)) {
+        day.files.push_back(std::move(file));
+    }
     for (const std::string& warning : read.warnings) {
         std::cerr << "a351-correct: " << survey.name << ": " << warning << '\n';
     }

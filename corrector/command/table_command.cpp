@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corrector/command/option_values.hpp"
+#include "corrector/survey/export_files.hpp"
 #include "corrector/survey/result_files.hpp"
 #include "corrector/survey/table_text.hpp"
 #include "corrector/survey/tide_choice.hpp"
@@ -51,7 +52,9 @@ void correct_table(TableOptions options) {
     std::vector<InputFile> inputs{describe_input("sites", options.sites),
                                   describe_input("observations", options.observations)};
     if (!tide.series.empty()) inputs.push_back(describe_input("tide", tide.series));
-    write_together(options.out, result_files(result, settings, inputs));
+    std::vector<NamedText> files = result_files(result, settings, inputs);
+    for (NamedText& file : export_files(result, sites)) files.push_back(std::move(file));
+    write_together(options.out, files);
     for (const std::string& warning : warnings) std::cerr << "a351-correct: " << warning << '\n';
     std::cout << survey_text(result) << "written to " << options.out << '\n';
 }
