@@ -78,10 +78,12 @@ TEST_CASE("amendments speak of the list as it was, so that two names can change 
           "[survey][amendments]") {
     auto windows = list();
     amended(windows,
-            "[[rename]]\nsite='A'\noccupation=2\nto='B'\nreason='r'\n"
+            "[[rename]]\nsite='A'\noccupation=1\nto='B'\nreason='r'\n"
             "[[rename]]\nsite='B'\noccupation=1\nto='A'\nreason='r'\n");
+    CHECK(windows[0].site == "B");
+    CHECK(windows[0].number == 2);
     CHECK(windows[2].site == "A");
-    CHECK(windows[3].site == "B");
+    CHECK(windows[2].number == 3);
 }
 
 TEST_CASE("a bad amendment is refused with line, key and value", "[survey][amendments]") {
