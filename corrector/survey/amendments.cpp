@@ -50,7 +50,8 @@ public:
     Amendment mark(text::TomlTable& table, const std::string& kind) {
         Amendment amendment = read(table, kind);
         for (const std::size_t i : matching(table, amendment, "use")) {
-            windows_[i].is_flagged = kind == "exclude";
+            if (kind == "exclude") windows_[i].is_excluded = true;
+            if (kind == "include") windows_[i].is_flagged = false;
             windows_[i].notes.push_back(kind + "d");
         }
         return amendment;

@@ -23,8 +23,8 @@ struct Amendment {
     std::string reason;
 };
 
-/// Carries out the amendments of a TOML file: arrays of tables [[exclude]] and [[include]] (used 0 and
-/// 1), [[retime]] (start_utc, end_utc or both) and [[rename]] (to), each with site, occupation, set_up
+/// Carries out the amendments of a TOML file: arrays of tables [[exclude]] (out of every fit) and
+/// [[include]] (used 1), [[retime]] (start_utc, end_utc or both) and [[rename]] (to), each with site, occupation, set_up
 /// (not of rename) and reason.  All speak of the occupations as they were in the list; a renamed stay
 /// keeps its number where the other site has none of it, else gets the next.  Every window changed
 /// has a note of it.

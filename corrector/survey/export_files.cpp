@@ -84,9 +84,11 @@ std::string gsadjust_csv(const SurveyCorrection& result, const std::vector<text:
         const std::string date =
             time.substr(5, 2) + '/' + time.substr(8, 2) + '/' + time.substr(0, 4);
         const MilliGal u = row.u_corrected.value_or(kUnknownScatter);
+        const bool is_kept_out =
+            row.row.is_excluded || (row.row.is_flagged && result.options.use_flags);
         const MilliGal gravity = row.corrected - row.drift_correction;
         for (const MilliGal value : {gravity - u, gravity + u}) {
-            if (row.row.is_flagged && result.options.use_flags) csv += "% ";
+            if (is_kept_out) csv += "% ";
             csv += gsadjust_name(row.row.site) + ',' + fixed(site->latitude.value(), 7) + ',' +
                    fixed(site->longitude.value(), 7) + ',' + fixed(site->altitude.value(), 3) +
                    ',' + fixed(value.value(), 6) + ',' + fixed(u.value(), 6) + ",0,0," +

@@ -18,7 +18,8 @@ namespace a351::corrector {
 
 /// The occupations as the CSV that GSadjust imports as "csv": tide, temperature and rate corrected,
 /// drift not, for that is what GSadjust estimates.  Each is two lines, value - u and value + u, for
-/// it takes a station's standard deviation from the scatter of its lines.  Flagged ones are comments.
+/// it takes a station's standard deviation from the scatter of its lines.  Excluded and flagged ones are
+/// comments.
 /// Source: GSadjust of the U.S. Geological Survey, 2022-01-18: gsadjust/file/read.py, read_csv(), for
 /// the columns; obstree/station.py, stdev(), and obstree/loop.py, populate(), for what becomes of them.
 [[nodiscard]] std::string gsadjust_csv(const SurveyCorrection& result,

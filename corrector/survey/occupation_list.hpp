@@ -19,6 +19,7 @@ struct OccupationWindow {
     UtcTime end;
     bool is_flagged = false;                  ///< Not to be used in the fit.
     std::optional<MilliGal> given_tide = {};  ///< Effect on gravity.
+    bool is_excluded = false;                 ///< By an amendment.
     std::vector<std::string> notes = {};      ///< What became of it on the way.
 };
 

@@ -139,6 +139,7 @@ SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& valu
     row.end = value.interval_end;
     row.time = value.interval_start + (value.interval_end - value.interval_start) / 2;
     row.is_flagged = window.is_flagged;
+    row.is_excluded = window.is_excluded;
     row.given_tide = window.given_tide;
     row.notes = window.notes;
     for (const OccupationFlag flag : value.flags) row.notes.emplace_back(flag_name(flag));

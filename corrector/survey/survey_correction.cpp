@@ -30,7 +30,7 @@ void require_row_of(const std::vector<SurveyRow>& rows, const std::string& site,
 
 /// Whether a row may enter a fit, flags aside.
 bool is_datum(const SurveyRow& row, const std::vector<std::string>& datum) {
-    return row.reference &&
+    return row.reference && !row.is_excluded &&
            (datum.empty() || std::find(datum.begin(), datum.end(), row.site) != datum.end());
 }
 
@@ -231,7 +231,7 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
     std::vector<bool> not_flagged, in_use, usable;
     for (const SurveyRow& row : rows) {
         usable.push_back(is_datum(row, options.datum));
-        not_flagged.push_back(!(options.use_flags && row.is_flagged));
+        not_flagged.push_back(!row.is_excluded && !(options.use_flags && row.is_flagged));
         in_use.push_back(usable.back() && not_flagged.back());
     }
     std::vector<bool> unflagged_usable;

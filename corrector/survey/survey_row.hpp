@@ -26,6 +26,7 @@ struct SurveyRow {
     std::optional<UtcTime> start;  ///< Limits of the averaging interval, where known.
     std::optional<UtcTime> end;
     bool is_flagged = false;         ///< Marked by the operator as not to be used.
+    bool is_excluded = false;        ///< By an amendment: in no fit, whatever becomes of flags.
     std::vector<std::string> notes;  ///< Reasons for doubt, e.g. "fallback".
     MilliGal acceleration;           ///< Mean, full value.
     DegC temperature;

@@ -43,8 +43,8 @@ TEST_CASE("amendments change the list of occupations, note it, and are told with
                 "[[include]]\nsite='B'\noccupation=1\nreason='was good'\n"
                 "[[retime]]\nsite='A'\noccupation=2\n"
                 "start_utc='2020-01-01T02:01:00Z'\nreason='started early'\n");
-    CHECK_FALSE(windows[0].is_flagged);
-    CHECK(windows[1].is_flagged);
+    CHECK_FALSE(windows[0].is_excluded);
+    CHECK(windows[1].is_excluded);
     CHECK(windows[1].notes == std::vector<std::string>{"excluded"});
     CHECK_FALSE(windows[2].is_flagged);
     CHECK(windows[3].start == at("02:01:00"));
@@ -67,7 +67,7 @@ TEST_CASE("an amendment without a set-up means the whole stay", "[survey][amendm
             "[[exclude]]\nsite='A'\noccupation=1\nreason='r'\n"
             "[[rename]]\nsite='A'\noccupation=1\nto='B'\nreason='r'\n");
     for (const std::size_t i : {0U, 1U}) {
-        CHECK(windows[i].is_flagged);
+        CHECK(windows[i].is_excluded);
         CHECK(windows[i].site == "B");
         CHECK(windows[i].number == 2);
         CHECK(windows[i].notes == std::vector<std::string>{"excluded", "renamed"});

@@ -137,7 +137,9 @@ TEST_CASE("an amendment mends swapped times without touching the data", "[degene
                            "[[retime]]\nsite='S1'\noccupation=1\nstart_utc='2020-05-01T23:54:20Z'\n"
                            "end_utc='2020-05-01T23:56:50Z'\nreason='swapped in the field book'\n"
                            "[[exclude]]\nsite='S2'\noccupation=1\nreason='a lorry'\n");
-    const Outcome outcome = correct(morning, "amendments='amendments.toml'\n");
+    const std::string flags = GENERATE("use", "ignore");
+    const Outcome outcome =
+        correct(morning, "amendments='amendments.toml'\nflags='" + flags + "'\n");
     CHECK(outcome.status == 0);
     CHECK_THAT(outcome.output, Catch::Contains("amended: exclude S2 (1): a lorry\n") &&
                                    Catch::Contains(": swapped in the field book\n"));
@@ -145,7 +147,7 @@ TEST_CASE("an amendment mends swapped times without touching the data", "[degene
     REQUIRE(table.row_count() == 4);
     check_value(table, 1);
     CHECK(table.cell(1, "flags") == "retimed");
-    CHECK(table.cell(2, "flags") == "outlier;excluded");
+    CHECK(table.cell(2, "flags") == "excluded");
     CHECK(table.cell(2, "used") == "0");
     CHECK(json_of(morning)["settings"]["amendments"][0]["reason"] == "a lorry");
     CHECK(json_of(morning)["inputs"][4]["role"] == "amendments");

@@ -76,6 +76,20 @@ TEST_CASE("a flagged row is out of the fit unless flags are ignored", "[survey]"
     }
 }
 
+TEST_CASE("an excluded row is in no fit and no mean, even where flags are ignored", "[survey]") {
+    auto rows = made_up::day();
+    rows[3].is_excluded = true;
+    rows[3].acceleration = rows[3].acceleration + MilliGal(50.0);
+    auto options = with_model("t-rate-drift");
+    options.use_flags = false;
+    const auto result = correct_survey(rows, options);
+    CHECK(result.row_sets[1].scores[4].row_count == 11);
+    CHECK(result.score.rms_mgal.value() < 1e-6);
+    for (const StationValue& station : result.stations) {
+        if (station.site == "S3") CHECK(std::abs(station.residual->value()) < 1e-6);
+    }
+}
+
 TEST_CASE("a station seen only in flagged rows has their mean, and says so", "[survey]") {
     auto rows = made_up::day();
     rows[1].is_flagged = true;
