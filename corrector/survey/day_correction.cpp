@@ -15,11 +15,24 @@ constexpr std::size_t kFewestRows = 6;    // fewer say little beside the priors
 constexpr double kLongestGap_s = 1800.0;  // less than the slow lag
 constexpr double kWantedLead_s = 7200.0;  // some slow lags
 
+std::size_t count_of(const std::vector<bool>& rows) {
+    return static_cast<std::size_t>(std::count(rows.begin(), rows.end(), true));
+}
+
+/// Rows of a fit.
+struct RowSet {
+    const std::vector<bool>& in_use;
+    bool use_flags;  ///< Flagged rows are not among them.
+
+    [[nodiscard]] bool stands_alone(const SurveyRow& row) const {
+        return row.is_excluded || (use_flags && row.is_flagged);
+    }
+};
+
 /// What the fit holds: the reference of rows in use, but for those of the station left out.
-/// Unknown: one value for each other station, and one for every flagged row.
-std::vector<DayStation> stations_of(const std::vector<CorrectedRow>& rows,
-                                    const std::vector<bool>& in_use,
-                                    const std::vector<bool>& usable, const std::string& left_out) {
+/// Unknown: one value for each other station, and one for every row that has no say.
+std::vector<DayStation> stations_of(const std::vector<CorrectedRow>& rows, const RowSet& set,
+                                    const std::string& left_out) {
     std::vector<DayStation> stations;
     std::map<std::string, std::size_t> unknowns;
     const auto number_of = [&](const std::string& name) {
@@ -28,13 +41,12 @@ std::vector<DayStation> stations_of(const std::vector<CorrectedRow>& rows,
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const SurveyRow& row = rows[i].row;
         DayStation station{row.tide, std::nullopt, 0};
-        if (in_use[i] && row.site != left_out) {
+        if (set.in_use[i] && row.site != left_out)
             station.gravity = row.reference;
-        } else if (usable[i] && !in_use[i]) {
-            station.unknown = number_of("flagged row " + std::to_string(i));
-        } else {
+        else if (set.stands_alone(row))
+            station.unknown = number_of("row " + std::to_string(i));
+        else
             station.unknown = number_of("station " + row.site);
-        }
         stations.push_back(station);
     }
     return stations;
@@ -55,16 +67,16 @@ struct DayFits {
     }
 };
 
-DayFits fit_with_and_without(const std::vector<CorrectedRow>& rows, const std::vector<bool>& in_use,
-                             const std::vector<bool>& usable, const DayRecord& day) {
+DayFits fit_with_and_without(const std::vector<CorrectedRow>& rows, const RowSet& set,
+                             const DayRecord& day) {
     DayFits fits;
-    fits.stations = stations_of(rows, in_use, usable, "");
+    fits.stations = stations_of(rows, set, "");
     for (std::size_t i = 0; i < rows.size(); ++i)
-        if (in_use[i] && !fits.number_of(rows[i].row.site))
+        if (set.in_use[i] && !fits.number_of(rows[i].row.site))
             fits.left_out.push_back(rows[i].row.site);
     if (fits.left_out.size() < 2) fits.left_out.clear();  // nothing would be held
     for (const std::string& site : fits.left_out)
-        fits.others.push_back(stations_of(rows, in_use, usable, site));
+        fits.others.push_back(stations_of(rows, set, site));
     fits.without.resize(fits.left_out.size());
     fits.fit = fit_day(day, fits.stations).value();
     on_all_cores(fits.left_out.size(), [&](std::size_t k) {
@@ -179,7 +191,7 @@ std::vector<StationValue> station_values(const std::vector<CorrectedRow>& rows) 
 std::optional<std::string> day_refusal(const std::vector<SurveyRow>& rows,
                                        const std::vector<bool>& in_use, const DayRecord* day) {
     if (day == nullptr) return "needs the record of the day's temperature";
-    const auto used = static_cast<std::size_t>(std::count(in_use.begin(), in_use.end(), true));
+    const std::size_t used = count_of(in_use);
     if (used < kFewestRows)
         return "needs at least " + std::to_string(kFewestRows) + " rows with a reference, has " +
                std::to_string(used);
@@ -199,15 +211,18 @@ std::optional<std::string> day_refusal(const std::vector<SurveyRow>& rows,
 void correct_by_day(SurveyCorrection& result, const DayRowSets& sets, const DayRecord& day) {
     result.model = "day";
     std::vector<CorrectedRow> rows = result.rows;
-    const std::vector<bool>& in_use = result.options.use_flags ? sets.used : sets.all;
-    const DayFits fits = fit_with_and_without(rows, in_use, sets.all, day);
+    const bool use_flags = result.options.use_flags;
+    const std::vector<bool>& in_use = use_flags ? sets.used : sets.all;
+    const DayFits fits = fit_with_and_without(rows, {in_use, use_flags}, day);
     result.score = score_of(rows, in_use, fits);
     for (ScoredRowSet& set : result.row_sets) {
-        const std::vector<bool>& others = set.rows == "used" ? sets.used : sets.all;
-        set.scores.push_back(
-            others == in_use
-                ? result.score
-                : score_of(rows, others, fit_with_and_without(rows, others, sets.all, day)));
+        const bool is_used = set.rows == "used";
+        const std::vector<bool>& others = is_used ? sets.used : sets.all;
+        if (others == in_use)
+            set.scores.push_back(result.score);
+        else if (count_of(others) >= kFewestRows)
+            set.scores.push_back(
+                score_of(rows, others, fit_with_and_without(rows, {others, is_used}, day)));
     }
     for (std::size_t i = 0; i < rows.size(); ++i) correct_row(result.rows[i], i, fits);
     result.coefficients = coefficients_of(fits.fit);
