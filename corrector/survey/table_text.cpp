@@ -82,7 +82,10 @@ std::string coefficients_text(const SurveyCorrection& result) {
 std::string summary_text(const SurveyCorrection& result) {
     const ModelScore& score = result.score;
     std::string text = "model " + result.model;
-    if (result.options.model == "auto") text += ", chosen by leave-one-station-out error";
+    if (result.options.model == "auto") {
+        text += result.model == "day" ? ", for there are records of the whole day"
+                                      : ", chosen by leave-one-station-out error";
+    }
     text += ": RMS " + cell(score.rms_mgal, 3) +
             " mGal (in sample, n = " + std::to_string(score.row_count) + ")";
     if (score.loo_mgal) text += ", " + fixed(*score.loo_mgal, 3) + " mGal (leave-one-out)";
