@@ -62,12 +62,16 @@ double standard_deviation(std::span<const double> values) {
     return std::sqrt(squares / static_cast<double>(values.size() - 1));
 }
 
+// Up to the largest double there is room for noise and for envelopes that overshoot.
+constexpr double kTooLarge = 1e300;
+
 /// Binary exponent that brings `signal` below 1: nothing then overflows or underflows on the way.
 int common_exponent(std::span<const double> signal) {
     double largest = 0.0;
     for (std::size_t i = 0; i < signal.size(); ++i) {
-        require(std::isfinite(signal[i]), "signal[" + std::to_string(i) + "] = " +
-                                              std::to_string(signal[i]) + ", must be finite");
+        require(std::abs(signal[i]) < kTooLarge,
+                "signal[" + std::to_string(i) + "] = " + std::to_string(signal[i]) +
+                    ", must be finite and below 1e300 in magnitude");
         largest = std::max(largest, std::abs(signal[i]));
     }
     int exponent = 0;

@@ -121,8 +121,8 @@ TEST_CASE("a record of a million samples decomposes") {
     CHECK(result.modes[0].mean_period_samples > 2.0);
 }
 
-TEST_CASE("a sample that is no number is refused with its index") {
-    for (const double bad : {kNan, kInfinity, -kInfinity}) {
+TEST_CASE("a sample that is no number, or too large for noise on top, is refused with its index") {
+    for (const double bad : {kNan, kInfinity, -kInfinity, -1.7e308}) {
         std::vector<double> signal = white_noise(32, 1);
         signal[17] = bad;
         CHECK_THROWS_AS(eemd(signal), std::invalid_argument);
