@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "corrector/command/option_values.hpp"
 #include "corrector/survey/export_files.hpp"
@@ -22,6 +23,7 @@ struct TableOptions {
     std::string flags = "use";
     std::string tide;  ///< Empty: given where the column exists, else direct.
     TideFactors factors;
+    std::vector<std::tuple<std::string, double, double>> priors;
     std::string out = "result";
 };
 
@@ -36,6 +38,9 @@ void correct_table(TableOptions options) {
         number_option("--delta3", options.factors.delta3, kLeastFactor, kGreatestFactor)};
     apply_tide(rows, sites, tide);
     options.survey.use_flags = options.flags == "use";
+    for (const auto& [name, mean, sd] : options.priors) {
+        set_prior(options.survey.priors, "--prior", name, {mean, sd});
+    }
     const SurveyCorrection result = correct_survey(rows, options.survey);
 
     nlohmann::ordered_json settings;
@@ -91,6 +96,8 @@ void add_table_command(CLI::App& program) {
                        "Station of the drift step (default: that of the first row)");
     command.add_option("--datum", options->survey.datum,
                        "Stations whose reference is held (default: all that have one)");
+    command.add_option("--prior", options->priors,
+                       "NAME MEAN SD: a coefficient known beforehand, by its name in result.json");
     command.add_option("--out", options->out, "Folder of the result")->capture_default_str();
     command.callback([options] { correct_table(*options); });
 }

@@ -19,18 +19,19 @@ double LinearFit::leverage_at(const Eigen::Ref<const Eigen::VectorXd>& x) const 
 }
 
 std::optional<double> LinearFit::residual_scale() const {
-    const Eigen::Index dof = row_count() - parameter_count();
-    if (dof <= 0) return std::nullopt;
-    return std::sqrt(rss / static_cast<double>(dof));
+    if (dof() <= 0) return std::nullopt;
+    return std::sqrt((rss + prior_rss) / static_cast<double>(dof()));
 }
 
 std::optional<LinearFit> fit_linear(const Eigen::Ref<const Eigen::MatrixXd>& columns,
-                                    const Eigen::Ref<const Eigen::VectorXd>& y) {
+                                    const Eigen::Ref<const Eigen::VectorXd>& y,
+                                    const SlopePriors& priors) {
     const Eigen::Index n = columns.rows();
     const Eigen::Index q = columns.cols();
-    if (n < q + 1) return std::nullopt;
-
     LinearFit fit;
+    fit.prior_count = (priors.weights.array() > 0.0).count();
+    if (n < 1 || n + fit.prior_count < q + 1) return std::nullopt;
+
     fit.column_means = columns.colwise().mean().transpose();
     fit.mean = y.mean();
     const Eigen::MatrixXd x = columns.rowwise() - fit.column_means.transpose();
@@ -41,7 +42,17 @@ std::optional<LinearFit> fit_linear(const Eigen::Ref<const Eigen::MatrixXd>& col
     Eigen::VectorXd slopes = Eigen::VectorXd::Zero(q);
     Eigen::MatrixXd slope_cofactor = Eigen::MatrixXd::Zero(q, q);
     if (q > 0) {
-        Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(x);
+        // The constant has no prior, so the priors' rows stand beside the centred ones.
+        Eigen::MatrixXd rows(n + fit.prior_count, q);
+        Eigen::VectorXd right(n + fit.prior_count);
+        rows.topRows(n) = x;
+        right.head(n) = centred_y;
+        for (Eigen::Index k = 0, row = n; k < q && row < rows.rows(); ++k) {
+            if (!(priors.weights(k) > 0.0)) continue;
+            rows.row(row) = priors.weights(k) * Eigen::RowVectorXd::Unit(q, k);
+            right(row++) = priors.weights(k) * priors.values(k);
+        }
+        Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows);
         // Columns are centred to about 1e-16 of their values; what is left of a constant one is noise.
         const double noise =
             1e-12 * (1.0 + columns.cwiseAbs().maxCoeff()) * std::sqrt(static_cast<double>(n));
@@ -49,7 +60,8 @@ std::optional<LinearFit> fit_linear(const Eigen::Ref<const Eigen::MatrixXd>& col
             if (!(std::abs(qr.matrixR()(k, k)) > noise)) return std::nullopt;
         }
         if (qr.rank() < q) return std::nullopt;
-        slopes = qr.solve(centred_y);
+        slopes = qr.solve(right);
+        fit.prior_rss = (right - rows * slopes).tail(fit.prior_count).squaredNorm();
         // X = Q R P^T, so (X^T X)^-1 = P R^-1 R^-T P^T.
         const Eigen::MatrixXd inverse_r =
             qr.matrixR().topLeftCorner(q, q).template triangularView<Eigen::Upper>().solve(

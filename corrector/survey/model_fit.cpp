@@ -38,14 +38,14 @@ using ModelOf = std::function<const LinearModel*(const std::vector<SurveyRow>&)>
 
 /// Leave-one-station-out error of the model that `model_of` takes from the remaining rows.
 std::optional<double> left_out_stations_mgal(const ModelOf& model_of,
-                                             const std::vector<SurveyRow>& rows, UtcTime origin) {
+                                             const std::vector<SurveyRow>& rows, UtcTime origin,
+                                             const ModelPriors& priors) {
     double sum = 0.0;
     for (const std::string& station : stations_of(rows)) {
         const std::vector<SurveyRow> others = without_station(rows, station);
         const LinearModel* const model = model_of(others);
         if (model == nullptr) return std::nullopt;
-        const auto fit =
-            fit_linear(model_columns(*model, others, origin), as_vector(differences_mgal(others)));
+        const auto fit = fit_model(*model, others, origin, priors);
         if (!fit) return std::nullopt;
         const Eigen::MatrixXd columns = model_columns(*model, rows, origin);
         const std::vector<double> differences = differences_mgal(rows);
@@ -132,14 +132,36 @@ Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<Survey
     return columns;
 }
 
+std::vector<std::string> coefficient_names(const LinearModel& model) {
+    std::vector<std::string> names{"constant_mgal", "temperature_mgal_per_degc"};
+    if (model.has_rate) names.emplace_back("rate_mgal_per_degc_per_h");
+    if (model.has_time) names.emplace_back("time_mgal_per_h");
+    return names;
+}
+
+std::optional<LinearFit> fit_model(const LinearModel& model, const std::vector<SurveyRow>& rows,
+                                   UtcTime origin, const ModelPriors& priors) {
+    if (rows.empty()) return std::nullopt;
+    const std::vector<std::string> names = coefficient_names(model);
+    const auto slope_count = static_cast<Eigen::Index>(names.size()) - 1;
+    SlopePriors slopes{Eigen::VectorXd::Zero(slope_count), Eigen::VectorXd::Zero(slope_count)};
+    for (Eigen::Index k = 0; k < slope_count; ++k) {
+        const Prior* const prior = priors.find(names[static_cast<std::size_t>(k) + 1]);
+        if (prior == nullptr) continue;
+        slopes.values(k) = prior->mean;
+        slopes.weights(k) = priors.reading_sd_mgal / prior->sd;
+    }
+    return fit_linear(model_columns(model, rows, origin), as_vector(differences_mgal(rows)),
+                      slopes);
+}
+
 ModelScore score_linear_model(const LinearModel& model, const std::vector<SurveyRow>& rows,
-                              UtcTime origin) {
+                              UtcTime origin, const ModelPriors& priors) {
     ModelScore score;
     score.model = model.name;
     score.row_count = rows.size();
     score.parameter_count = model.parameter_count();
-    const auto fit =
-        fit_linear(model_columns(model, rows, origin), as_vector(differences_mgal(rows)));
+    const auto fit = fit_model(model, rows, origin, priors);
     if (!fit) return score;
 
     const auto n = static_cast<double>(score.row_count);
@@ -151,11 +173,11 @@ ModelScore score_linear_model(const LinearModel& model, const std::vector<Survey
         score.loo_mgal = std::sqrt(left_out.square().sum() / n);
         if (!std::isfinite(*score.loo_mgal)) score.loo_mgal.reset();
     }
-    if (n - k - 1.0 > 0.0 && fit->rss > 0.0) {
+    if (n - k - 1.0 > 0.0 && fit->rss > 0.0 && fit->prior_count == 0) {
         score.aicc = n * std::log(fit->rss / n) + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
     }
     score.loso_mgal =
-        left_out_stations_mgal([&model](const auto&) { return &model; }, rows, origin);
+        left_out_stations_mgal([&model](const auto&) { return &model; }, rows, origin, priors);
     return score;
 }
 
@@ -185,11 +207,11 @@ ModelScore score_paper_model(const std::vector<SurveyRow>& rows, const std::vect
 }
 
 std::optional<ModelChoice> choose_model(const std::vector<SurveyRow>& rows, UtcTime origin,
-                                        std::string_view base) {
+                                        std::string_view base, const ModelPriors& priors) {
     std::vector<ModelScore> scores;
     for (const LinearModel& model : kLinearModels) {
         if (!takes_part(model, rows, base)) continue;
-        ModelScore score = score_linear_model(model, rows, origin);
+        ModelScore score = score_linear_model(model, rows, origin, priors);
         if (score.loso_mgal && score.row_count > score.parameter_count) scores.push_back(score);
     }
     if (scores.empty()) return std::nullopt;
@@ -210,12 +232,12 @@ std::optional<ModelChoice> choose_model(const std::vector<SurveyRow>& rows, UtcT
 }
 
 std::optional<double> choice_loso_mgal(const std::vector<SurveyRow>& rows, UtcTime origin,
-                                       std::string_view base) {
+                                       std::string_view base, const ModelPriors& priors) {
     const ModelOf chosen = [&](const std::vector<SurveyRow>& others) -> const LinearModel* {
-        const auto choice = choose_model(others, origin, base);
+        const auto choice = choose_model(others, origin, base, priors);
         return choice ? find_linear_model(choice->model) : nullptr;
     };
-    return left_out_stations_mgal(chosen, rows, origin);
+    return left_out_stations_mgal(chosen, rows, origin, priors);
 }
 
 }  // namespace a351::corrector

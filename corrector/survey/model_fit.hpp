@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "corrector/survey/linear_fit.hpp"
+#include "corrector/survey/prior.hpp"
 #include "corrector/survey/survey_row.hpp"
 
 namespace a351::corrector {
@@ -47,6 +48,15 @@ inline constexpr std::array<LinearModel, 4> kLinearModels{{
 [[nodiscard]] Eigen::MatrixXd model_columns(const LinearModel& model,
                                             const std::vector<SurveyRow>& rows, UtcTime origin);
 
+/// Names of the coefficients with their units: the constant, then one per column.
+[[nodiscard]] std::vector<std::string> coefficient_names(const LinearModel& model);
+
+/// @param rows  each with a reference.
+/// @return std::nullopt when they and the priors do not determine the model.
+[[nodiscard]] std::optional<LinearFit> fit_model(const LinearModel& model,
+                                                 const std::vector<SurveyRow>& rows, UtcTime origin,
+                                                 const ModelPriors& priors = {});
+
 /// Root mean square errors in mGal.  Absent: not defined for so few rows, or for this model.
 struct ModelScore {
     std::string model;
@@ -56,13 +66,16 @@ struct ModelScore {
     std::optional<double> s_mgal;     ///< In sample, divisor n - p.
     std::optional<double> loo_mgal;   ///< Each row predicted without it.
     std::optional<double> loso_mgal;  ///< Each row predicted without the rows of its station.
-    std::optional<double> aicc;       ///< n ln(rss/n) + 2K + 2K(K+1)/(n-K-1), K = p + 1.
+    /// n ln(rss/n) + 2K + 2K(K+1)/(n-K-1), K = p + 1.  Not for a model with a prior, where p would
+    /// count too much.
+    std::optional<double> aicc;
     std::optional<double> rms_before_drift_mgal;  ///< `paper` only: of Error (1).
 };
 
 /// @param rows  those of the fit, each with a reference.
 [[nodiscard]] ModelScore score_linear_model(const LinearModel& model,
-                                            const std::vector<SurveyRow>& rows, UtcTime origin);
+                                            const std::vector<SurveyRow>& rows, UtcTime origin,
+                                            const ModelPriors& priors = {});
 
 /// The publication's chain, line from the rows in use, ends of the drift from all of the base.
 /// Without LOSO (the base cannot be left out) and AICc (it is not a least-squares fit).  LOO takes
@@ -80,10 +93,12 @@ struct ModelChoice {
     double limit_mgal = 0.0;  ///< Best LOSO plus one standard error.
 };
 [[nodiscard]] std::optional<ModelChoice> choose_model(const std::vector<SurveyRow>& rows,
-                                                      UtcTime origin, std::string_view base);
+                                                      UtcTime origin, std::string_view base,
+                                                      const ModelPriors& priors = {});
 
 /// LOSO of the procedure: the choice repeated without each station.
 [[nodiscard]] std::optional<double> choice_loso_mgal(const std::vector<SurveyRow>& rows,
-                                                     UtcTime origin, std::string_view base);
+                                                     UtcTime origin, std::string_view base,
+                                                     const ModelPriors& priors = {});
 
 }  // namespace a351::corrector

@@ -98,6 +98,16 @@ Json row_json(const CorrectedRow& row, const SurveyOptions& options) {
     return json;
 }
 
+Json priors_json(const SurveyCorrection& result) {
+    Json json{{"reading_sd_mgal", result.options.priors.reading_sd_mgal}};
+    for (const std::string_view name : kPriorNames) {
+        if (const Prior* const prior = result.options.priors.find(name)) {
+            json[std::string(name)] = {{"mean", prior->mean}, {"sd", prior->sd}};
+        }
+    }
+    return json;
+}
+
 Json station_json(const StationValue& station) {
     Json json;
     json["site"] = station.site;
@@ -208,6 +218,7 @@ std::string result_json(const SurveyCorrection& result, const Json& settings,
     json["base"] = result.options.base;
     json["reference_temperature_degc"] = kReferenceTemperature.value();
     json["reference_time_h_after_first_row"] = kReferenceTime_h;
+    json["priors"] = priors_json(result);
     json["coefficients"] = Json::array();
     for (const Coefficient& c : result.coefficients) {
         json["coefficients"].push_back(

@@ -44,11 +44,11 @@ std::vector<SurveyRow> chosen_rows(const std::vector<SurveyRow>& rows,
 }
 
 ScoredRowSet score_all_models(const std::string& name, const std::vector<SurveyRow>& rows,
-                              const std::vector<bool>& in_use, const std::string& base) {
-    ScoredRowSet set{name, {score_paper_model(rows, in_use, base)}};
+                              const std::vector<bool>& in_use, const SurveyOptions& options) {
+    ScoredRowSet set{name, {score_paper_model(rows, in_use, options.base)}};
     const std::vector<SurveyRow> used = chosen_rows(rows, in_use);
     for (const LinearModel& model : kLinearModels) {
-        set.scores.push_back(score_linear_model(model, used, rows.front().time));
+        set.scores.push_back(score_linear_model(model, used, rows.front().time, options.priors));
     }
     return set;
 }
@@ -60,11 +60,8 @@ struct Applied {
 };
 
 Applied apply_model(const LinearModel& model, const std::vector<SurveyRow>& rows,
-                    const std::vector<SurveyRow>& used, UtcTime origin) {
-    std::vector<double> differences = differences_mgal(used);
-    const Eigen::Map<const Eigen::VectorXd> y(differences.data(),
-                                              static_cast<Eigen::Index>(differences.size()));
-    auto fit = fit_linear(model_columns(model, used, origin), y);
+                    const std::vector<SurveyRow>& used, UtcTime origin, const ModelPriors& priors) {
+    auto fit = fit_model(model, used, origin, priors);
     if (!fit) {
         throw InputError("model = " + std::string(model.name) + ": " + std::to_string(used.size()) +
                          " rows with a reference do not determine it; allowed: at least " +
@@ -83,14 +80,15 @@ void set_uncertainty(CorrectedRow& out, const LinearFit& fit, std::optional<doub
 
 /// Residual / its standard deviation with s from the other rows only (Draper and Smith, 8.1).
 std::optional<double> studentised(const CorrectedRow& row, const LinearFit& fit) {
-    const Eigen::Index dof = fit.row_count() - fit.parameter_count() - 1;
+    const Eigen::Index dof = fit.dof() - 1;
+    const double rss = fit.rss + fit.prior_rss;
     if (!row.residual || dof <= 0) return std::nullopt;
     const double residual = row.residual->value(), leverage = row.leverage.value();
-    double variance = fit.rss / static_cast<double>(dof + 1) * (1.0 + leverage);
+    double variance = rss / static_cast<double>(dof + 1) * (1.0 + leverage);
     if (row.is_used) {
         if (leverage > 1.0 - 1e-9) return std::nullopt;
         const double own = residual * residual / (1.0 - leverage);
-        variance = (fit.rss - own) / static_cast<double>(dof) * (1.0 - leverage);
+        variance = (rss - own) / static_cast<double>(dof) * (1.0 - leverage);
     }
     if (!(variance > 0.0)) return std::nullopt;
     return residual / std::sqrt(variance);
@@ -115,9 +113,7 @@ void correct_linear(SurveyCorrection& result, const LinearModel& model, const Ap
         set_uncertainty(out, fit, s, x);
         out.studentised_residual = studentised(out, fit);
     }
-    std::vector<std::string> names{"constant_mgal", "temperature_mgal_per_degc"};
-    if (model.has_rate) names.emplace_back("rate_mgal_per_degc_per_h");
-    if (model.has_time) names.emplace_back("time_mgal_per_h");
+    const std::vector<std::string> names = coefficient_names(model);
     for (std::size_t k = 0; k < names.size(); ++k) {
         const auto at = static_cast<Eigen::Index>(k);
         std::optional<double> error;
@@ -246,9 +242,10 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
         result.rows.push_back(std::move(out));
     }
     const std::string& base = result.options.base;
+    const ModelPriors& priors = result.options.priors;
     result.row_sets = {
-        score_all_models("used", rows, unflagged_usable, base),
-        score_all_models("all", rows, usable, base),
+        score_all_models("used", rows, unflagged_usable, result.options),
+        score_all_models("all", rows, usable, result.options),
     };
 
     const std::vector<SurveyRow> used = chosen_rows(rows, in_use);
@@ -262,15 +259,17 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
         return result;
     }
     if (options.model == "auto") {
-        result.choice = choose_model(used, origin, base);
-        result.choice_loso_mgal = choice_loso_mgal(used, origin, base);
+        result.choice = choose_model(used, origin, base, priors);
+        result.choice_loso_mgal = choice_loso_mgal(used, origin, base, priors);
         // Too few stations to compare models: the simplest one, or its refusal.
         result.model = result.choice ? result.choice->model : "t";
     }
     const LinearModel* const model = find_linear_model(result.model);
-    const Applied applied =
-        apply_model(model != nullptr ? *model : kLinearModels.front(), rows, used, origin);
-    result.score = model != nullptr ? score_linear_model(*model, used, origin)
+    // The line of `paper` is the publication's, without priors.
+    const Applied applied = model != nullptr
+                                ? apply_model(*model, rows, used, origin, priors)
+                                : apply_model(kLinearModels.front(), rows, used, origin, {});
+    result.score = model != nullptr ? score_linear_model(*model, used, origin, priors)
                                     : score_paper_model(rows, in_use, base);
     if (model != nullptr) {
         correct_linear(result, *model, applied);

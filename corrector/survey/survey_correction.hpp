@@ -22,6 +22,7 @@ struct SurveyOptions {
     std::vector<std::string>
         datum;              ///< Stations whose reference is held; empty: all that have one.
     bool use_flags = true;  ///< Flagged rows stay out of the fit.
+    ModelPriors priors;     ///< Of the linear models and the network; `paper` has none.
 };
 
 /// One row and what became of it.  corrected = acceleration - tide + the three corrections; the

@@ -74,6 +74,10 @@ std::string coefficients_text(const SurveyCorrection& result) {
     for (const Coefficient& c : result.coefficients) {
         text += "  " + c.name + " = " + fixed(c.value, 4);
         if (c.standard_error) text += " +- " + fixed(*c.standard_error, 4);
+        if (const Prior* const prior = result.options.priors.find(c.name);
+            prior != nullptr && result.model != "paper") {
+            text += " (prior " + fixed(prior->mean, 4) + " +- " + fixed(prior->sd, 4) + ')';
+        }
         text += '\n';
     }
     return text;

@@ -22,8 +22,9 @@ Approx within(double value, double margin = 0.0005) {
     return Approx(value).margin(margin).epsilon(0);
 }
 
-SurveyCorrection correct(const std::string& model, bool use_flags) {
+SurveyCorrection correct(const std::string& model, bool use_flags, const ModelPriors& priors = {}) {
     SurveyOptions options;
+    options.priors = priors;
     options.model = model;
     options.base = "No.0";
     options.use_flags = use_flags;
@@ -113,6 +114,22 @@ TEST_CASE("choosing a model on the 16 rows costs: its own error is 2.3 to 2.7 mG
     const double loso = correct("auto", true).choice_loso_mgal.value();
     CHECK(loso >= 2.2);
     CHECK(loso <= 2.75);
+}
+
+TEST_CASE("the rate coefficient of an indoor record, held, lowers the leave-one-out error",
+          "[golden][tsukuba]") {
+    // 11.2 mGal/(degC/h) is not from these rows: 2.27 becomes 1.93, and 4.48 becomes 3.16.
+    ModelPriors held;
+    set_prior(held, "test", "rate_mgal_per_degc_per_h", {11.2, 1e-4});
+    const SurveyCorrection with_time = correct("t-rate-drift", true, held);
+    CHECK(with_time.score.loo_mgal.value() == within(1.93, 0.005));
+    CHECK(coefficient(with_time, "rate_mgal_per_degc_per_h").value == within(11.2, 1e-4));
+    CHECK_FALSE(with_time.score.aicc.has_value());
+    CHECK(correct("t-rate", false, held).score.loo_mgal.value() == within(3.16, 0.005));
+    // A wide prior changes nothing.
+    ModelPriors wide;
+    set_prior(wide, "test", "rate_mgal_per_degc_per_h", {0.0, 1e5});
+    CHECK(correct("t-rate-drift", true, wide).score.loo_mgal.value() == within(2.0817));
 }
 
 TEST_CASE("No.2 (1) alone is significant on 19 rows with the temperature line",

@@ -76,3 +76,31 @@ TEST_CASE("what the rows do not determine is not fitted", "[survey][linear_fit]"
     CHECK(fit_linear(kX.head(2), kY.head(2)).has_value());
     CHECK_FALSE(fit_linear(kX.head(2), kY.head(2)).value().residual_scale().has_value());
 }
+
+TEST_CASE("a prior on a slope is one more row of the system", "[survey][linear_fit]") {
+    // By hand for a line: b = (Sxy + w^2 m) / (Sxx + w^2), and the mean stays free.
+    const double sxx = (kX.array() - kX.mean()).square().sum();
+    const double sxy = ((kX.array() - kX.mean()) * (kY.array() - kY.mean())).sum();
+    const double w = 0.7;
+    const SlopePriors prior{Eigen::VectorXd::Constant(1, 1.0), Eigen::VectorXd::Constant(1, w)};
+    const auto fit = fit_linear(kX, kY, prior).value();
+    const double slope = (sxy + w * w) / (sxx + w * w);
+    CHECK(fit.coefficients(1) == Approx(slope));
+    CHECK(fit.coefficients(0) == Approx(kY.mean() - slope * kX.mean()));
+    CHECK(fit.cofactor(1, 1) == Approx(1.0 / (sxx + w * w)));
+    CHECK(fit.prior_rss == Approx(w * w * (slope - 1.0) * (slope - 1.0)));
+    CHECK(fit.dof() == 5);
+    CHECK(fit.residual_scale().value() == Approx(std::sqrt((fit.rss + fit.prior_rss) / 5.0)));
+    const auto without_first = fit_linear(kX.tail(5), kY.tail(5), prior).value();
+    CHECK(fit.residuals(0) / (1.0 - fit.leverages(0)) ==
+          Approx(kY(0) - without_first.at(kX.head(1))));
+}
+
+TEST_CASE("a prior determines what the rows do not", "[survey][linear_fit]") {
+    const Eigen::VectorXd constant = Eigen::VectorXd::Constant(6, 42.5);
+    const SlopePriors prior{Eigen::VectorXd::Constant(1, -30.0), Eigen::VectorXd::Constant(1, 0.4)};
+    CHECK_FALSE(fit_linear(constant, kY).has_value());
+    const auto fit = fit_linear(constant, kY, prior).value();
+    CHECK(fit.coefficients(1) == Approx(-30.0));
+    CHECK(fit.at(constant.head(1)) == Approx(kY.mean()));
+}

@@ -68,6 +68,18 @@ TEST_CASE("every key of a survey file is read", "[survey][survey_file]") {
     CHECK(survey.norm == NormOrder::as_published);
 }
 
+TEST_CASE("priors are read with mean and standard deviation", "[survey][survey_file]") {
+    const Desk desk;
+    const ModelPriors priors =
+        desk.read("[survey]\nreading_sd_mgal=1.5\n[prior]\nrate_mgal_per_degc_per_h=[10,6]\n")
+            .survey.priors;
+    REQUIRE(priors.find("rate_mgal_per_degc_per_h") != nullptr);
+    CHECK(priors.find("rate_mgal_per_degc_per_h")->mean == 10.0);
+    CHECK(priors.find("rate_mgal_per_degc_per_h")->sd == 6.0);
+    CHECK(priors.find("time_mgal_per_h") == nullptr);
+    CHECK(priors.reading_sd_mgal == 1.5);
+}
+
 TEST_CASE("the model paper has the publication's trend and curve whatever is asked for",
           "[survey][survey_file]") {
     const Desk desk;
@@ -104,6 +116,12 @@ TEST_CASE("a bad survey file is refused with line, key and value", "[survey][sur
         {"[survey]\ntrend='spline'\n", "allowed: eemd, smoother"},
         {"[survey]\nseed=-1\n", "survey.seed = -1"},
         {"[survey]\nname=''\n", "survey.name"},
+        {"[survey]\nreading_sd_mgal=0\n", "survey.reading_sd_mgal = 0"},
+        {"[survey]\n[prior]\nbeta=[1,2]\n",
+         ":3: prior.beta = [ 1, 2 ]: unknown key; allowed: rate_mgal_per_degc_per_h, temperature_"},
+        {"[survey]\n[prior]\ntime_mgal_per_h=[0]\n", "1 numbers; allowed: [mean, sd]"},
+        {"[survey]\n[prior]\ntime_mgal_per_h=[0,0]\n", "out of range; allowed: mean from -"},
+        {"[survey]\n[prior]\ntime_mgal_per_h=1\n", "prior.time_mgal_per_h = 1: wrong type"},
         {"[survey]\nsites='none.csv'\n", "none.csv: cannot be read"},
     }));
     CAPTURE(toml);
