@@ -41,6 +41,10 @@ void correct_table(TableOptions options) {
     for (const auto& [name, mean, sd] : options.priors) {
         set_prior(options.survey.priors, "--prior", name, {mean, sd});
     }
+    number_option("--datum-sd", options.survey.network.datum_sd_mgal, kLeastSd_mgal,
+                  kGreatestSd_mgal);
+    number_option("--reading-sd", options.survey.priors.reading_sd_mgal, kLeastSd_mgal,
+                  kGreatestSd_mgal);
     const SurveyCorrection result = correct_survey(rows, options.survey);
 
     nlohmann::ordered_json settings;
@@ -98,6 +102,19 @@ void add_table_command(CLI::App& program) {
                        "Stations whose reference is held (default: all that have one)");
     command.add_option("--prior", options->priors,
                        "NAME MEAN SD: a coefficient known beforehand, by its name in result.json");
+    command
+        .add_option("--datum-sd", options->survey.network.datum_sd_mgal,
+                    "network: standard deviation of a held reference, mGal")
+        ->capture_default_str();
+    command
+        .add_option("--reading-sd", options->survey.priors.reading_sd_mgal,
+                    "Standard deviation of a reading, mGal: its weight against priors and datum")
+        ->capture_default_str();
+    command
+        .add_option("--drift-degree", options->survey.network.drift_degree,
+                    "network: drift as a polynomial of this degree in time, 0 to 2")
+        ->check(CLI::Range(0, 2))
+        ->capture_default_str();
     command.add_option("--out", options->out, "Folder of the result")->capture_default_str();
     command.callback([options] { correct_table(*options); });
 }

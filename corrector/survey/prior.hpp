@@ -27,6 +27,11 @@ inline constexpr double kGreatestPrior = 1e6;
 inline constexpr std::array<std::string_view, 3> kPriorNames{
     "temperature_mgal_per_degc", "rate_mgal_per_degc_per_h", "time_mgal_per_h"};
 
+/// Of standard deviations of readings and references: from the resolution of the tables to a
+/// scatter that makes them worthless.
+inline constexpr double kLeastSd_mgal = 0.001;
+inline constexpr double kGreatestSd_mgal = 1000.0;
+
 struct ModelPriors {
     std::array<std::optional<Prior>, kPriorNames.size()> values;  ///< As kPriorNames.
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corrector/survey/aligned_text.hpp"
+#include "corrector/survey/network_report.hpp"
 #include "corrector/survey/table_text.hpp"
 #include "protocol/text/text_file.hpp"
 
@@ -118,6 +119,7 @@ Json station_json(const StationValue& station) {
     json["residual_mgal"] = json_of(station.residual);
     json["redundancy"] = json_of(station.redundancy);
     json["flagged_only"] = station.is_flagged_only;
+    json["u_a_posteriori_mgal"] = json_of(station.u_a_posteriori);
     return json;
 }
 
@@ -173,12 +175,13 @@ std::string occupations_csv(const SurveyCorrection& result) {
 std::string stations_csv(const SurveyCorrection& result) {
     std::string csv =
         "site,n,gravity_mgal,u_gravity_mgal,reference_mgal,residual_mgal,redundancy,"
-        "flagged_only\n";
+        "flagged_only,u_a_posteriori_mgal\n";
     for (const StationValue& station : result.stations) {
         CsvLine line;
         line.text(station.site).count(station.row_count).number(station.gravity);
         line.number(station.u_gravity).number(station.reference).number(station.residual);
         line.number(station.redundancy).text(station.is_flagged_only ? "1" : "0");
+        line.number(station.u_a_posteriori);
         csv += line.end();
     }
     return csv;
@@ -232,6 +235,8 @@ std::string result_json(const SurveyCorrection& result, const Json& settings,
                                {"loso_mgal", json_of(result.score.loso_mgal)},
                                {"choice_loso_mgal", json_of(result.choice_loso_mgal)}};
     json["choice_limit_mgal"] = result.choice ? Json(result.choice->limit_mgal) : Json(nullptr);
+    json["network"] = network_json(result);
+    json["remarks"] = result.remarks;
     json["models"] = Json::array();
     for (const ScoredRowSet& set : result.row_sets) {
         for (const ModelScore& score : set.scores) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "corrector/survey/day_correction.hpp"
+#include "corrector/survey/network_correction.hpp"
 #include "corrector/survey/paper_correction.hpp"
 #include "protocol/core/input_error.hpp"
 
@@ -205,6 +206,7 @@ const std::vector<std::string>& model_names() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> list{"auto", "paper", "day"};
         for (const LinearModel& model : kLinearModels) list.emplace_back(model.name);
+        list.emplace_back("network");
         return list;
     }();
     return names;
@@ -247,6 +249,11 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
         score_all_models("used", rows, unflagged_usable, result.options),
         score_all_models("all", rows, usable, result.options),
     };
+
+    if (options.model == "network") {
+        correct_network(result, rows, not_flagged);
+        return result;
+    }
 
     const std::vector<SurveyRow> used = chosen_rows(rows, in_use);
     result.model = options.model;

@@ -9,11 +9,12 @@
 
 #include "corrector/day/day_record.hpp"
 #include "corrector/survey/model_fit.hpp"
+#include "corrector/survey/network.hpp"
 #include "corrector/survey/survey_row.hpp"
 
 namespace a351::corrector {
 
-/// Names for SurveyOptions::model: auto, paper, day and those of kLinearModels.
+/// Names for SurveyOptions::model: auto, paper, day, those of kLinearModels, network.
 [[nodiscard]] const std::vector<std::string>& model_names();
 
 struct SurveyOptions {
@@ -22,7 +23,8 @@ struct SurveyOptions {
     std::vector<std::string>
         datum;              ///< Stations whose reference is held; empty: all that have one.
     bool use_flags = true;  ///< Flagged rows stay out of the fit.
-    ModelPriors priors;     ///< Of the linear models and the network; `paper` has none.
+    NetworkOptions network;
+    ModelPriors priors;  ///< Of the linear models and the network; `paper` has none.
 };
 
 /// One row and what became of it.  corrected = acceleration - tide + the three corrections; the
@@ -47,7 +49,9 @@ struct StationValue {
     std::size_t row_count = 0;     ///< Rows averaged.
     bool is_flagged_only = false;  ///< No row in use: the flagged ones are averaged.
     MilliGal gravity;
-    std::optional<MilliGal> u_gravity;  ///< s sqrt(1/n + leverage of the mean row).
+    /// s sqrt(1/n + leverage of the mean row); of a network a priori.
+    std::optional<MilliGal> u_gravity;
+    std::optional<MilliGal> u_a_posteriori;  ///< Of a network: s0 times the former.
     std::optional<MilliGal> reference;
     std::optional<MilliGal> residual;
     std::optional<double> redundancy;  ///< Sum of 1 - leverage over its rows in the fit.
@@ -71,17 +75,19 @@ struct SurveyCorrection {
     std::vector<CorrectedRow> rows;
     std::vector<LeftOut> left_out;  ///< By start; correct_survey() knows of none.
     std::vector<StationValue> stations;
-    std::vector<ScoredRowSet> row_sets;      ///< used, all.
-    ModelScore score;                        ///< Of `model` on the rows of the fit.
-    std::optional<ModelChoice> choice;       ///< `auto` only.
-    std::optional<double> choice_loso_mgal;  ///< `auto` only: LOSO of choosing and fitting.
-    std::vector<std::string> remarks;        ///< What a reader of the result has to know.
+    std::vector<ScoredRowSet> row_sets;        ///< used, all.
+    ModelScore score;                          ///< Of `model` on the rows of the fit.
+    std::optional<ModelChoice> choice;         ///< `auto` only.
+    std::optional<double> choice_loso_mgal;    ///< `auto` only: LOSO of choosing and fitting.
+    std::optional<NetworkAdjustment> network;  ///< `network` only.
+    std::vector<std::string> remarks;          ///< What else has to be known, in sentences.
 };
 
 /// @param rows  in strictly ascending time, with tide and rates set.
 /// @param day   of these rows, for the model `day`; null: there are only averages.
 /// @throws InputError  base or datum unknown or without a row, no such model, too few rows for the
-///                     model, a term that does not vary, the drift step of `paper` refused.
+///                     model, a term that does not vary, the drift step of `paper` refused,
+///                     a network with something open.
 [[nodiscard]] SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows,
                                               const SurveyOptions& options,
                                               const DayRecord* day = nullptr);

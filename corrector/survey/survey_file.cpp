@@ -12,10 +12,6 @@ namespace {
 constexpr double kLeastFactor = 0.5;
 constexpr double kGreatestFactor = 2.0;
 
-/// Of a reading: from the resolution of the tables to a scatter that makes them worthless.
-constexpr double kLeastSd_mgal = 0.001;
-constexpr double kGreatestSd_mgal = 1000.0;
-
 std::filesystem::path path_or(text::TomlTable& table, std::string_view key,
                               const std::filesystem::path& fallback) {
     const std::filesystem::path path = table.path_or_empty(key);
@@ -74,6 +70,10 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     }
     survey.survey.priors.reading_sd_mgal = table.number_or(
         "reading_sd_mgal", survey.survey.priors.reading_sd_mgal, kLeastSd_mgal, kGreatestSd_mgal);
+    survey.survey.network.datum_sd_mgal = table.number_or(
+        "datum_sd_mgal", survey.survey.network.datum_sd_mgal, kLeastSd_mgal, kGreatestSd_mgal);
+    survey.survey.network.drift_degree = static_cast<int>(
+        table.integer_or("drift_degree", survey.survey.network.drift_degree, 0, 2));
     table.require_all_read();
     read_priors(survey.survey.priors, document.table("prior"));
     document.require_all_read();

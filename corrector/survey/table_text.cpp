@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "corrector/survey/aligned_text.hpp"
+#include "corrector/survey/network_report.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -139,8 +140,11 @@ bool is_selected(const SurveyCorrection& result, const ScoredRowSet& set, const 
 }
 
 std::string survey_text(const SurveyCorrection& result) {
-    return occupations_text(result) + '\n' + stations_text(result) + '\n' + models_text(result) +
-           '\n' + summary_text(result) + coefficients_text(result);
+    std::string text = occupations_text(result) + '\n' + stations_text(result) + '\n' +
+                       models_text(result) + '\n' + summary_text(result) +
+                       coefficients_text(result) + network_text(result);
+    for (const std::string& remark : result.remarks) text += remark + '\n';
+    return text;
 }
 
 }  // namespace a351::corrector

@@ -1,4 +1,5 @@
 // Reference answers for four regressions on 16 and on 19 rows: tests/golden/tsukuba/README.md.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -130,6 +131,33 @@ TEST_CASE("the rate coefficient of an indoor record, held, lowers the leave-one-
     ModelPriors wide;
     set_prior(wide, "test", "rate_mgal_per_degc_per_h", {0.0, 1e5});
     CHECK(correct("t-rate-drift", true, wide).score.loo_mgal.value() == within(2.0817));
+}
+
+TEST_CASE("a network held at one or two benchmarks finds the others to 2.0-2.6 mGal",
+          "[golden][tsukuba]") {
+    // The publication's slope held; without and with a drift.  "2.5-2.6" with No.0 alone, "2.2"
+    // with No.0 and No.12.
+    const auto off_by = [](const std::vector<std::string>& datum, int drift_degree) {
+        SurveyOptions options;
+        options.model = "network";
+        options.datum = datum;
+        options.network.drift_degree = drift_degree;
+        set_prior(options.priors, "test", "temperature_mgal_per_degc", {-29.274, 1e-4});
+        double squares = 0.0;
+        double count = 0.0;
+        for (const StationValue& station :
+             correct_survey(tsukuba::observations(), options).stations) {
+            const bool is_held = std::find(datum.begin(), datum.end(), station.site) != datum.end();
+            if (is_held || station.is_flagged_only) continue;
+            squares += std::pow(station.residual.value().value(), 2);
+            count += 1.0;
+        }
+        CHECK(count == 13.0 - static_cast<double>(datum.size()));
+        return std::sqrt(squares / count);
+    };
+    CHECK(off_by({"No.0"}, 0) == within(2.54, 0.005));
+    CHECK(off_by({"No.0"}, 1) == within(2.635, 0.005));
+    CHECK(off_by({"No.0", "No.12"}, 1) == within(2.19, 0.005));
 }
 
 TEST_CASE("No.2 (1) alone is significant on 19 rows with the temperature line",

@@ -57,6 +57,11 @@ TEST_CASE("bad usage ends with 2, one line on standard error and nothing written
     folder.write("unknown.csv",
                  "site,occupation,time_utc,acceleration_mgal,temperature_degc\n"
                  "No.77,1,2020-01-01T00:00:00Z,981700,42.5\n");
+    folder.write("open.csv",
+                 "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\nX,140,36,5,\n");
+    folder.write("open_readings.csv",
+                 "site,occupation,time_utc,acceleration_mgal,temperature_degc\n"
+                 "X,1,2020-01-01T00:00:00Z,981700,42.5\n");
     folder.write("nan.csv",
                  "site,occupation,time_utc,acceleration_mgal,temperature_degc\n"
                  "No.0,1,2020-01-01T00:00:00Z,nan,42.5\n");
@@ -83,9 +88,14 @@ TEST_CASE("bad usage ends with 2, one line on standard error and nothing written
         {sites + "nan.csv", "nan.csv:2: acceleration_mgal = nan"},
         {sites + "short.csv", "short.csv"},
         {sites + "missing.csv", "missing.csv: cannot be read"},
-        {kTsukuba + "--model network", "t-rate-drift"},
+        {kTsukuba + "--model kriging", "t-rate-drift"},
         {kTsukuba + "--tide tide.csv", "longman"},
         {kTsukuba + "--model paper --base No.3", "drift step is refused"},
+        {"table --sites open.csv --observations open_readings.csv --model network",
+         "model = network: no datum"},
+        {kTsukuba + "--datum-sd 0", "--datum-sd = 0: out of range"},
+        {kTsukuba + "--prior beta 1 2", "--prior = beta: no such coefficient; allowed: temp"},
+        {kTsukuba + "--prior time_mgal_per_h 1 0", "out of range; allowed: mean from"},
         {kTsukuba + "--delta2 116", "--delta2 = 116"},
         {"decimate --factor 10 --input few.csv --column a",
          "few.csv: a: 2 rows are too short; allowed: 92 or more"},

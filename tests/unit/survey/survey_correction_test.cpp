@@ -134,9 +134,9 @@ TEST_CASE("a survey that cannot be corrected is refused with a reason", "[survey
         CHECK_THROWS_WITH(correct_survey(rows, options), Catch::Contains("datum = S9"));
     }
     SECTION("unknown model") {
-        options.model = "network";
+        options.model = "kriging";
         CHECK_THROWS_WITH(correct_survey(rows, options),
-                          Catch::Contains("model = network") && Catch::Contains("t-rate-drift"));
+                          Catch::Contains("model = kriging") && Catch::Contains("t-rate-drift"));
     }
     SECTION("constant temperature") {
         for (SurveyRow& row : rows) row.temperature = DegC(42.5);
