@@ -89,7 +89,6 @@ SurveyCorrection corrected(const SurveyFile& survey, OccupationRows& read) {
     try {
         SurveyCorrection result = correct_survey(read.rows, with_sites_of(read, survey.survey),
                                                  read.day ? &*read.day : nullptr);
-        read.warnings.insert(read.warnings.end(), result.remarks.begin(), result.remarks.end());
         result.left_out = read.left_out;
         return result;
     } catch (const InputError& error) {

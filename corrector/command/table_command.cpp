@@ -57,7 +57,7 @@ void correct_table(TableOptions options) {
     settings["rate"] = "backward";
     const std::vector<std::string> warnings = position_warnings(rows, sites);
     settings["warnings"] = warnings;
-    settings["seed"] = nullptr;  // nothing here is random
+    settings["seed"] = options.survey.seed;
     std::vector<InputFile> inputs{describe_input("sites", options.sites),
                                   describe_input("observations", options.observations)};
     if (!tide.series.empty()) inputs.push_back(describe_input("tide", tide.series));
@@ -114,6 +114,11 @@ void add_table_command(CLI::App& program) {
         .add_option("--drift-degree", options->survey.network.drift_degree,
                     "network: drift as a polynomial of this degree in time, 0 to 2")
         ->check(CLI::Range(0, 2))
+        ->capture_default_str();
+    std::vector<std::string> linear_models;
+    for (const LinearModel& model : kLinearModels) linear_models.emplace_back(model.name);
+    command.add_option("--robust-terms", options->survey.robust_terms, "robust: of which model")
+        ->check(CLI::IsMember(linear_models))
         ->capture_default_str();
     command.add_option("--out", options->out, "Folder of the result")->capture_default_str();
     command.callback([options] { correct_table(*options); });

@@ -20,13 +20,34 @@ std::vector<double> block_means(std::span<const double> values, std::size_t bloc
     return means;
 }
 
+/// How often `values` turn back by at least `threshold` from an extremum.
+int turn_count(const std::vector<double>& values, double threshold) {
+    int turns = 0;
+    int direction = 0;  // unknown until the first move by the threshold
+    double low = values.front();
+    double high = values.front();
+    for (const double value : values) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+        const bool rises = value - low >= threshold && direction <= 0;
+        const bool falls = high - value >= threshold && direction >= 0;
+        if (!rises && !falls) continue;
+        if (direction != 0) ++turns;
+        direction = rises ? 1 : -1;
+        low = high = value;
+    }
+    return turns;
+}
+
 TemperatureShape shape_of(std::span<const double> temperatures, std::size_t block_size) {
     std::vector<double> means = block_means(temperatures, std::max<std::size_t>(block_size, 1));
     if (means.size() < 3) means.assign(temperatures.begin(), temperatures.end());
     const auto [low, high] = std::minmax_element(means.begin(), means.end());
     const double change = std::abs(means.back() - means.front());
-    return change >= kMonotoneShare * (*high - *low) ? TemperatureShape::monotone
-                                                     : TemperatureShape::turning;
+    if (change >= kMonotoneShare * (*high - *low)) return TemperatureShape::monotone;
+    return turn_count(means, (1.0 - kMonotoneShare) * (*high - *low)) <= 1
+               ? TemperatureShape::half_wave
+               : TemperatureShape::turning;
 }
 
 }  // namespace

@@ -21,8 +21,9 @@ namespace a351::corrector {
                                                          std::size_t block_size);
 
 enum class TemperatureShape {
-    monotone,  ///< From first to last it covers at least 0.8 of its range.
-    turning,   ///< It comes back.
+    monotone,   ///< From first to last it covers at least 0.8 of its range.
+    half_wave,  ///< It comes back once: what it does to the mean is not averaged out.
+    turning,    ///< It comes back more than once.
 };
 
 struct TemperatureSummary {

@@ -139,9 +139,7 @@ std::vector<std::string> coefficient_names(const LinearModel& model) {
     return names;
 }
 
-std::optional<LinearFit> fit_model(const LinearModel& model, const std::vector<SurveyRow>& rows,
-                                   UtcTime origin, const ModelPriors& priors) {
-    if (rows.empty()) return std::nullopt;
+SlopePriors slope_priors(const LinearModel& model, const ModelPriors& priors) {
     const std::vector<std::string> names = coefficient_names(model);
     const auto slope_count = static_cast<Eigen::Index>(names.size()) - 1;
     SlopePriors slopes{Eigen::VectorXd::Zero(slope_count), Eigen::VectorXd::Zero(slope_count)};
@@ -151,8 +149,14 @@ std::optional<LinearFit> fit_model(const LinearModel& model, const std::vector<S
         slopes.values(k) = prior->mean;
         slopes.weights(k) = priors.reading_sd_mgal / prior->sd;
     }
+    return slopes;
+}
+
+std::optional<LinearFit> fit_model(const LinearModel& model, const std::vector<SurveyRow>& rows,
+                                   UtcTime origin, const ModelPriors& priors) {
+    if (rows.empty()) return std::nullopt;
     return fit_linear(model_columns(model, rows, origin), as_vector(differences_mgal(rows)),
-                      slopes);
+                      slope_priors(model, priors));
 }
 
 ModelScore score_linear_model(const LinearModel& model, const std::vector<SurveyRow>& rows,

@@ -51,6 +51,9 @@ inline constexpr std::array<LinearModel, 4> kLinearModels{{
 /// Names of the coefficients with their units: the constant, then one per column.
 [[nodiscard]] std::vector<std::string> coefficient_names(const LinearModel& model);
 
+/// Priors on the slopes of a model, in its order.
+[[nodiscard]] SlopePriors slope_priors(const LinearModel& model, const ModelPriors& priors);
+
 /// @param rows  each with a reference.
 /// @return std::nullopt when they and the priors do not determine the model.
 [[nodiscard]] std::optional<LinearFit> fit_model(const LinearModel& model,

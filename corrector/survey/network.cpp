@@ -104,6 +104,16 @@ std::optional<bool> NetworkAdjustment::passes_global_test() const {
     return weighted_square >= chi_square_low && weighted_square <= chi_square_high;
 }
 
+std::optional<double> NetworkAdjustment::studentised(std::size_t reading) const {
+    const NetworkRow& row = rows[reading];
+    // What rounding leaves of an uncontrolled row's redundancy.
+    if (dof < 2 || row.redundancy < 1e-9) return std::nullopt;
+    const double own = std::pow(row.residual / row.sd, 2) / row.redundancy;
+    const double variance = (weighted_square - own) / static_cast<double>(dof - 1);
+    if (!(variance > 0.0)) return std::nullopt;
+    return row.residual / (row.sd * std::sqrt(variance * row.redundancy));
+}
+
 double NetworkAdjustment::effect_mgal(std::size_t row, std::size_t term) const {
     return term_columns(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(term)) *
            unknowns(static_cast<Eigen::Index>(stations.size() + term));

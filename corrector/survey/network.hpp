@@ -66,6 +66,9 @@ struct NetworkAdjustment {
     [[nodiscard]] std::optional<double> s0() const;
     /// Absent without dof.
     [[nodiscard]] std::optional<bool> passes_global_test() const;
+    /// Residual of a reading / its standard deviation with the scale from the other rows; positive
+    /// where the reading is too low.  Absent for an uncontrolled one, and with dof < 2.
+    [[nodiscard]] std::optional<double> studentised(std::size_t reading) const;
     /// What a term adds to gravity in a survey row.
     [[nodiscard]] double effect_mgal(std::size_t row, std::size_t term) const;
 };

@@ -36,16 +36,6 @@ double effect_variance(const NetworkAdjustment& network, const Eigen::RowVectorX
     return (line * network.covariance.bottomRightCorner(k, k)).dot(line);
 }
 
-/// Residual / its standard deviation with the scale from the other rows.
-std::optional<double> studentised(const NetworkAdjustment& network, const NetworkRow& row) {
-    if (network.dof < 2 || row.redundancy < 1e-9) return std::nullopt;
-    const double own = std::pow(row.residual / row.sd, 2) / row.redundancy;
-    const double variance = (network.weighted_square - own) / static_cast<double>(network.dof - 1);
-    if (!(variance > 0.0)) return std::nullopt;
-    // The network's residuals are adjusted - observed, as the survey's are reference - corrected.
-    return row.residual / (row.sd * std::sqrt(variance * row.redundancy));
-}
-
 void set_rows(SurveyCorrection& result, const NetworkAdjustment& network,
               const std::vector<bool>& in_use) {
     const double sd = result.options.priors.reading_sd_mgal;
@@ -76,9 +66,8 @@ void set_rows(SurveyCorrection& result, const NetworkAdjustment& network,
         out.u_corrected = MilliGal(std::sqrt(sd * sd + variance));
         out.leverage = variance / (sd * sd);
         if (!in_use[i]) continue;
-        const NetworkRow& row = network.rows[reading++];
-        out.leverage = 1.0 - row.redundancy;
-        out.studentised_residual = studentised(network, row);
+        out.leverage = 1.0 - network.rows[reading].redundancy;
+        out.studentised_residual = network.studentised(reading++);
     }
 }
 

@@ -156,6 +156,8 @@ SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& valu
     details.push_back({"temperature_range_degc", temperature.range.value()});
     details.push_back(
         {"temperature_is_monotone", temperature.shape == TemperatureShape::monotone ? 1.0 : 0.0});
+    details.push_back(
+        {"temperature_is_half_wave", temperature.shape == TemperatureShape::half_wave ? 1.0 : 0.0});
     details.push_back({"valid_samples", static_cast<double>(value.counts.valid)});
     details.push_back({"partial_samples", static_cast<double>(value.counts.partial)});
     details.push_back({"missing_samples", static_cast<double>(value.counts.missing)});

@@ -96,7 +96,14 @@ Json row_json(const CorrectedRow& row, const SurveyOptions& options) {
     json["corrected1_mgal"] = json_of(row.corrected1);
     for (const SurveyRow::Detail& detail : row.row.details)
         json[detail.name] = json_of(detail.value);
+    json["weight"] = json_of(row.weight);
+    json["doubt_physical"] = row.doubt_physical;
+    json["doubt_statistical"] = row.doubt_statistical;
     return json;
+}
+
+Json interval_json(const std::optional<Interval>& interval) {
+    return interval ? Json{interval->low, interval->high} : Json(nullptr);
 }
 
 Json priors_json(const SurveyCorrection& result) {
@@ -141,6 +148,7 @@ std::string occupations_csv(const SurveyCorrection& result) {
     for (const SurveyRow::Detail& detail : result.rows.front().row.details) {
         csv += ',' + detail.name;
     }
+    csv += ",weight,doubt_physical,doubt_statistical";
     const auto column_count = std::count(csv.begin(), csv.end(), ',') + 1;
     csv += '\n';
     auto left_out = result.left_out.begin();
@@ -166,6 +174,7 @@ std::string occupations_csv(const SurveyCorrection& result) {
         line.number(row.residual).number(row.leverage).number(row.u_corrected);
         line.number(row.studentised_residual).number(row.corrected1);
         for (const SurveyRow::Detail& detail : row.row.details) line.number(detail.value);
+        line.number(row.weight).text(row.doubt_physical).text(row.doubt_statistical);
         csv += line.end();
     }
     add_left_out_before(UtcTime::max());
@@ -233,7 +242,10 @@ std::string result_json(const SurveyCorrection& result, const Json& settings,
                          {"rms_before_drift_mgal", json_of(result.score.rms_before_drift_mgal)}};
     json["cross_validated"] = {{"loo_mgal", json_of(result.score.loo_mgal)},
                                {"loso_mgal", json_of(result.score.loso_mgal)},
-                               {"choice_loso_mgal", json_of(result.choice_loso_mgal)}};
+                               {"choice_loso_mgal", json_of(result.choice_loso_mgal)},
+                               {"loo_interval_95_mgal", interval_json(result.loo_interval_mgal)},
+                               {"bootstrap_draws", kBootstrapDraws},
+                               {"bootstrap_seed", result.options.seed}};
     json["choice_limit_mgal"] = result.choice ? Json(result.choice->limit_mgal) : Json(nullptr);
     json["network"] = network_json(result);
     json["remarks"] = result.remarks;

@@ -5,7 +5,10 @@
 
 #include "corrector/survey/day_correction.hpp"
 #include "corrector/survey/network_correction.hpp"
+#include "corrector/survey/outlier_tests.hpp"
 #include "corrector/survey/paper_correction.hpp"
+#include "corrector/survey/robust_fit.hpp"
+#include "corrector/survey/row_doubts.hpp"
 #include "protocol/core/input_error.hpp"
 
 namespace a351::corrector {
@@ -58,6 +61,7 @@ ScoredRowSet score_all_models(const std::string& name, const std::vector<SurveyR
 struct Applied {
     LinearFit fit;
     Eigen::MatrixXd columns;  ///< All rows.
+    std::optional<double> s_mgal;
 };
 
 Applied apply_model(const LinearModel& model, const std::vector<SurveyRow>& rows,
@@ -69,7 +73,8 @@ Applied apply_model(const LinearModel& model, const std::vector<SurveyRow>& rows
                          std::to_string(model.parameter_count()) +
                          " rows between which temperature, rate and time vary independently");
     }
-    return {std::move(*fit), model_columns(model, rows, origin)};
+    const auto s_mgal = fit->residual_scale();
+    return {std::move(*fit), model_columns(model, rows, origin), s_mgal};
 }
 
 void set_uncertainty(CorrectedRow& out, const LinearFit& fit, std::optional<double> s_mgal,
@@ -79,25 +84,9 @@ void set_uncertainty(CorrectedRow& out, const LinearFit& fit, std::optional<doub
     if (s_mgal) out.u_corrected = MilliGal(*s_mgal * std::sqrt(1.0 + leverage));
 }
 
-/// Residual / its standard deviation with s from the other rows only (Draper and Smith, 8.1).
-std::optional<double> studentised(const CorrectedRow& row, const LinearFit& fit) {
-    const Eigen::Index dof = fit.dof() - 1;
-    const double rss = fit.rss + fit.prior_rss;
-    if (!row.residual || dof <= 0) return std::nullopt;
-    const double residual = row.residual->value(), leverage = row.leverage.value();
-    double variance = rss / static_cast<double>(dof + 1) * (1.0 + leverage);
-    if (row.is_used) {
-        if (leverage > 1.0 - 1e-9) return std::nullopt;
-        const double own = residual * residual / (1.0 - leverage);
-        variance = (rss - own) / static_cast<double>(dof) * (1.0 - leverage);
-    }
-    if (!(variance > 0.0)) return std::nullopt;
-    return residual / std::sqrt(variance);
-}
-
 void correct_linear(SurveyCorrection& result, const LinearModel& model, const Applied& applied) {
     const LinearFit& fit = applied.fit;
-    const auto s = fit.residual_scale();
+    const auto s = applied.s_mgal;
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         CorrectedRow& out = result.rows[i];
         const auto at = static_cast<Eigen::Index>(i);
@@ -112,7 +101,10 @@ void correct_linear(SurveyCorrection& result, const LinearModel& model, const Ap
         out.corrected = out.row.acceleration - out.row.tide - MilliGal(fit.at(x));
         if (out.row.reference) out.residual = *out.row.reference - out.corrected;
         set_uncertainty(out, fit, s, x);
-        out.studentised_residual = studentised(out, fit);
+        if (out.residual) {
+            out.studentised_residual =
+                studentised_residual(out.residual->value(), out.leverage, out.is_used, fit);
+        }
     }
     const std::vector<std::string> names = coefficient_names(model);
     for (std::size_t k = 0; k < names.size(); ++k) {
@@ -120,6 +112,42 @@ void correct_linear(SurveyCorrection& result, const LinearModel& model, const Ap
         std::optional<double> error;
         if (s) error = *s * std::sqrt(fit.cofactor(at, at));
         result.coefficients.push_back({names[k], fit.coefficients(at), error});
+    }
+}
+
+/// Leave-one-out errors of the rows in the fit are exact for least squares: r / (1 - h).
+std::optional<Interval> loo_interval(const SurveyCorrection& result) {
+    std::vector<double> errors;
+    std::vector<std::string> stations;
+    for (const CorrectedRow& row : result.rows) {
+        if (!row.is_used) continue;
+        errors.push_back(row.residual->value() / (1.0 - row.leverage));
+        stations.push_back(row.row.site);
+    }
+    if (!result.score.loo_mgal) return std::nullopt;
+    return bootstrap_rms_interval(errors, stations, result.options.seed);
+}
+
+void correct_robust(SurveyCorrection& result, const LinearModel& model, Applied& applied,
+                    const std::vector<SurveyRow>& used, UtcTime origin) {
+    const auto robust = fit_robust_model(model, used, origin, result.options.priors);
+    if (!robust) {
+        throw InputError("model = robust: " + std::to_string(used.size()) +
+                         " rows with a reference are too few for " + std::string(model.name) +
+                         ", or too many of them alike; allowed: more of them");
+    }
+    applied.fit = robust->fit;
+    applied.s_mgal = robust->s;
+    correct_linear(result, model, applied);
+    Eigen::Index at = 0;
+    for (CorrectedRow& row : result.rows) {
+        // The robust scale is hardly the row's own doing: no row is left out of it.
+        row.studentised_residual.reset();
+        if (row.residual && row.leverage < 1.0) {
+            const double share = row.is_used ? 1.0 - row.leverage : 1.0 + row.leverage;
+            row.studentised_residual = row.residual->value() / (robust->s * std::sqrt(share));
+        }
+        if (row.is_used) row.weight = robust->weights(at++);
     }
 }
 
@@ -207,6 +235,7 @@ const std::vector<std::string>& model_names() {
         std::vector<std::string> list{"auto", "paper", "day"};
         for (const LinearModel& model : kLinearModels) list.emplace_back(model.name);
         list.emplace_back("network");
+        list.emplace_back("robust");
         return list;
     }();
     return names;
@@ -252,6 +281,7 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
 
     if (options.model == "network") {
         correct_network(result, rows, not_flagged);
+        set_doubts(result);
         return result;
     }
 
@@ -271,19 +301,29 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
         // Too few stations to compare models: the simplest one, or its refusal.
         result.model = result.choice ? result.choice->model : "t";
     }
-    const LinearModel* const model = find_linear_model(result.model);
+    const bool is_robust = result.model == "robust";
+    const LinearModel* const model =
+        find_linear_model(is_robust ? options.robust_terms : result.model);
     // The line of `paper` is the publication's, without priors.
-    const Applied applied = model != nullptr
-                                ? apply_model(*model, rows, used, origin, priors)
-                                : apply_model(kLinearModels.front(), rows, used, origin, {});
-    result.score = model != nullptr ? score_linear_model(*model, used, origin, priors)
-                                    : score_paper_model(rows, in_use, base);
-    if (model != nullptr) {
+    Applied applied = model != nullptr ? apply_model(*model, rows, used, origin, priors)
+                                       : apply_model(kLinearModels.front(), rows, used, origin, {});
+    if (is_robust) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            result.row_sets[k].scores.push_back(score_robust_model(
+                *model, chosen_rows(rows, k == 0 ? unflagged_usable : usable), origin, priors));
+        }
+        result.score = result.row_sets[options.use_flags ? 0 : 1].scores.back();
+        correct_robust(result, *model, applied, used, origin);
+    } else if (model != nullptr) {
+        result.score = score_linear_model(*model, used, origin, priors);
         correct_linear(result, *model, applied);
+        result.loo_interval_mgal = loo_interval(result);
     } else {
+        result.score = score_paper_model(rows, in_use, base);
         correct_as_published(result, rows, in_use, applied);
     }
     result.stations = average_stations(result.rows, not_flagged, applied, result.score.s_mgal);
+    set_doubts(result);
     return result;
 }
 

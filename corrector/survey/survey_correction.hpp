@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "corrector/day/day_record.hpp"
+#include "corrector/survey/bootstrap.hpp"
 #include "corrector/survey/model_fit.hpp"
 #include "corrector/survey/network.hpp"
 #include "corrector/survey/survey_row.hpp"
 
 namespace a351::corrector {
 
-/// Names for SurveyOptions::model: auto, paper, day, those of kLinearModels, network.
+/// Names for SurveyOptions::model: auto, paper, day, those of kLinearModels, network, robust.
 [[nodiscard]] const std::vector<std::string>& model_names();
 
 struct SurveyOptions {
@@ -24,6 +25,8 @@ struct SurveyOptions {
         datum;              ///< Stations whose reference is held; empty: all that have one.
     bool use_flags = true;  ///< Flagged rows stay out of the fit.
     NetworkOptions network;
+    std::string robust_terms = "t-rate";  ///< Linear model that `robust` fits.
+    std::uint64_t seed = 1;               ///< Of the resampled stations.
     ModelPriors priors;  ///< Of the linear models and the network; `paper` has none.
 };
 
@@ -42,6 +45,10 @@ struct CorrectedRow {
     std::optional<MilliGal> u_corrected;  ///< s sqrt(1 + leverage): as of a new station.
     std::optional<double> studentised_residual;  ///< External; not for `paper`.
     std::optional<MilliGal> corrected1;          ///< `paper` only: before the drift step.
+    std::optional<double> weight;  ///< `robust` only, rows in use: 1 counts fully, 0 not at all.
+    /// Reasons of outlier_tests.hpp, empty when there are none.  They leave no row out.
+    std::string doubt_physical;
+    std::string doubt_statistical;
 };
 
 struct StationValue {
@@ -75,12 +82,13 @@ struct SurveyCorrection {
     std::vector<CorrectedRow> rows;
     std::vector<LeftOut> left_out;  ///< By start; correct_survey() knows of none.
     std::vector<StationValue> stations;
-    std::vector<ScoredRowSet> row_sets;        ///< used, all.
-    ModelScore score;                          ///< Of `model` on the rows of the fit.
-    std::optional<ModelChoice> choice;         ///< `auto` only.
-    std::optional<double> choice_loso_mgal;    ///< `auto` only: LOSO of choosing and fitting.
-    std::optional<NetworkAdjustment> network;  ///< `network` only.
-    std::vector<std::string> remarks;          ///< What else has to be known, in sentences.
+    std::vector<ScoredRowSet> row_sets;         ///< used, all.
+    ModelScore score;                           ///< Of `model` on the rows of the fit.
+    std::optional<ModelChoice> choice;          ///< `auto` only.
+    std::optional<double> choice_loso_mgal;     ///< `auto` only: LOSO of choosing and fitting.
+    std::optional<Interval> loo_interval_mgal;  ///< 95 % of `score`'s LOO; least squares only.
+    std::optional<NetworkAdjustment> network;   ///< `network` only.
+    std::vector<std::string> remarks;           ///< What else has to be known, in sentences.
 };
 
 /// @param rows  in strictly ascending time, with tide and rates set.

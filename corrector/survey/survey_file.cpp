@@ -74,6 +74,11 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
         "datum_sd_mgal", survey.survey.network.datum_sd_mgal, kLeastSd_mgal, kGreatestSd_mgal);
     survey.survey.network.drift_degree = static_cast<int>(
         table.integer_or("drift_degree", survey.survey.network.drift_degree, 0, 2));
+    std::vector<std::string> linear_models;
+    for (const LinearModel& model : kLinearModels) linear_models.emplace_back(model.name);
+    survey.survey.robust_terms =
+        table.choice_or("robust_terms", survey.survey.robust_terms, linear_models);
+    survey.survey.seed = survey.seed;
     table.require_all_read();
     read_priors(survey.survey.priors, document.table("prior"));
     document.require_all_read();

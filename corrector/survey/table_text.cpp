@@ -5,6 +5,7 @@
 
 #include "corrector/survey/aligned_text.hpp"
 #include "corrector/survey/network_report.hpp"
+#include "corrector/survey/row_doubts.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -98,6 +99,10 @@ std::string summary_text(const SurveyCorrection& result) {
         text += ", " + fixed(*score.loso_mgal, 3) + " mGal (leave-one-station-out)";
     }
     text += '\n';
+    if (const auto& interval = result.loo_interval_mgal) {
+        text += "leave-one-out, 95 % interval by resampling stations: " + fixed(interval->low, 2) +
+                " to " + fixed(interval->high, 2) + " mGal\n";
+    }
     if (score.rms_before_drift_mgal) {
         text += "RMS of Error (1), before the drift step: " + cell(score.rms_before_drift_mgal, 3) +
                 " mGal (in sample); of Error (2), after it: " + cell(score.rms_mgal, 3) +
@@ -108,6 +113,18 @@ std::string summary_text(const SurveyCorrection& result) {
                 cell(result.choice_loso_mgal, 3) + " mGal (leave-one-station-out)\n";
     }
     return text;
+}
+
+std::string weights_text(const SurveyCorrection& result) {
+    std::string text;
+    for (const CorrectedRow& row : result.rows) {
+        if (!row.weight) continue;
+        text += (text.empty() ? "weights of the robust fit of " + result.options.robust_terms + ": "
+                              : ", ") +
+                row.row.site + " (" + std::to_string(row.row.occupation) + ") " +
+                fixed(*row.weight, 2);
+    }
+    return text.empty() ? text : text + '\n';
 }
 
 }  // namespace
@@ -142,7 +159,8 @@ bool is_selected(const SurveyCorrection& result, const ScoredRowSet& set, const 
 std::string survey_text(const SurveyCorrection& result) {
     std::string text = occupations_text(result) + '\n' + stations_text(result) + '\n' +
                        models_text(result) + '\n' + summary_text(result) +
-                       coefficients_text(result) + network_text(result);
+                       coefficients_text(result) + network_text(result) + weights_text(result) +
+                       doubts_text(result);
     for (const std::string& remark : result.remarks) text += remark + '\n';
     return text;
 }

@@ -162,14 +162,52 @@ TEST_CASE("a network held at one or two benchmarks finds the others to 2.0-2.6 m
 
 TEST_CASE("No.2 (1) alone is significant on 19 rows with the temperature line",
           "[golden][tsukuba]") {
-    // t = 4.8 against the limit 3.6 of Student-t(n - p - 1) at 0.05 / (2n).
+    // t = 4.8 against the limit 3.6 of Student-t(n - p - 1) at 0.05 / (2n), and no further row
+    // when it is removed.
     const SurveyCorrection result = correct("t", false);
     for (const CorrectedRow& row : result.rows) {
         CAPTURE(row.row.site, row.row.occupation);
         const bool is_it = row.row.site == "No.2" && row.row.occupation == 1;
-        CHECK((std::abs(row.studentised_residual.value()) > 3.6) == is_it);
-        if (is_it) {
-            CHECK(std::abs(*row.studentised_residual) == within(4.8, 0.05));
+        CHECK(row.doubt_statistical == (is_it ? "t -4.83 over 3.56" : ""));
+    }
+}
+
+TEST_CASE("the physical criterion finds the publication's three and No.1 (2)",
+          "[golden][tsukuba]") {
+    for (const std::string model : {"t", "paper"}) {
+        for (const CorrectedRow& row : correct(model, true).rows) {
+            CAPTURE(row.row.site, row.row.occupation);
+            const bool is_fourth = row.row.site == "No.1" && row.row.occupation == 2;
+            CHECK(!row.doubt_physical.empty() == (row.row.is_flagged || is_fourth));
         }
     }
+}
+
+TEST_CASE("the leave-one-out error of the published rows has an interval around it",
+          "[golden][tsukuba]") {
+    // n = 16: a scatter of 2 mGal has itself a standard error of about 0.4.
+    const SurveyCorrection result = correct("t", true);
+    const Interval interval = result.loo_interval_mgal.value();
+    CHECK(interval.low < result.score.loo_mgal.value() - 0.4);
+    CHECK(interval.low > result.score.loo_mgal.value() - 1.2);
+    CHECK(interval.high > result.score.loo_mgal.value() + 0.4);
+    CHECK(interval.high < result.score.loo_mgal.value() + 1.2);
+}
+
+TEST_CASE("the robust temperature line gives the publication's three the least weights",
+          "[golden][tsukuba]") {
+    SurveyOptions options;
+    options.model = "robust";
+    options.robust_terms = "t";
+    options.use_flags = false;
+    const SurveyCorrection result = correct_survey(tsukuba::observations(), options);
+    double largest_flagged = 0.0;
+    double smallest_other = 1.0;
+    for (const CorrectedRow& row : result.rows) {
+        double& extreme = row.row.is_flagged ? largest_flagged : smallest_other;
+        const double weight = row.weight.value();
+        extreme = row.row.is_flagged ? std::max(extreme, weight) : std::min(extreme, weight);
+    }
+    CHECK(largest_flagged < smallest_other);
+    CHECK(coefficient(result, "temperature_mgal_per_degc").value == Approx(-29.2).margin(2.2));
 }

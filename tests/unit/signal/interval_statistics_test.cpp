@@ -42,13 +42,16 @@ TEST_CASE("a temperature ramp has its slope, range and shape, and gaps do not ma
     CHECK(summary->shape == TemperatureShape::monotone);
 }
 
-TEST_CASE("a temperature that comes back is turning") {
-    std::vector<double> values(450);
+TEST_CASE("a temperature that comes back is half a wave once, and turning after that") {
+    std::vector<double> values(900);
     for (std::size_t i = 0; i < values.size(); ++i) {
-        values[i] = 42.5 + 0.1 * std::sin(3.14 * static_cast<double>(i) / 450.0);
+        // The jitter is no turn.
+        values[i] = 42.5 + 0.1 * std::sin(3.14 * static_cast<double>(i) / 450.0) +
+                    0.01 * std::cos(0.2 * static_cast<double>(i));
     }
     const auto series = temperature_at_half_hertz(values);
-    CHECK(summarise_temperature(series, 0, 449)->shape == TemperatureShape::turning);
+    CHECK(summarise_temperature(series, 0, 449)->shape == TemperatureShape::half_wave);
+    CHECK(summarise_temperature(series, 0, 899)->shape == TemperatureShape::turning);
     CHECK(summarise_temperature(series, 0, 200)->shape == TemperatureShape::monotone);
 }
 

@@ -55,3 +55,16 @@ TEST_CASE("rate and drift together are not chosen from few rows with few visits 
     rows.erase(rows.begin() + 4);  // eleven rows, the base twice
     CHECK(choose_model(rows, made_up::kMorning, "B").value().model != "t-rate-drift");
 }
+
+TEST_CASE("a prior weighs as its standard deviation to that of a reading", "[survey][model_fit]") {
+    const auto rows = made_up::day();
+    const auto rate = [&](double sd, double reading_sd_mgal) {
+        ModelPriors priors;
+        priors.reading_sd_mgal = reading_sd_mgal;
+        set_prior(priors, "test", "rate_mgal_per_degc_per_h", {0.0, sd});
+        return fit_model(kLinearModels[3], rows, made_up::kMorning, priors)->coefficients(2);
+    };
+    CHECK(rate(6.0, 2.0) == Approx(rate(12.0, 4.0)));
+    CHECK(rate(6.0, 2.0) > rate(6.0, 4.0) + 0.1);
+    CHECK(rate(6.0, 4.0) > 0.1);
+}

@@ -54,6 +54,9 @@ TEST_CASE("the tables have the promised columns and one line per item", "[survey
         "rate_correction_mgal,drift_correction_mgal,corrected_mgal,reference_mgal,residual_mgal,"
         "leverage,u_corrected_mgal,studentised_residual"));
     REQUIRE(occupations.row_count() == 12);
+    CHECK(occupations.cell(3, "doubt_physical").find("fallback") != std::string::npos);
+    CHECK(occupations.cell(3, "weight").empty());
+    CHECK(occupations.has_column("doubt_statistical"));
     CHECK(occupations.cell(3, "flags") == "outlier;fallback");
     CHECK(occupations.cell(3, "used") == "0");
     CHECK(occupations.cell(4, "flags") == "no-reference");
@@ -101,6 +104,8 @@ TEST_CASE("the JSON holds settings, inputs, both RMS of the paper and every row"
     CHECK(json["in_sample"]["rms_mgal"].is_number());
     CHECK(json["in_sample"]["rms_before_drift_mgal"].is_number());
     CHECK(json["occupations"].size() == 12);
+    CHECK(json["priors"]["reading_sd_mgal"] == 2.0);
+    CHECK(json["network"].is_null());
     CHECK(json["occupations"][4]["residual_mgal"].is_null());
     CHECK(json["models"].size() == 10);
 }

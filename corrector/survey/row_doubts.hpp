@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "corrector/survey/survey_correction.hpp"
+
+namespace a351::corrector {
+
+/// Sets doubt_physical of every row, and doubt_statistical where the model is a least-squares fit.
+void set_doubts(SurveyCorrection& result);
+
+/// The rows in doubt with the reasons, one per line; says when there are none.
+[[nodiscard]] std::string doubts_text(const SurveyCorrection& result);
+
+}  // namespace a351::corrector
