@@ -17,7 +17,8 @@ struct Estimates {
     Eigen::VectorXd placement_mgal;           ///< (set-ups) expected, given all readings.
 };
 
-/// Values by least squares at the point; errors with the lags as two more terms.
+/// Values by least squares at the point; errors with the lags as two more terms and the noise that is
+/// to be expected.
 Estimates estimate(const DayProblem& problem, const DayRecord& record, std::size_t set_ups,
                    const DayProblem::Point& u) {
     const DayNoise noise = problem.noise(u);
@@ -33,12 +34,12 @@ Estimates estimate(const DayProblem& problem, const DayRecord& record, std::size
     for (Index k = 0; k < estimated; ++k)
         result.values(k) = problem.prior(k).mean + problem.prior(k).deviation * scaled(k);
 
-    Eigen::MatrixXd lags = problem.lag_columns(u, result.values(static_cast<Index>(DayTerm::fast)),
-                                               result.values(static_cast<Index>(DayTerm::slow)));
-    whiten(record.bins, noise, lags);
-    Eigen::MatrixXd all(x.rows(), estimated + lags.cols());
-    all << x, lags;
-    const Eigen::MatrixXd normal = normal_matrix(all);
+    Eigen::MatrixXd all(x.rows(), 1 + estimated + 2);
+    all << problem.scaled(u),
+        problem.lag_columns(u, result.values(static_cast<Index>(DayTerm::fast)),
+                            result.values(static_cast<Index>(DayTerm::slow)));
+    whiten(record.bins, problem.expected_noise(u), all);
+    const Eigen::MatrixXd normal = normal_matrix(all.rightCols(estimated + 2));
     const Eigen::VectorXd variances =
         normal.llt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols())).diagonal();
     result.standard_errors.resize(estimated);

@@ -147,6 +147,23 @@ DayNoise DayProblem::noise(const Point& u) const {
             white_mgal_.at(u[kWhite])};
 }
 
+DayNoise DayProblem::expected_noise(const Point& u) const {
+    constexpr double kStep = 0.25;
+    const auto growth = [&](DayHyper place, double factor) {
+        Point more = u, less = u;
+        more.at(place) += kStep;
+        less.at(place) -= kStep;
+        const double curvature = (cost(more) - 2.0 * cost(u) + cost(less)) / (kStep * kStep);
+        // Of a quantity whose logarithm has the variance v about the mode, the root of the mean square.
+        const double variance = std::pow(std::log(factor), 2) / std::max(curvature, 1.0);
+        return std::exp(variance);
+    };
+    DayNoise noise = this->noise(u);
+    noise.placement_mgal *= growth(kPlacement, kPlacementPrior_mgal.factor);
+    noise.flicker_mgal *= growth(kFlicker, kFlickerPrior_mgal.factor);
+    return noise;
+}
+
 double DayProblem::lag_s(const Point& u, DayHyper lag) const {
     return (lag == kFastLag ? kFastLagPrior_s : kSlowLagPrior_s).at(u.at(lag));
 }

@@ -40,6 +40,11 @@ public:
     [[nodiscard]] NormalPrior prior(Eigen::Index estimated) const;
 
     [[nodiscard]] DayNoise noise(const Point& u) const;
+
+    /// Roots of the expected variances, where noise() has the most likely ones: larger, for their
+    /// distribution is skew.  By the curvature of the cost, taken for log-normal.
+    /// @param u  most likely.
+    [[nodiscard]] DayNoise expected_noise(const Point& u) const;
     [[nodiscard]] double lag_s(const Point& u, DayHyper lag) const;
 
     /// The point most likely by data and priors.

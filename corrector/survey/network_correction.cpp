@@ -87,7 +87,7 @@ StationValue adjusted_station(const SurveyCorrection& result, const NetworkAdjus
         station.reference = row.row.reference;
         if (!row.is_used) continue;
         ++station.row_count;
-        *station.redundancy += 1.0 - row.leverage;
+        *station.redundancy += 1.0 - row.leverage.value();
     }
     for (const NetworkRow& row : network.rows) {
         if (row.label == "datum " + station.site) *station.redundancy += row.redundancy;

@@ -1,5 +1,7 @@
 #include "corrector/survey/row_doubts.hpp"
 
+#include <cmath>
+
 #include "corrector/survey/aligned_text.hpp"
 #include "corrector/survey/outlier_tests.hpp"
 
@@ -47,6 +49,22 @@ std::optional<StudentisedRows> refit_network(const SurveyOptions& options,
     return result;
 }
 
+std::string statistical_doubt(double studentised, double limit) {
+    return "t " + fixed(studentised, 2) + " over " + fixed(limit, 2);
+}
+
+/// Errors of the prediction without the row's station: one bad row does not hide another.
+void test_left_out(SurveyCorrection& result) {
+    const ModelScore& score = result.score;
+    if (score.row_count <= score.parameter_count) return;
+    const double limit = studentised_limit(
+        score.row_count, static_cast<double>(score.row_count - score.parameter_count));
+    for (CorrectedRow& row : result.rows) {
+        if (row.studentised_residual && std::abs(*row.studentised_residual) > limit)
+            row.doubt_statistical = statistical_doubt(*row.studentised_residual, limit);
+    }
+}
+
 }  // namespace
 
 void set_doubts(SurveyCorrection& result) {
@@ -57,6 +75,7 @@ void set_doubts(SurveyCorrection& result) {
         rows.push_back(row.row);
         in_use.push_back(row.is_used);
     }
+    if (result.model == "day") test_left_out(result);
     const LinearModel* const model =
         find_linear_model(result.model == "robust" ? result.options.robust_terms : result.model);
     if (model == nullptr && !result.network) return;
@@ -67,7 +86,7 @@ void set_doubts(SurveyCorrection& result) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (!doubts[i]) continue;
         result.rows[i].doubt_statistical =
-            "t " + fixed(doubts[i]->studentised, 2) + " over " + fixed(doubts[i]->limit, 2);
+            statistical_doubt(doubts[i]->studentised, doubts[i]->limit);
     }
 }
 

@@ -6,7 +6,8 @@
 
 namespace a351::corrector {
 
-/// Sets doubt_physical of every row, and doubt_statistical where the model is a least-squares fit.
+/// Sets doubt_physical of every row, and doubt_statistical by least squares, or for the whole-day
+/// model by what it predicts without the row's station.
 void set_doubts(SurveyCorrection& result);
 
 /// The rows in doubt with the reasons, one per line; says when there are none.

@@ -103,7 +103,7 @@ void correct_linear(SurveyCorrection& result, const LinearModel& model, const Ap
         set_uncertainty(out, fit, s, x);
         if (out.residual) {
             out.studentised_residual =
-                studentised_residual(out.residual->value(), out.leverage, out.is_used, fit);
+                studentised_residual(out.residual->value(), out.leverage.value(), out.is_used, fit);
         }
     }
     const std::vector<std::string> names = coefficient_names(model);
@@ -121,7 +121,7 @@ std::optional<Interval> loo_interval(const SurveyCorrection& result) {
     std::vector<std::string> stations;
     for (const CorrectedRow& row : result.rows) {
         if (!row.is_used) continue;
-        errors.push_back(row.residual->value() / (1.0 - row.leverage));
+        errors.push_back(row.residual->value() / (1.0 - row.leverage.value()));
         stations.push_back(row.row.site);
     }
     if (!result.score.loo_mgal) return std::nullopt;
@@ -143,8 +143,8 @@ void correct_robust(SurveyCorrection& result, const LinearModel& model, Applied&
     for (CorrectedRow& row : result.rows) {
         // The robust scale is hardly the row's own doing: no row is left out of it.
         row.studentised_residual.reset();
-        if (row.residual && row.leverage < 1.0) {
-            const double share = row.is_used ? 1.0 - row.leverage : 1.0 + row.leverage;
+        if (row.residual && row.leverage.value() < 1.0) {
+            const double share = row.is_used ? 1.0 - row.leverage.value() : 1.0 + row.leverage.value();
             row.studentised_residual = row.residual->value() / (robust->s * std::sqrt(share));
         }
         if (row.is_used) row.weight = robust->weights(at++);
@@ -293,6 +293,7 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
     }
     if (options.model == "day" || (options.model == "auto" && !refusal)) {
         correct_by_day(result, {usable, unflagged_usable}, *day);
+        set_doubts(result);
         return result;
     }
     if (options.model == "auto") {

@@ -102,6 +102,21 @@ TEST_CASE("a flagged row has a value and no influence", "[survey][day]") {
     CHECK(result.row_sets.back().scores.back().row_count == rows.size());
 }
 
+TEST_CASE("a blunder is doubted, a clean day is not", "[survey][day]") {
+    DayRecord day = kScattered.record();
+    const auto doubted = [&] {
+        const auto result = correct_survey(rows_of(day), with_model("day"), &day);
+        std::vector<std::size_t> found;
+        for (std::size_t i = 0; i < result.rows.size(); ++i)
+            if (!result.rows[i].doubt_statistical.empty()) found.push_back(i);
+        return found;
+    };
+    CHECK(doubted().empty());
+    for (DayBin& bin : day.bins)
+        if (bin.set_up == 8) bin.reading = bin.reading + MilliGal(15.0);
+    CHECK(doubted() == std::vector<std::size_t>{8});
+}
+
 TEST_CASE("rows that have no say do not tell of each other", "[survey][day]") {
     // Two rows of one station, excluded: their difference would tell of the drift.
     const DayRecord day = kScattered.record();
