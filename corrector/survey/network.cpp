@@ -124,6 +124,13 @@ NetworkResult adjust_network(const std::vector<SurveyRow>& rows, const std::vect
                              const NetworkOptions& options) {
     const Occupied occupied = find_stations(rows, in_use, datum);
     const NetworkReadings& readings = occupied.readings;
+    for (std::size_t k = 0; k < readings.stations.size(); ++k) {
+        const std::string& name = readings.stations[k];
+        const bool is_listed = std::find(datum.begin(), datum.end(), name) != datum.end();
+        if (!is_listed || readings.is_held[k]) continue;
+        return {{},
+                "datum = " + name + ": no reference gravity; allowed: stations with gravity_mgal"};
+    }
     if (readings.stations.empty()) return {{}, "no reading in use; allowed: at least one"};
     if (std::count(readings.is_held.begin(), readings.is_held.end(), true) == 0) {
         return {{},

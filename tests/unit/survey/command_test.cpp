@@ -52,6 +52,27 @@ TEST_CASE("the model paper prints its RMS before and after the drift step", "[co
     CHECK(json["in_sample"]["rms_mgal"].get<double>() == Approx(2.6249).margin(1e-4));
 }
 
+TEST_CASE("a network of one datum says how far it is off the references it does not hold",
+          "[command]") {
+    const ScratchFolder folder;
+    const std::string arguments =
+        kTsukuba + "--model network --datum No.0 --prior temperature_mgal_per_degc -29.274 0.001 ";
+    const Outcome outcome = run(folder, arguments + "--out a");
+    CHECK(outcome.status == 0);
+    CHECK_THAT(
+        outcome.output,
+        Catch::Contains("known but not held: 12, off by 2.635 mGal rms (not in sample)") &&
+            Catch::Contains("(redundancy below 0.1), a blunder there cannot be found: No.12") &&
+            Catch::Contains("global test at 5 %") && Catch::Contains("dof = 2"));
+    const auto json = nlohmann::json::parse(text::read_text_file(folder.path() / "a/result.json"));
+    CHECK(json["network"]["dof"] == 2);
+    CHECK(json["network"]["references_not_held"]["stations"] == 12);
+    CHECK(json["network"]["rows"].size() == 18);
+    CHECK(run(folder, arguments + "--out b").status == 0);
+    CHECK(text::read_text_file(folder.path() / "a/result.json") ==
+          text::read_text_file(folder.path() / "b/result.json"));
+}
+
 TEST_CASE("bad usage ends with 2, one line on standard error and nothing written", "[command]") {
     const ScratchFolder folder;
     folder.write("unknown.csv",

@@ -112,6 +112,14 @@ TEST_CASE("a network without datum is refused in words", "[survey][network]") {
     CHECK_THAT(adjust(rows).refusal, Catch::StartsWith("no datum") && Catch::Contains("B, S1"));
 }
 
+TEST_CASE("a station to be held that has no reference is refused by name", "[survey][network]") {
+    const auto rows = day_with_quadratic_drift(0.0);
+    const std::vector<bool> in_use(rows.size(), true);
+    CHECK_THAT(adjust_network(rows, in_use, {"B", "S2"}, {}, {}).refusal,
+               Catch::StartsWith("datum = S2: no reference gravity"));
+    CHECK(adjust_network(rows, in_use, {"B"}, {}, {}).adjustment.has_value());
+}
+
 TEST_CASE("two groups of stations that nothing joins are refused by name", "[survey][network]") {
     auto rows = day_with_quadratic_drift(0.0);
     auto next_day = rows;
