@@ -223,6 +223,7 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
         .series = series,
         .curve = TimeSeries<MilliGal>(series.time_of(static_cast<double>(part_begin)),
                                       series.rate(), std::move(curve)),
+        .temperature_series = temperature,
     };
     value.rectification = rectification_bias(value.x.rms, value.y.rms, value.series_mean);
     return value;

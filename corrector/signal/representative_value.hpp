@@ -83,6 +83,7 @@ struct RepresentativeValue {
     MilliGal noise_level;    ///< Std. deviation of the noise the decomposition added.
     TimeSeries<MilliGal> series;  ///< Decimated norm of the whole record, at 1 / 100 of its rate.
     TimeSeries<MilliGal> curve;   ///< Trend of the part that was decomposed, as asked for.
+    TimeSeries<DegC> temperature_series;  ///< Decimated temperature, at the instants of `series`.
 };
 
 /// Decimates twice by 10, takes the longest run of valid samples and of it the longest part between

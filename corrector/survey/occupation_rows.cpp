@@ -205,12 +205,14 @@ OccupationRows average_occupations(const SurveyFile& survey, const Progress& pro
     const SurveySamples samples = read_samples(survey, station.codes, channels, list.windows);
 
     std::vector<std::optional<SurveyRow>> rows(list.windows.size());
+    std::vector<std::optional<RepresentativeValue>> values(list.windows.size());
     std::vector<std::string> troubles(list.windows.size());
     std::vector<std::vector<DayBin>> bins(list.windows.size());
     const auto average = [&](std::size_t i) {
         const OccupationWindow& window = list.windows[i];
         const auto record = cut_occupation(samples, channels, window.start, window.end);
-        const auto value = record ? representative_value(*record, options) : std::nullopt;
+        auto& value = values[i];
+        if (record) value = representative_value(*record, options);
         if (!record) {
             troubles[i] = "no samples";
         } else if (!value) {
@@ -245,6 +247,7 @@ OccupationRows average_occupations(const SurveyFile& survey, const Progress& pro
             if (result.day) result.day->bins.push_back(std::move(bin));
         }
         result.rows.push_back(std::move(*rows[i]));
+        result.records.push_back(std::move(*values[i]));
     }
     if (result.rows.empty()) {
         throw InputError(survey.path.string() + ": root = " + survey.root.string() +
@@ -257,6 +260,8 @@ OccupationRows average_occupations(const SurveyFile& survey, const Progress& pro
         result.warnings.push_back(std::move(warning));
     }
     apply_tide(result.rows, sites, survey.tide);
+    result.temperature_course =
+        temperature_course(samples.temperature.segments, channels.temperature);
 
     result.inputs = inputs_of(survey, metadata, station.codes, channels, list.windows);
     return result;

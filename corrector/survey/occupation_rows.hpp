@@ -13,11 +13,14 @@
 #include "corrector/survey/result_files.hpp"
 #include "corrector/survey/survey_file.hpp"
 #include "corrector/survey/survey_row.hpp"
+#include "corrector/survey/temperature_course.hpp"
 
 namespace a351::corrector {
 
 struct OccupationRows {
     std::vector<SurveyRow> rows;        ///< With tide and the rate within the interval; by time.
+    std::vector<RepresentativeValue> records;           ///< Behind the rows, one each.
+    std::vector<MinuteTemperature> temperature_course;  ///< Over the whole survey.
     std::optional<DayRecord> day;       ///< Set-ups numbered as the rows; absent: no temperature.
     std::vector<LeftOut> left_out;      ///< Occupations without a value, by start.
     std::vector<std::string> warnings;  ///< What is doubtful or left out, and why.

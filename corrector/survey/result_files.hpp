@@ -34,7 +34,7 @@ struct InputFile {
                                       const nlohmann::ordered_json& settings,
                                       const std::vector<InputFile>& inputs);
 
-/// Name and content of a file.
+/// Name (with folders below the result's) and content of a file.
 using NamedText = std::pair<std::string, std::string>;
 
 /// The four files of a survey.
@@ -42,8 +42,8 @@ using NamedText = std::pair<std::string, std::string>;
                                                   const nlohmann::ordered_json& settings,
                                                   const std::vector<InputFile>& inputs);
 
-/// Writes all files into `directory` (created when absent) under temporary names, then renames
-/// them: an error before the first rename leaves everything as it was.
+/// Writes all files into `directory` under temporary names, then renames them: an error before the
+/// first rename leaves every file as it was.  Folders are created when absent.
 /// @throws std::system_error  with the path.
 void write_together(const std::filesystem::path& directory, const std::vector<NamedText>& files);
 

@@ -6,9 +6,9 @@
 namespace a351::corrector {
 
 void write_together(const std::filesystem::path& directory, const std::vector<NamedText>& files) {
-    std::filesystem::create_directories(directory);
     std::deque<NewFile> complete;
     for (const auto& [name, content] : files) {
+        std::filesystem::create_directories((directory / name).parent_path());
         NewFile& file = complete.emplace_back(directory / name);
         file.write(content);
         file.close();

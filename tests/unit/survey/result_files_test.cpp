@@ -122,6 +122,11 @@ TEST_CASE("files are written together or not at all", "[survey][result]") {
     CHECK(text::read_text_file(out / "x.csv") == "1");
     CHECK(file_count(out) == 2);
 
+    SECTION("a name may have a folder") {
+        write_together(out, {{"x.csv", "3"}, {"figures/z.dat", "4"}});
+        CHECK(text::read_text_file(out / "figures" / "z.dat") == "4");
+        CHECK(text::read_text_file(out / "x.csv") == "3");
+    }
     SECTION("a later run replaces both") {
         write_together(out, {{"x.csv", "3"}, {"y.csv", "4"}});
         CHECK(text::read_text_file(out / "y.csv") == "4");
