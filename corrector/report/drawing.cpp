@@ -1,0 +1,143 @@
+#include "corrector/report/drawing.hpp"
+
+#include <stdlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "corrector/report/program_run.hpp"
+#include "protocol/text/text_file.hpp"
+
+namespace a351::corrector {
+namespace {
+
+/// A hundred figures take some 5 s on a slow laptop.
+constexpr std::chrono::seconds kTimeLimit(60);
+
+class TemporaryFolder {
+public:
+    TemporaryFolder() {
+        std::string name =
+            (std::filesystem::temp_directory_path() / "a351-figures-XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr) {
+            throw std::system_error(errno, std::generic_category(), "folder for figures");
+        }
+        path_ = name;
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+    void write(const std::string& name, const std::string& content) const {
+        std::ofstream out(path_ / name, std::ios::binary);
+        out << content;
+        if (!out.flush()) {
+            throw std::system_error(EIO, std::generic_category(), "folder for figures: " + name);
+        }
+    }
+
+private:
+    std::filesystem::path path_;
+};
+
+ProgramRun run_gnuplot(const TemporaryFolder& folder, const std::vector<std::string>& names,
+                       const std::string& format) {
+    // -d: no start-up file of the user or the machine.
+    std::vector<std::string> arguments{"-d", "-e", "format='" + format + "'"};
+    for (const std::string& name : names) arguments.push_back(name + ".gp");
+    return run_program("gnuplot", arguments, folder.path(), kTimeLimit);
+}
+
+/// What gnuplot says last is why it stopped; before it, it shows the place.
+std::string last_line(std::string text) {
+    text.erase(text.find_last_not_of("\n ") + 1);
+    return text.substr(text.find_last_of('\n') + 1);
+}
+
+std::string trouble_of(const ProgramRun& run) {
+    if (!run.is_found) return "gnuplot is not installed (not in PATH)";
+    if (run.is_timed_out) {
+        return "gnuplot took longer than " + std::to_string(kTimeLimit.count()) + " s";
+    }
+    const std::string words = last_line(run.errors);
+    return "gnuplot ended with status " + std::to_string(run.status) +
+           (words.empty() ? std::string() : ": " + words);
+}
+
+/// The pdf library writes the time of the run; the text has this form and length.
+void remove_creation_date(std::string& pdf) {
+    constexpr std::string_view kKey = "/CreationDate (D:";
+    constexpr std::string_view kNever = "19700101000000";
+    const std::size_t at = pdf.find(kKey);
+    if (at == std::string::npos || at + kKey.size() + kNever.size() > pdf.size()) return;
+    pdf.replace(at + kKey.size(), kNever.size(), kNever);
+}
+
+void draw_format(const TemporaryFolder& folder, const std::vector<std::string>& names,
+                 const std::string& format, Drawing& drawing) {
+    ProgramRun run = run_gnuplot(folder, names, format);
+    std::vector<std::string> drawn;
+    if (run.is_good()) {
+        drawn = names;
+    } else if (run.is_found && !run.is_timed_out) {
+        for (const std::string& name : names) {
+            run = run_gnuplot(folder, {name}, format);
+            if (run.is_good()) {
+                drawn.push_back(name);
+            } else {
+                drawing.troubles.push_back(name + "." + format + ": " + trouble_of(run));
+            }
+        }
+    } else {
+        drawing.troubles.push_back(trouble_of(run));
+    }
+    for (const std::string& name : drawn) {
+        const std::string file = name + "." + format;
+        if (!std::filesystem::exists(folder.path() / file)) {
+            drawing.troubles.push_back(file + ": gnuplot did not write it");
+            continue;
+        }
+        std::string content = text::read_text_file(folder.path() / file);
+        if (format == "pdf") remove_creation_date(content);
+        drawing.pictures.emplace_back(file, std::move(content));
+    }
+}
+
+}  // namespace
+
+const std::vector<std::string>& picture_formats() {
+    static const std::vector<std::string> formats{"pdf", "png"};
+    return formats;
+}
+
+Drawing draw(const std::vector<Figure>& figures, const std::vector<std::string>& formats) {
+    Drawing drawing;
+    if (figures.empty()) return drawing;
+    try {
+        const TemporaryFolder folder;
+        std::vector<std::string> names;
+        for (const Figure& figure : figures) {
+            names.push_back(figure.name);
+            folder.write(figure.name + ".gp", figure.script);
+            if (!figure.data.empty()) folder.write(figure.name + ".dat", figure.data);
+        }
+        draw_format(folder, names, "svg", drawing);
+        for (const std::string& format : formats) {
+            draw_format(folder, names, format, drawing);
+        }
+    } catch (const std::system_error& error) {
+        // Tables and text are worth having without them.
+        drawing.troubles.push_back(error.code().message());
+    }
+    return drawing;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,86 @@
+#include "corrector/report/html.hpp"
+
+#include "corrector/report/escaping.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr std::string_view kStyle = R"(
+@page { size: A4; margin: 14mm 13mm; }
+body { font: 15px/1.45 "Liberation Sans", Arial, Helvetica, sans-serif; color: #111; max-width: 62em;
+  margin: 2em auto; padding: 0 1em; }
+h1 { font-size: 1.6em; margin: 0 0 .2em; }
+h2 { font-size: 1.2em; margin: 1.8em 0 .4em; border-bottom: 1px solid #999; }
+h3 { font-size: 1em; margin: 1.2em 0 .3em; }
+p { margin: .4em 0; }
+ul { margin: .4em 0; padding-left: 1.4em; }
+table { border-collapse: collapse; margin: .5em 0; font-size: .85em; font-variant-numeric: tabular-nums; }
+th, td { padding: .12em .55em; border-bottom: 1px solid #ddd; vertical-align: top; }
+th { border-bottom: 1px solid #555; text-align: left; }
+.r { text-align: right; white-space: nowrap; }
+.wide { overflow-x: auto; }
+figure { margin: 1em 0; break-inside: avoid; }
+figure svg { display: block; width: 100%; height: auto; max-height: 235mm; }
+figcaption { font-size: .85em; color: #333; }
+.small { display: grid; grid-template-columns: 1fr 1fr; gap: 0 1em; }
+.small figure { margin: .5em 0; }
+code { font-size: .95em; }
+@media print {
+  body { font-size: 9.5pt; max-width: none; margin: 0; padding: 0; }
+  h2, h3 { break-after: avoid; }
+  section { break-before: page; }
+  section.first { break-before: auto; }
+  tr { break-inside: avoid; }
+  thead { display: table-header-group; }
+  .wide { overflow: visible; }
+  .wide table { font-size: 6.4pt; }
+  .wide th, .wide td { padding: .1em .3em; }
+}
+)";
+
+std::string cell(std::string_view tag, char alignment, std::string_view text) {
+    std::string html = "<";
+    html += tag;
+    if (alignment == 'r') html += " class=\"r\"";
+    html += '>' + html_text(text) + "</";
+    html += tag;
+    return html + '>';
+}
+
+std::string line(std::string_view tag, std::string_view alignment, const HtmlCells& cells) {
+    std::string html = "<tr>";
+    for (std::size_t i = 0; i < alignment.size(); ++i) html += cell(tag, alignment[i], cells.at(i));
+    return html + "</tr>\n";
+}
+
+}  // namespace
+
+std::string html_table(std::string_view alignment, const HtmlCells& header,
+                       const std::vector<HtmlCells>& rows) {
+    std::string html = "<div class=\"wide\"><table>\n<thead>" + line("th", alignment, header) +
+                       "</thead>\n<tbody>\n";
+    for (const HtmlCells& row : rows) html += line("td", alignment, row);
+    return html + "</tbody></table></div>\n";
+}
+
+std::string html_paragraph(std::string_view text) { return "<p>" + html_text(text) + "</p>\n"; }
+
+std::string html_list(const std::vector<std::string>& items) {
+    std::string html = "<ul>\n";
+    for (const std::string& item : items) html += "<li>" + html_text(item) + "</li>\n";
+    return html + "</ul>\n";
+}
+
+std::string html_page(std::string_view title, std::string_view body) {
+    std::string html =
+        "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n"
+        "<meta charset=\"utf-8\"/>\n"
+        "<meta name=\"viewport\" content=\"width=device-width\"/>\n<title>";
+    html += html_text(title) + "</title>\n<style>";
+    html += kStyle;
+    html += "</style>\n</head>\n<body>\n";
+    html += body;
+    return html + "</body>\n</html>\n";
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,213 @@
+#include "corrector/report/map_figure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "corrector/report/escaping.hpp"
+#include "corrector/survey/aligned_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+const std::string kName = "map";
+// The plot within the SVG, so that the place of a label in pixels is known.
+constexpr int kWidth_px = 640, kHeight_px = 560;
+constexpr double kLeft = 0.12, kRight = 0.97, kBottom = 0.10, kTop = 0.97;
+constexpr double kPlotWidth_px = (kRight - kLeft) * kWidth_px;
+constexpr double kPlotHeight_px = (kTop - kBottom) * kHeight_px;
+constexpr double kLetter_px = 6.0;  // of the labels' 11 px letters, as wide as the widest digits
+constexpr double kLine_px = 13.0;
+constexpr double kKilometresPerDegree = 111.2;  // of latitude, on a sphere of 6371 km
+
+struct Range {
+    double least = 0.0, greatest = 0.0;
+
+    [[nodiscard]] double middle() const { return 0.5 * (least + greatest); }
+    [[nodiscard]] double length() const { return greatest - least; }
+};
+
+/// What the plot shows: degrees over its width and height.
+struct Frame {
+    Range longitude, latitude;
+
+    [[nodiscard]] double x_px(double longitude_deg) const {
+        return (longitude_deg - longitude.least) / longitude.length() * kPlotWidth_px;
+    }
+    [[nodiscard]] double y_px(double latitude_deg) const {
+        return (latitude_deg - latitude.least) / latitude.length() * kPlotHeight_px;
+    }
+};
+
+struct Box {
+    double left, bottom, right, top;
+
+    [[nodiscard]] bool overlaps(const Box& other) const {
+        return left < other.right && other.left < right && bottom < other.top && other.bottom < top;
+    }
+};
+
+Range range_of(const std::vector<const text::Site*>& sites, Degrees text::Site::*coordinate) {
+    Range range{(sites.front()->*coordinate).value(), (sites.front()->*coordinate).value()};
+    for (const text::Site* site : sites) {
+        range.least = std::min(range.least, (site->*coordinate).value());
+        range.greatest = std::max(range.greatest, (site->*coordinate).value());
+    }
+    return range;
+}
+
+double cosine(double latitude_deg) {
+    // Next to a pole a map in longitude and latitude has no meaning; the limit keeps it finite.
+    return std::max(0.01, std::cos(latitude_deg * std::numbers::pi / 180.0));
+}
+
+Frame frame_around(const std::vector<const text::Site*>& sites) {
+    const Range longitude = range_of(sites, &text::Site::longitude);
+    const Range latitude = range_of(sites, &text::Site::latitude);
+    constexpr double kShare = 0.75;            // of the plot for the stations, the rest for labels
+    constexpr double kLeastExtent_deg = 1e-3;  // 100 m, for a survey at one place
+    const double across = cosine(latitude.middle());
+    const double degrees_per_px =
+        std::max({longitude.length() * across / (kShare * kPlotWidth_px),
+                  latitude.length() / (kShare * kPlotHeight_px), kLeastExtent_deg / kPlotWidth_px});
+    const double half_width = 0.5 * kPlotWidth_px * degrees_per_px / across;
+    const double half_height = 0.5 * kPlotHeight_px * degrees_per_px;
+    return {{longitude.middle() - half_width, longitude.middle() + half_width},
+            {latitude.middle() - half_height, latitude.middle() + half_height}};
+}
+
+struct LabelPlace {
+    double x_px, y_px;  ///< Of the label's near end, from the point.
+    bool is_left;       ///< It ends there.
+};
+constexpr std::array<LabelPlace, 8> kPlaces{{{9, 0, false},
+                                             {-9, 0, true},
+                                             {7, 12, false},
+                                             {7, -12, false},
+                                             {-7, 12, true},
+                                             {-7, -12, true},
+                                             {5, 26, false},
+                                             {-5, -26, true}}};
+
+/// The first place where the label touches no other and no point; the first of all if none is free.
+class LabelPlacer {
+public:
+    LabelPlacer(const Frame& frame, const std::vector<const text::Site*>& sites) : frame_(frame) {
+        constexpr double kPoint_px = 5.0;
+        for (const text::Site* site : sites) {
+            const double x = frame.x_px(site->longitude.value());
+            const double y = frame.y_px(site->latitude.value());
+            taken_.push_back({x - kPoint_px, y - kPoint_px, x + kPoint_px, y + kPoint_px});
+        }
+    }
+
+    LabelPlace place(const text::Site& site, std::size_t letter_count) {
+        for (const LabelPlace& candidate : kPlaces) {
+            const Box box = box_of(site, candidate, letter_count);
+            const bool is_inside = box.left > 0 && box.right < kPlotWidth_px && box.bottom > 0 &&
+                                   box.top < kPlotHeight_px;
+            const bool is_free = std::none_of(taken_.begin(), taken_.end(),
+                                              [&box](const Box& b) { return b.overlaps(box); });
+            if (!is_inside || !is_free) continue;
+            taken_.push_back(box);
+            return candidate;
+        }
+        return kPlaces.front();
+    }
+
+private:
+    [[nodiscard]] Box box_of(const text::Site& site, const LabelPlace& place,
+                             std::size_t letter_count) const {
+        const double x = frame_.x_px(site.longitude.value()) + place.x_px;
+        const double y = frame_.y_px(site.latitude.value()) + place.y_px;
+        const double width = kLetter_px * static_cast<double>(letter_count);
+        return {place.is_left ? x - width : x, y - kLine_px / 2, place.is_left ? x : x + width,
+                y + kLine_px / 2};
+    }
+
+    Frame frame_;
+    std::vector<Box> taken_;
+};
+
+std::string bar(const Frame& frame) {
+    const double across = cosine(frame.latitude.middle());
+    const double width_km = frame.longitude.length() * across * kKilometresPerDegree;
+    const double length_km = round_step(width_km / 4.0);
+    const double share = length_km / width_km;
+    const std::string title =
+        length_km < 1.0 ? fixed(length_km * 1000.0, 0) + " m" : fixed(length_km, 0) + " km";
+    return "set arrow from graph 0.04,0.04 to graph " + fixed(0.04 + share, 5) +
+           ",0.04 heads size graph 0.008,90 lw 1.5 front\nset label '" + title + "' at graph " +
+           fixed(0.04 + share / 2, 5) + ",0.065 center front\n";
+}
+
+/// Heights of stations that have a reference, or of those that have none.
+std::string station_lines(const std::vector<const text::Site*>& stations, bool is_known) {
+    std::string lines;
+    for (const text::Site* site : stations) {
+        if (site->gravity.has_value() != is_known) continue;
+        lines += datum(site->longitude.value(), 6) + datum(site->latitude.value(), 6) +
+                 datum(site->altitude.value(), 2) + "# " + clean_utf8(site->name) + '\n';
+    }
+    return lines;
+}
+
+}  // namespace
+
+std::optional<Figure> map_figure(const SurveyCorrection& result,
+                                 const std::vector<text::Site>& sites) {
+    std::vector<const text::Site*> stations;
+    for (const StationValue& station : result.stations) {
+        const text::Site* const site = text::find_site(sites, station.site);
+        if (site != nullptr) stations.push_back(site);
+    }
+    if (stations.empty()) return std::nullopt;
+    const Frame frame = frame_around(stations);
+
+    DataBlocks data;
+    std::vector<std::string> clauses;
+    for (const bool is_known : {true, false}) {
+        const auto block = data.add(std::string(is_known ? "with" : "without") +
+                                        " reference: longitude_deg latitude_deg altitude_m",
+                                    station_lines(stations, is_known));
+        if (!block) continue;
+        clauses.push_back(
+            "'" + kName + ".dat' index " + std::to_string(*block) + " using 1:2 with points " +
+            (is_known ? "pt 9 ps 0.9 lc rgb " + kBlue : "pt 8 ps 1 lw 1.5 lc rgb " + kVermilion) +
+            " title '" + (is_known ? "known" : "unknown") + " gravity'");
+    }
+    LabelPlacer placer(frame, stations);
+    std::string labels;
+    for (const text::Site* site : stations) {
+        const std::string label =
+            clean_utf8(site->name) + ", " + fixed(site->altitude.value(), 0) + " m";
+        const LabelPlace place = placer.place(*site, label.size());
+        const double x = frame.x_px(site->longitude.value()) + place.x_px;
+        const double y = frame.y_px(site->latitude.value()) + place.y_px;
+        labels += "set label " + gnuplot_string(label) + " at graph " +
+                  fixed(x / kPlotWidth_px, 5) + "," + fixed(y / kPlotHeight_px, 5) +
+                  (place.is_left ? " right" : " left") + " font ',11' front\n";
+    }
+    const double step_deg = round_step(frame.longitude.length() / 4.0);
+    const int decimals = static_cast<int>(std::clamp(-std::floor(std::log10(step_deg)), 0.0, 6.0));
+    const std::string range = [&] {
+        const auto text = [](const Range& r) {
+            return "[" + fixed(r.least, 7) + ":" + fixed(r.greatest, 7) + "]\n";
+        };
+        return "set xrange " + text(frame.longitude) + "set yrange " + text(frame.latitude);
+    }();
+    return Figure{kName, "Stations with their heights; one scale in both directions.",
+                  script_head(kName, kWidth_px, kHeight_px) + "set lmargin at screen " +
+                      fixed(kLeft, 2) + "\nset rmargin at screen " + fixed(kRight, 2) +
+                      "\nset bmargin at screen " + fixed(kBottom, 2) + "\nset tmargin at screen " +
+                      fixed(kTop, 2) + '\n' + range + "set xtics " + fixed(step_deg, 7) +
+                      "\nset ytics " + fixed(step_deg, 7) + "\nset format '%." +
+                      std::to_string(decimals) +
+                      "f'\nset xlabel 'Longitude (° east)'\nset ylabel 'Latitude (° north)'\n"
+                      "set key inside bottom right\n" +
+                      bar(frame) + labels + plot_command(clauses) + script_tail(),
+                  data.text()};
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "corrector/report/figure.hpp"
+#include "corrector/survey/survey_correction.hpp"
+#include "protocol/text/sites.hpp"
+
+namespace a351::corrector {
+
+/// Stations by longitude and latitude with their heights, one scale both ways (cosine of the mean
+/// latitude), with a bar of a round length.
+/// @return std::nullopt when no station of the survey is in `sites`.
+[[nodiscard]] std::optional<Figure> map_figure(const SurveyCorrection& result,
+                                               const std::vector<text::Site>& sites);
+
+}  // namespace a351::corrector

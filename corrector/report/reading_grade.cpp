@@ -1,0 +1,144 @@
+#include "corrector/report/reading_grade.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "corrector/report/closure.hpp"
+#include "corrector/report/reading_name.hpp"
+#include "corrector/survey/aligned_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+void add(ReadingGrade& reading, Grade grade, std::string reason) {
+    reading.grade = std::max(reading.grade, grade);
+    reading.reasons.push_back(std::move(reason));
+}
+
+struct NoteText {
+    std::string_view note;
+    Grade grade;
+    std::string_view text;
+};
+/// The doubts of representative_value.hpp in words.
+constexpr std::array<NoteText, 6> kNoteTexts{{
+    {"fallback", Grade::care,
+     "the interval could not be chosen by its first rule (fallback): look at the record"},
+    {"disturbed_start", Grade::trust, "averaged from after a disturbance at its start"},
+    {"disturbed_end", Grade::trust, "averaged up to a disturbance at its end"},
+    {"pulse", Grade::care, "a knock cut the record; its longer part was used"},
+    {"gap", Grade::care, "samples are missing"},
+    {"unsettled", Grade::care, "the weights of the smoother did not settle"},
+}};
+
+void add_note(ReadingGrade& reading, const std::string& note) {
+    const auto known = std::find_if(kNoteTexts.begin(), kNoteTexts.end(),
+                                    [&note](const NoteText& text) { return text.note == note; });
+    if (known == kNoteTexts.end()) {
+        add(reading, Grade::care, note);
+    } else {
+        add(reading, known->grade, std::string(known->text));
+    }
+}
+
+std::optional<double> detail(const SurveyRow& row, std::string_view name) {
+    for (const SurveyRow::Detail& detail : row.details) {
+        if (detail.name == name) return detail.value;
+    }
+    return std::nullopt;
+}
+
+void add_temperature(ReadingGrade& reading, const CorrectedRow& row, bool corrects_rate,
+                     const GradeLimits& limits) {
+    const double slope = row.row.rate_degc_per_h;
+    const double range = detail(row.row, "temperature_range_degc").value_or(0.0);
+    const bool is_monotone = detail(row.row, "temperature_is_monotone").value_or(0.0) > 0.0;
+    std::string text;
+    if (std::abs(slope) > limits.slope_degc_per_h) {
+        text = "temperature moved at " + fixed(slope, 2) + " °C/h (limit " +
+               fixed(limits.slope_degc_per_h, 2) + ")";
+    } else if (is_monotone && range > limits.monotone_range.value()) {
+        text = "temperature went one way by " + fixed(range, 3) + " °C (limit " +
+               fixed(limits.monotone_range.value(), 2) + ")";
+    } else {
+        return;
+    }
+    if (corrects_rate) {
+        add(reading, Grade::care,
+            text + "; it rests on a rate correction of " + fixed(row.rate_correction.value(), 1) +
+                " mGal");
+    } else {
+        add(reading, Grade::repeat, text + ", which the model does not correct");
+    }
+}
+
+void add_residual(ReadingGrade& reading, const CorrectedRow& row, const GradeLimits& limits) {
+    if (!row.residual || !row.u_corrected || !(row.u_corrected->value() > 0.0)) return;
+    const double ratio = std::abs(row.residual->value()) / row.u_corrected->value();
+    if (ratio <= limits.care_ratio) return;
+    add(reading, ratio > limits.repeat_ratio ? Grade::repeat : Grade::care,
+        "off its reference by " + fixed(row.residual->value(), 1) + " mGal, " + fixed(ratio, 1) +
+            " times its uncertainty");
+}
+
+void add_trends(ReadingGrade& reading, const SurveyRow& row, const GradeLimits& limits) {
+    const auto difference = detail(row, "smoother_minus_eemd_mgal");
+    if (!difference || std::abs(*difference) <= limits.trend_difference.value()) return;
+    add(reading, Grade::care,
+        "its two trends (smoother, EEMD) differ by " + fixed(*difference, 2) + " mGal");
+}
+
+/// A reading to be repeated says nothing about another one.
+void add_repeats(std::vector<ReadingGrade>& readings, const SurveyCorrection& result,
+                 const GradeLimits& limits) {
+    if (!result.score.s_mgal || !(*result.score.s_mgal > 0.0)) return;
+    const double expected_mgal = std::sqrt(2.0) * *result.score.s_mgal;
+    for (const Closure& pair : close_stations(result)) {
+        if (readings[pair.earlier].grade == Grade::repeat) continue;
+        if (readings[pair.later].grade == Grade::repeat) continue;
+        const double ratio = std::abs(pair.after_all.value()) / expected_mgal;
+        if (ratio <= limits.care_ratio) continue;
+        const std::string text = fixed(std::abs(pair.after_all.value()), 1) + " mGal from ";
+        const std::string end = ", " + fixed(ratio, 1) + " times what s lets expect";
+        add(readings[pair.earlier], Grade::care,
+            text + reading_name(result.rows, pair.later) + end);
+        add(readings[pair.later], Grade::care,
+            text + reading_name(result.rows, pair.earlier) + end);
+    }
+}
+
+}  // namespace
+
+std::vector<ReadingGrade> grade_readings(const SurveyCorrection& result,
+                                         const GradeLimits& limits) {
+    const bool corrects_rate =
+        std::any_of(result.rows.begin(), result.rows.end(),
+                    [](const CorrectedRow& row) { return row.rate_correction != MilliGal(0.0); });
+    std::vector<ReadingGrade> readings;
+    for (const CorrectedRow& row : result.rows) {
+        ReadingGrade& reading = readings.emplace_back();
+        if (row.row.is_flagged) {
+            add(reading, row.is_used ? Grade::care : Grade::repeat,
+                std::string("marked by the operator as not to be used") +
+                    (row.is_used ? ", in the fit all the same" : ""));
+        }
+        add_temperature(reading, row, corrects_rate, limits);
+        add_residual(reading, row, limits);
+        add_trends(reading, row.row, limits);
+        for (const std::string& note : row.row.notes) add_note(reading, note);
+    }
+    add_repeats(readings, result, limits);
+    return readings;
+}
+
+bool has_trusted_reading(const SurveyCorrection& result, const std::vector<ReadingGrade>& grades,
+                         const std::string& site) {
+    for (std::size_t i = 0; i < grades.size(); ++i) {
+        if (result.rows[i].row.site == site && grades[i].grade == Grade::trust) return true;
+    }
+    return false;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,37 @@
+#pragma once
+/// @file
+/// Figures of the records behind a survey: 10 and 11 of the publication, and the day's temperature.
+
+#include <vector>
+
+#include "corrector/report/figure.hpp"
+#include "corrector/signal/representative_value.hpp"
+#include "corrector/survey/survey_correction.hpp"
+#include "corrector/survey/temperature_course.hpp"
+
+namespace a351::corrector {
+
+/// The record of a row.
+struct ReadingRecord {
+    std::size_t row = 0;  ///< Index into the survey's rows.
+    const RepresentativeValue* value = nullptr;
+};
+
+/// Rows with the record whose interval is theirs, in the order of the rows.
+[[nodiscard]] std::vector<ReadingRecord> find_records(
+    const SurveyCorrection& result, const std::vector<RepresentativeValue>& values);
+
+/// One figure per record: the 2 s series, its trend, the extrema, the limits of the interval.
+[[nodiscard]] std::vector<Figure> reading_figures(const SurveyCorrection& result,
+                                                  const std::vector<ReadingRecord>& records);
+
+/// All records side by side at one scale: accelerations, temperatures.  They plot the data of
+/// reading_figures().
+[[nodiscard]] std::vector<Figure> panel_figures(const SurveyCorrection& result,
+                                                const std::vector<ReadingRecord>& records);
+
+/// The temperature of the day with the readings.  Without a course the readings alone.
+[[nodiscard]] Figure temperature_figure(const SurveyCorrection& result,
+                                        const std::vector<MinuteTemperature>& course);
+
+}  // namespace a351::corrector

@@ -1,0 +1,156 @@
+#include "corrector/report/result_tables.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "corrector/report/closure.hpp"
+#include "corrector/report/html.hpp"
+#include "corrector/report/reading_name.hpp"
+#include "corrector/survey/aligned_text.hpp"
+#include "corrector/survey/table_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+template <class Value>
+std::string cell(const std::optional<Value>& value, int decimals) {
+    return fixed_or(value, decimals, "-");
+}
+
+std::string number(MilliGal value, int decimals = 3) { return fixed(value.value(), decimals); }
+
+std::string hexadecimal(std::uint32_t value) {
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    std::string text;
+    for (int shift = 28; shift >= 0; shift -= 4) text += kDigits[value >> shift & 0xFU];
+    return text;
+}
+
+}  // namespace
+
+std::string stations_html(const SurveyCorrection& result) {
+    std::vector<HtmlCells> rows;
+    for (const StationValue& station : result.stations) {
+        rows.push_back({station.site, std::to_string(station.row_count), number(station.gravity),
+                        cell(station.u_gravity, 2), cell(station.reference, 3),
+                        cell(station.residual, 3), cell(station.redundancy, 2),
+                        station.is_flagged_only ? "flagged readings only" : ""});
+    }
+    return html_table("lrrrrrrl",
+                      {"Station", "n", "Gravity mGal", "u mGal", "Reference mGal", "Residual mGal",
+                       "Redundancy", ""},
+                      rows) +
+           html_paragraph(
+               "u is the standard uncertainty from the scatter in sample; residuals are in "
+               "sample.");
+}
+
+std::string occupations_html(const SurveyCorrection& result) {
+    std::vector<HtmlCells> rows;
+    for (std::size_t i = 0; i < result.rows.size(); ++i) {
+        const CorrectedRow& row = result.rows[i];
+        rows.push_back({reading_name(result.rows, i), to_rfc3339(row.row.time),
+                        row.is_used ? "yes" : "no", number(row.row.acceleration),
+                        fixed(row.row.temperature.value(), 3), fixed(row.row.rate_degc_per_h, 3),
+                        number(row.row.tide), number(row.temperature_correction),
+                        number(row.rate_correction), number(row.drift_correction),
+                        number(row.corrected), cell(row.row.reference, 3), cell(row.residual, 3),
+                        cell(row.u_corrected, 2), cell(row.studentised_residual, 2),
+                        flags_of(row, result.options)});
+    }
+    return html_table("lllrrrrrrrrrrrrl",
+                      {"Reading", "Time UTC", "In fit", "Acceleration", "T °C", "°C/h", "Tide",
+                       "T corr.", "Rate corr.", "Drift corr.", "Corrected", "Reference", "Residual",
+                       "u", "t", "Flags"},
+                      rows) +
+           html_paragraph(
+               "Accelerations, gravity, corrections, residuals and u in mGal. Corrected = "
+               "acceleration - tide + corrections; residual = reference - corrected (in sample "
+               "where the reading is in the fit); u as of a new station; t is the studentised "
+               "residual.");
+}
+
+std::string closures_html(const SurveyCorrection& result) {
+    const std::vector<Closure> closures = close_stations(result);
+    if (closures.empty()) {
+        return html_paragraph(
+            "No station was read twice: nothing closes, and drift shows only "
+            "against the references.");
+    }
+    std::vector<HtmlCells> rows;
+    for (const Closure& pair : closures) {
+        rows.push_back({reading_name(result.rows, pair.earlier),
+                        reading_name(result.rows, pair.later), fixed(pair.hours, 2),
+                        number(pair.before), number(pair.after_tide),
+                        number(pair.after_temperature), number(pair.after_rate),
+                        number(pair.after_all), cell(pair.drift_mgal_per_h, 3)});
+    }
+    const ClosureRms rms = rms_of(closures).value();
+    rows.push_back({"RMS of " + std::to_string(closures.size()), "", "", number(rms.before),
+                    number(rms.after_tide), number(rms.after_temperature), number(rms.after_rate),
+                    number(rms.after_all), ""});
+    return html_table("llrrrrrrr",
+                      {"Earlier", "Later", "Hours", "As read", "After tide", "After temperature",
+                       "After rate", "After drift (all)", "Drift mGal/h"},
+                      rows) +
+           html_paragraph(
+               "Later less earlier reading of one station, in mGal. Drift: what each "
+               "pair alone implies, from the difference after rate; with p coefficients "
+               "fitted to the same readings the last differences are in sample.");
+}
+
+std::string models_html(const SurveyCorrection& result) {
+    std::vector<HtmlCells> rows;
+    for (const ScoredRowSet& set : result.row_sets) {
+        for (const ModelScore& score : set.scores) {
+            rows.push_back({score.model, set.rows, std::to_string(score.row_count),
+                            std::to_string(score.parameter_count), cell(score.rms_mgal, 3),
+                            cell(score.s_mgal, 3), cell(score.loo_mgal, 3),
+                            cell(score.loso_mgal, 3), cell(score.aicc, 2),
+                            is_selected(result, set, score) ? "applied" : ""});
+        }
+    }
+    std::string html =
+        html_table("llrrrrrrrl",
+                   {"Model", "Rows", "n", "p", "RMS mGal (in sample)", "s mGal (in sample)",
+                    "RMS mGal (cross-validated, leave-one-out)",
+                    "RMS mGal (cross-validated, leave-one-station-out)", "AICc", ""},
+                   rows);
+    if (result.choice) {
+        html += html_paragraph(
+            "Chosen: among the models within one standard error of the least "
+            "leave-one-station-out error, up to " +
+            fixed(result.choice->limit_mgal, 3) + " mGal, the one with the fewest terms.");
+    }
+    std::vector<HtmlCells> coefficients;
+    for (const Coefficient& c : result.coefficients) {
+        coefficients.push_back({c.name, fixed(c.value, 4), cell(c.standard_error, 4)});
+    }
+    return html + "<h3>Coefficients of " + result.model + "</h3>\n" +
+           html_table("lrr", {"Coefficient", "Value", "Standard error"}, coefficients);
+}
+
+std::string provenance_html(const nlohmann::ordered_json& settings,
+                            const std::vector<InputFile>& inputs,
+                            const std::vector<std::string>& warnings) {
+    std::string html = "<h3>Warnings</h3>\n";
+    html += warnings.empty() ? html_paragraph("None.") : html_list(warnings);
+    std::vector<HtmlCells> rows;
+    for (const auto& [key, value] : settings.items()) {
+        if (key == "warnings") continue;
+        rows.push_back({key, value.is_string()
+                                 ? value.get<std::string>()
+                                 : value.dump(-1, ' ', false,
+                                              nlohmann::ordered_json::error_handler_t::replace)});
+    }
+    rows.push_back({"program", "a351-correct " A351_VERSION});
+    html += "<h3>Settings</h3>\n" + html_table("ll", {"Setting", "Value"}, rows);
+    std::vector<HtmlCells> files;
+    for (const InputFile& input : inputs) {
+        files.push_back(
+            {input.role, input.name, std::to_string(input.byte_count), hexadecimal(input.crc32)});
+    }
+    return html + "<h3>Inputs</h3>\n" +
+           html_table("llrr", {"Role", "File", "Bytes", "CRC-32"}, files);
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,28 @@
+#pragma once
+/// @file
+/// The tables of a report, as HTML.
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "corrector/survey/result_files.hpp"
+#include "corrector/survey/survey_correction.hpp"
+
+namespace a351::corrector {
+
+[[nodiscard]] std::string stations_html(const SurveyCorrection& result);
+[[nodiscard]] std::string occupations_html(const SurveyCorrection& result);
+
+/// Differences of repeated stations after every correction; a sentence when there are none.
+[[nodiscard]] std::string closures_html(const SurveyCorrection& result);
+
+/// Scores of all models and the coefficients of the one applied.
+[[nodiscard]] std::string models_html(const SurveyCorrection& result);
+
+/// Warnings, settings and inputs with their checksums.
+[[nodiscard]] std::string provenance_html(const nlohmann::ordered_json& settings,
+                                          const std::vector<InputFile>& inputs,
+                                          const std::vector<std::string>& warnings);
+
+}  // namespace a351::corrector

@@ -1,0 +1,179 @@
+#include "corrector/report/summary.hpp"
+
+#include <cmath>
+
+#include "corrector/report/html.hpp"
+#include "corrector/report/reading_name.hpp"
+#include "corrector/survey/aligned_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+std::string joined(const std::vector<std::string>& names, const std::string& separator) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : separator) + name;
+    return list;
+}
+
+std::string grade_text(Grade grade) {
+    switch (grade) {
+        case Grade::trust:
+            return "trust";
+        case Grade::care:
+            return "with care";
+        case Grade::repeat:
+            return "repeat";
+    }
+    return {};
+}
+
+/// Readings about which there is something to say, the doubtful first.
+std::string reading_table(const SurveyCorrection& result, const std::vector<ReadingGrade>& grades) {
+    std::vector<HtmlCells> rows;
+    for (const Grade grade : {Grade::repeat, Grade::care, Grade::trust}) {
+        for (std::size_t i = 0; i < grades.size(); ++i) {
+            if (grades[i].grade != grade || grades[i].reasons.empty()) continue;
+            rows.push_back({reading_name(result.rows, i), grade_text(grade),
+                            fixed_or(result.rows[i].residual, 2, "-"),
+                            fixed_or(result.rows[i].u_corrected, 2, "-"),
+                            joined(grades[i].reasons, "; ")});
+        }
+    }
+    if (rows.empty()) return {};
+    return html_table("llrrl", {"Reading", "Verdict", "Residual mGal", "u mGal", "Why"}, rows);
+}
+
+std::string accuracy_table(const SurveyCorrection& result) {
+    const ModelScore& score = result.score;
+    const std::string rms_error = fixed_or(standard_error_of_rms(score), 2, "-");
+    std::vector<HtmlCells> rows{
+        {"RMS of the residuals", fixed_or(score.rms_mgal, 3, "-"), rms_error, "in sample"},
+        {"s, the same with divisor n - p", fixed_or(score.s_mgal, 3, "-"), "", "in sample"},
+        {"RMS error of a reading left out", fixed_or(score.loo_mgal, 3, "-"), "",
+         "cross-validated (leave-one-out)"},
+        {"RMS error of a station left out", fixed_or(score.loso_mgal, 3, "-"), "",
+         "cross-validated (leave-one-station-out)"}};
+    if (result.choice_loso_mgal) {
+        rows.push_back({"the same, the model chosen anew each time",
+                        fixed(*result.choice_loso_mgal, 3), "",
+                        "cross-validated (leave-one-station-out)"});
+    }
+    return html_table("lrrl", {"Quantity", "mGal", "its standard error", "Kind"}, rows);
+}
+
+std::string headline(const SurveyCorrection& result) {
+    const UtcTime first = result.rows.front().row.time;
+    const UtcTime last = result.rows.back().row.time;
+    std::string text = to_rfc3339(first) + " to " + to_rfc3339(last) + ": " +
+                       std::to_string(result.rows.size()) + " readings of " +
+                       std::to_string(result.stations.size()) + " stations, base " +
+                       result.options.base + ". Model " + result.model;
+    if (result.options.model == "auto") text += ", chosen by its error of stations left out";
+    return text + "; " + std::to_string(result.score.row_count) + " readings in the fit, " +
+           std::to_string(result.score.parameter_count) + " coefficients.";
+}
+
+}  // namespace
+
+std::vector<std::string> actions(const SurveyCorrection& result,
+                                 const std::vector<ReadingGrade>& grades) {
+    std::vector<std::string> urgent, optional, care, trusted;
+    for (std::size_t i = 0; i < grades.size(); ++i) {
+        const std::string name = reading_name(result.rows, i);
+        if (grades[i].grade == Grade::trust) {
+            trusted.push_back(name);
+        } else if (grades[i].grade == Grade::care) {
+            care.push_back(name);
+        } else if (has_trusted_reading(result, grades, result.rows[i].row.site)) {
+            optional.push_back(name);
+        } else {
+            urgent.push_back(name);
+        }
+    }
+    std::vector<std::string> list;
+    const auto add = [&list](const std::string& what, const std::vector<std::string>& names) {
+        if (!names.empty()) list.push_back(what + ": " + joined(names, ", ") + ".");
+    };
+    add("Repeat, the station has no other reading to trust", urgent);
+    add("Repeat if there is time, the station has another reading to trust", optional);
+    add("Use with care", care);
+    add("Trust", trusted);
+    return list;
+}
+
+std::vector<std::string> limits_of(const SurveyCorrection& result) {
+    constexpr std::size_t kFewestBaseReadings = 3;  // two cannot tell drift from a bad one
+    std::size_t base_count = 0;
+    for (const CorrectedRow& row : result.rows) {
+        if (row.row.site == result.options.base && row.is_used) ++base_count;
+    }
+    std::vector<std::string> limits;
+    if (base_count < kFewestBaseReadings) {
+        limits.push_back("The base " + result.options.base + " has " + std::to_string(base_count) +
+                         " readings in the fit; three spread over the day tell drift from a bad "
+                         "reading.");
+    }
+    std::size_t single_count = 0;
+    std::vector<std::string> unchecked;
+    for (const StationValue& station : result.stations) {
+        if (station.row_count > 1) continue;
+        ++single_count;
+        if (!station.reference) unchecked.push_back(station.site);
+    }
+    if (single_count > 0) {
+        limits.push_back(std::to_string(single_count) + " of " +
+                         std::to_string(result.stations.size()) +
+                         " stations rest on one reading: nothing but a known reference shows a "
+                         "blunder there.");
+    }
+    if (!unchecked.empty()) {
+        limits.push_back("One reading and no reference, so nothing checks them: " +
+                         joined(unchecked, ", ") + ".");
+    }
+    return limits;
+}
+
+std::optional<double> standard_error_of_rms(const ModelScore& score) {
+    if (!score.rms_mgal || score.row_count <= score.parameter_count) return std::nullopt;
+    const auto dof = static_cast<double>(score.row_count - score.parameter_count);
+    return *score.rms_mgal / std::sqrt(2.0 * dof);
+}
+
+std::string honest_sentence(const ModelScore& score) {
+    const auto error = standard_error_of_rms(score);
+    const std::string n = "n = " + std::to_string(score.row_count);
+    if (!error) {
+        return n +
+               ": there are no more readings in the fit than coefficients, so the residuals say "
+               "nothing about accuracy.";
+    }
+    return n + ": the scatter of " + fixed(*score.rms_mgal, 2) +
+           " mGal (in sample) has itself a standard error of about " + fixed(*error, 2) +
+           " mGal, RMS / sqrt(2 (n - p)) with p = " + std::to_string(score.parameter_count) +
+           ". Differences between models smaller than that are not findings. For a new station the "
+           "figure to quote is " +
+           (score.loso_mgal
+                ? fixed(*score.loso_mgal, 2) + " mGal (cross-validated, leave-one-station-out)."
+                : std::string("the leave-one-station-out error, which this model and "
+                              "these readings do not have."));
+}
+
+std::string summary_html(const SurveyCorrection& result, const std::vector<std::string>& warnings,
+                         const std::vector<std::string>& missing) {
+    const std::vector<ReadingGrade> grades = grade_readings(result);
+    std::string html = html_paragraph(headline(result));
+    html += "<h2>What to do</h2>\n" + html_list(actions(result, grades)) +
+            reading_table(result, grades);
+    html += "<h2>How good it is</h2>\n" + accuracy_table(result) +
+            html_paragraph(honest_sentence(result.score));
+    std::vector<std::string> limits = limits_of(result);
+    if (!warnings.empty()) {
+        limits.push_back("Warnings about the input: " + std::to_string(warnings.size()) +
+                         ", see the last section.");
+    }
+    limits.insert(limits.end(), missing.begin(), missing.end());
+    if (!limits.empty()) html += "<h2>What limits it</h2>\n" + html_list(limits);
+    return html;
+}
+
+}  // namespace a351::corrector

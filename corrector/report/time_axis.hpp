@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "corrector/survey/survey_correction.hpp"
+
+namespace a351::corrector {
+
+/// Script lines for data whose first column is an instant in RFC 3339: UTC below, the readings'
+/// names above their instants.
+[[nodiscard]] std::string time_axis(const std::vector<CorrectedRow>& rows);
+
+}  // namespace a351::corrector

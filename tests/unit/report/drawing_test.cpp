@@ -1,0 +1,112 @@
+#include "corrector/report/drawing.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "corrector/report/escaping.hpp"
+#include "corrector/report/program_run.hpp"
+#include "tests/unit/report/path_variable.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+using namespace std::chrono_literals;
+
+namespace {
+
+Figure figure(const std::string& name, const std::string& commands) {
+    Figure figure;
+    figure.name = name;
+    figure.script = script_head(name, 300, 200) + commands + script_tail();
+    figure.data = "1 1\n2 4\n";
+    return figure;
+}
+
+bool has_gnuplot() {
+    const ScratchFolder folder;
+    if (run_program("gnuplot", {"--version"}, folder.path(), 20s).is_good()) return true;
+    WARN("gnuplot is not installed: nothing is drawn");
+    return false;
+}
+
+}  // namespace
+
+TEST_CASE("a program runs where it is told, without a shell", "[report][program]") {
+    const ScratchFolder folder;
+    const ProgramRun run =
+        run_program("sh", {"-c", "pwd >&2; echo \"$1 $LC_ALL\" >&2; exit 3", "sh", "a`b` $c"},
+                    folder.path(), 60s);
+    CHECK(run.is_found);
+    CHECK_FALSE(run.is_good());
+    CHECK(run.status == 3);
+    CHECK(run.errors == folder.path().string() + "\na`b` $c C.UTF-8\n");
+}
+
+TEST_CASE("a program that is not there, is killed or takes too long is told apart",
+          "[report][program]") {
+    const ScratchFolder folder;
+    CHECK_FALSE(run_program("a351-no-such-program", {}, folder.path(), 60s).is_found);
+    CHECK(run_program("sh", {"-c", "kill -9 $$"}, folder.path(), 60s).status == 128 + 9);
+    const ProgramRun run = run_program("sleep", {"1000"}, folder.path(), 1ms);
+    CHECK(run.is_timed_out);
+    CHECK_FALSE(run.is_good());
+}
+
+TEST_CASE("the same figures are the same bytes, in every format", "[report][drawing]") {
+    if (!has_gnuplot()) return;
+    const std::vector<Figure> figures{figure("one", "plot 'one.dat' with lines\n"),
+                                      figure("two", "plot 'one.dat' with points\n")};
+    const Drawing drawing = draw(figures, picture_formats());
+    CHECK(drawing.troubles.empty());
+    REQUIRE(drawing.pictures.size() == 6);
+    CHECK(drawing.pictures[1].first == "two.svg");
+    CHECK(drawing.pictures[2].second.starts_with("%PDF"));
+    CHECK(drawing.pictures[2].second.find("/CreationDate (D:19700101000000Z") != std::string::npos);
+    CHECK(drawing.pictures[4].second.substr(1, 3) == "PNG");
+    CHECK(draw(figures, picture_formats()).pictures == drawing.pictures);
+}
+
+TEST_CASE("a bad figure costs no other, and its trouble is told", "[report][drawing]") {
+    if (!has_gnuplot()) return;
+    const Drawing drawing =
+        draw({figure("one", "plot 'one.dat'\n"), figure("bad", "plot 'absent.dat'\n"),
+              figure("two", "plot 'one.dat'\n")},
+             {});
+    REQUIRE(drawing.pictures.size() == 2);
+    CHECK(drawing.pictures[1].first == "two.svg");
+    REQUIRE(drawing.troubles.size() == 1);
+    CHECK_THAT(drawing.troubles.front(),
+               Catch::StartsWith("bad.svg: gnuplot ended with status 1: \"bad.gp\" line ") &&
+                   Catch::EndsWith("No data in plot"));
+}
+
+TEST_CASE("a name from outside is drawn as it is and runs nothing", "[report][drawing]") {
+    if (!has_gnuplot()) return;
+    const ScratchFolder folder;
+    const std::string trap = (folder.path() / "trap").string();
+    const std::string name = "It's `touch " + trap + "` @a {/x} ^2 \\n %s";
+    const Drawing drawing =
+        draw({figure("one", "set title " + gnuplot_string(name) + "\nset label " +
+                                gnuplot_string("'; system('touch " + trap + "'); #") +
+                                " at graph 0.5,0.5\nplot 'one.dat' title " + gnuplot_string(name) +
+                                '\n')},
+             {});
+    REQUIRE(drawing.pictures.size() == 1);
+    CHECK_THAT(drawing.pictures.front().second,
+               Catch::Contains("`touch ") && Catch::Contains("@a {/x} ^2 \\n %s"));
+    CHECK_FALSE(std::filesystem::exists(trap));
+}
+
+TEST_CASE("without gnuplot, or with one that fails, there is one reason", "[report][drawing]") {
+    const std::vector<Figure> figures{figure("one", "plot 'one.dat'\n")};
+    const ScratchFolder folder;
+    const PathVariable path(folder.path());
+    CHECK(draw(figures, {}).troubles ==
+          std::vector<std::string>{"gnuplot is not installed (not in PATH)"});
+    write_gnuplot(folder, "echo 'no such terminal' >&2; exit 4");
+    const Drawing drawing = draw(figures, {});
+    CHECK(drawing.pictures.empty());
+    CHECK(drawing.troubles ==
+          std::vector<std::string>{"one.svg: gnuplot ended with status 4: no such terminal"});
+    write_gnuplot(folder, "exit 0");
+    CHECK(draw(figures, {}).troubles ==
+          std::vector<std::string>{"one.svg: gnuplot did not write it"});
+}

@@ -1,0 +1,28 @@
+#include "corrector/report/escaping.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace a351::corrector;
+
+TEST_CASE("UTF-8 stays, other bytes and control characters become U+FFFD", "[report][escaping]") {
+    CHECK(clean_utf8("No.5 \u7B51\u6CE2 \u00B0 \U0001F600") ==
+          "No.5 \u7B51\u6CE2 \u00B0 \U0001F600");
+    CHECK(clean_utf8("a\nb\x7F") == "a\uFFFDb\uFFFD");
+    CHECK(clean_utf8(std::string_view("\0", 1)) == "\uFFFD");
+    CHECK(clean_utf8("\xC2\x85") == "\uFFFD\uFFFD");                      // U+0085, a control
+    CHECK(clean_utf8("\xE9t\xE9") == "\uFFFDt\uFFFD");                    // Latin-1
+    CHECK(clean_utf8("\xC0\xAF") == "\uFFFD\uFFFD");                      // overlong '/'
+    CHECK(clean_utf8("\xED\xA0\x80") == "\uFFFD\uFFFD\uFFFD");            // surrogate
+    CHECK(clean_utf8("\xEF\xBF\xBE") == "\uFFFD\uFFFD\uFFFD");            // U+FFFE, not in XML
+    CHECK(clean_utf8("\xF4\x90\x80\x80") == "\uFFFD\uFFFD\uFFFD\uFFFD");  // beyond U+10FFFF
+    CHECK(clean_utf8("ab\xE7\xAD") == "ab\uFFFD\uFFFD");                  // cut off
+}
+
+TEST_CASE("text in HTML cannot become markup", "[report][escaping]") {
+    CHECK(html_text("<b a=\"1\" c='2'>&amp;") ==
+          "&lt;b a=&quot;1&quot; c=&#39;2&#39;&gt;&amp;amp;");
+}
+
+TEST_CASE("text in a gnuplot string cannot end it", "[report][escaping]") {
+    CHECK(gnuplot_string("It's `ls` \\n @x\n") == "'It\u2019s `ls` \\n @x\uFFFD'");
+}

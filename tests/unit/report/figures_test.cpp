@@ -1,0 +1,212 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <regex>
+
+#include "corrector/report/map_figure.hpp"
+#include "corrector/report/record_figures.hpp"
+#include "corrector/report/table_figures.hpp"
+#include "tests/golden/tsukuba_table.hpp"
+#include "tests/unit/survey/survey_rows.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+SurveyCorrection corrected(const std::vector<SurveyRow>& rows, const std::string& model = "t") {
+    SurveyOptions options;
+    options.model = model;
+    return correct_survey(rows, options);
+}
+
+/// A record of ten minutes with a knock, at 2 s, averaged from its third sample on.
+RepresentativeValue record_at(UtcTime start) {
+    std::vector<double> series, curve, temperature;
+    for (int i = 0; i < 300; ++i) {
+        series.push_back(i < 2 ? std::nan("") : 981700.0 + (i == 100 ? 500.0 : i % 2));
+        temperature.push_back(42.5 + 1e-4 * i);
+        if (i >= 2) curve.push_back(981700.5 + std::sin(0.03 * i));
+    }
+    const Hertz rate(0.5);
+    RepresentativeValue value{
+        .acceleration = MilliGal(981700.5),
+        .eemd_mean = {},
+        .smoother_mean = {},
+        .smoother_standard_error = {},
+        .series_mean = {},
+        .standard_error = {},
+        .temperature = {},
+        .interval_start = start + std::chrono::seconds(4),
+        .interval_end = start + std::chrono::seconds(598),
+        .flags = {},
+        .counts = {},
+        .x = {},
+        .y = {},
+        .z = {},
+        .rectification = {},
+        .noise_level = {},
+        .series = TimeSeries<MilliGal>(start, rate, series),
+        .curve = TimeSeries<MilliGal>(start + std::chrono::seconds(4), rate, curve),
+        .temperature_series = TimeSeries<DegC>(start, rate, temperature),
+    };
+    return value;
+}
+
+SurveyRow row_behind(const RepresentativeValue& value, const std::string& site) {
+    SurveyRow row;
+    row.site = site;
+    row.start = value.interval_start;
+    row.end = value.interval_end;
+    row.time = value.interval_start;
+    return row;
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+    std::size_t found = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    return found;
+}
+
+text::Site site(const std::string& name, double longitude, double latitude, bool is_known = true) {
+    text::Site site{name, Degrees(longitude), Degrees(latitude), Metres(100.0), {}};
+    if (is_known) site.gravity = MilliGal(979800.0);
+    return site;
+}
+
+}  // namespace
+
+TEST_CASE("the published figures 12 and 13 have the published lines", "[report][figures]") {
+    const SurveyCorrection result = corrected(tsukuba::observations());
+    // Printed there: 0.97348 x + 27825, R2 0.9748; -29.27 x + 3085, R2 0.926.
+    CHECK_THAT(acceleration_figure(result).value().script,
+               Catch::Contains("'y = 0.9735 x + 27825.7, R² = 0.9748'") &&
+                   Catch::Contains("left out of the fit"));
+    CHECK_THAT(difference_figure(result).value().script,
+               Catch::Contains("'y = -29.2309 x + 3083.3, R² = 0.9257'"));
+}
+
+TEST_CASE("every row is in a block of its kind, and an empty block is not plotted",
+          "[report][figures]") {
+    auto rows = made_up::day();
+    rows[1].reference.reset();
+    CHECK(count(residual_figure(corrected(rows)).value().script, "index 0") == 2);
+    CHECK(count(residual_figure(corrected(rows)).value().script, "index 1") == 0);
+    rows[2].is_flagged = true;
+    const Figure figure = corrected_figure(corrected(rows)).value();
+    CHECK(count(figure.data, "\n\n\n") == 1);
+    CHECK(count(figure.data, "# B (") == 3);
+    CHECK(count(figure.data, "# S1 (1)") == 0);
+    CHECK(figure.data.find("# S2 (1)") > figure.data.find("# left out of the fit"));
+    for (SurveyRow& row : rows) row.reference.reset();
+    SurveyCorrection unknown;
+    for (const SurveyRow& row : rows) {
+        CorrectedRow out;
+        out.row = row;
+        unknown.rows.push_back(out);
+    }
+    CHECK_FALSE(acceleration_figure(unknown).has_value());
+    CHECK_FALSE(residual_figure(unknown).has_value());
+}
+
+TEST_CASE("a record belongs to the row whose interval it has", "[report][figures]") {
+    const UtcTime morning = made_up::kMorning;
+    const std::vector<RepresentativeValue> values{record_at(morning),
+                                                  record_at(morning + std::chrono::hours(1))};
+    SurveyCorrection result;
+    result.rows.resize(2);
+    result.rows[0].row = row_behind(values[1], "B");
+    result.rows[1].row = row_behind(values[1], "C");
+    result.rows[1].row.end = morning;
+    const auto records = find_records(result, values);
+    REQUIRE(records.size() == 1);
+    CHECK(records.front().row == 0);
+    CHECK(records.front().value == &values[1]);
+}
+
+TEST_CASE("a reading's figure has its series, trend, extrema and interval", "[report][figures]") {
+    const std::vector<RepresentativeValue> values{record_at(made_up::kMorning)};
+    SurveyCorrection result;
+    result.rows.resize(1);
+    result.rows[0].row = row_behind(values[0], "O'Hara <3");
+    const auto records = find_records(result, values);
+    const Figure figure = reading_figures(result, records).at(0);
+    CHECK(figure.name == "reading-01");
+    CHECK_THAT(figure.script, Catch::Contains("set title 'O\u2019Hara <3 (1)'"));
+    // The knock of 500 mGal does not stretch the axis.
+    CHECK_THAT(figure.script, Catch::Contains("set yrange [-1.100:1.100]"));
+    CHECK_THAT(figure.data, Catch::StartsWith("# minutes acceleration_mgal trend_mgal "
+                                              "temperature_degc\n0.0000 NaN NaN 42.50000 \n"));
+    CHECK_THAT(figure.data, Catch::Contains("\n0.0667 981700.000 981700.560 42.50020 \n"));
+    // sin(0.03 i) has its extrema at i = 52.4, 157.1 and 261.8.
+    CHECK_THAT(figure.data,
+               Catch::Contains("trend_mgal\n1.7333 981701.500 \n5.2333 981699.500 \n8.7333 "));
+    CHECK_THAT(figure.data, Catch::Contains("interval: minutes trend_mgal\n0.0667 981700.560 \n"
+                                            "9.9667 "));
+
+    const auto panels = panel_figures(result, records);
+    REQUIRE(panels.size() == 2);
+    CHECK_THAT(panels[0].script, Catch::Contains("plot 'reading-01.dat' index 0 using 1:($2-"));
+    CHECK_THAT(panels[1].script, Catch::Contains("plot 'reading-01.dat' index 0 using 1:($4-"));
+    CHECK(panels[0].data.empty());
+}
+
+TEST_CASE("the day's temperature breaks where it was not recorded", "[report][figures]") {
+    SurveyCorrection result;
+    result.rows.resize(1);
+    result.rows[0].row = row_behind(record_at(made_up::kMorning), "B");
+    std::vector<MinuteTemperature> course;
+    for (const int minute : {0, 1, 5}) {
+        course.push_back({made_up::kMorning + std::chrono::minutes(minute), DegC(42.0 + minute)});
+    }
+    CHECK_THAT(temperature_figure(result, course).data,
+               Catch::Contains("00:01:00Z 43.0000 \n\n2020-05-01T00:05:00Z 47.0000 \n"));
+    CHECK_THAT(temperature_figure(result, {}).data, Catch::StartsWith("# readings"));
+}
+
+TEST_CASE("a degree of latitude is as long as one of longitude over its cosine",
+          "[report][figures]") {
+    SurveyCorrection result;
+    for (const char* const name : {"A", "B", "C"}) {
+        StationValue station;
+        station.site = name;
+        result.stations.push_back(station);
+    }
+    const auto figure =
+        map_figure(result, {site("A", 10.0, 60.0), site("B", 10.2, 60.01),
+                            site("elsewhere", 50.0, 0.0), site("C", 10.1, 59.99, false)});
+    const std::string& script = figure.value().script;
+    std::smatch x, y;
+    REQUIRE(std::regex_search(script, x, std::regex("xrange \\[(.*):(.*)\\]")));
+    REQUIRE(std::regex_search(script, y, std::regex("yrange \\[(.*):(.*)\\]")));
+    // The plot is 0.85 x 640 by 0.87 x 560 pixels.
+    const double width_deg = std::stod(x[2]) - std::stod(x[1]);
+    const double height_deg = std::stod(y[2]) - std::stod(y[1]);
+    CHECK(width_deg / (0.85 * 640) * 0.5 == Approx(height_deg / (0.87 * 560)).epsilon(1e-5));
+    CHECK(std::stod(x[1]) < 10.0);
+    CHECK(std::stod(x[2]) > 10.2);
+    CHECK_THAT(script, Catch::Contains("'A, 100 m'") && Catch::Contains("unknown gravity") &&
+                           Catch::Contains("set label '2 km'"));
+    CHECK(count(figure.value().data, "elsewhere") == 0);
+    CHECK_FALSE(map_figure(result, {}).has_value());
+}
+
+TEST_CASE("stations at one place still make a map", "[report][figures]") {
+    SurveyCorrection result;
+    for (const char* const name : {"A", "B"}) {
+        StationValue station;
+        station.site = name;
+        result.stations.push_back(station);
+    }
+    const Figure figure =
+        map_figure(result, {site("A", 10.0, 45.0), site("B", 10.0, 45.0)}).value();
+    CHECK_THAT(figure.script, Catch::Contains("'A, 100 m'") && Catch::Contains("'B, 100 m'") &&
+                                  Catch::Contains("set label '20 m'"));
+}
+
+TEST_CASE("steps of an axis are round", "[report][figures]") {
+    CHECK(round_step(0.73) == Approx(0.5));
+    CHECK(round_step(2.0) == Approx(2.0));
+    CHECK(round_step(4.9) == Approx(2.0));
+    CHECK(round_step(999.0) == Approx(500.0));
+    CHECK(round_step(0.0015) == Approx(0.001));
+}

@@ -1,0 +1,133 @@
+#include "corrector/report/reading_grade.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "corrector/report/reading_name.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+/// Readings of stations of their own, a day apart, without anything to say about them.
+SurveyCorrection quiet(std::size_t count) {
+    SurveyCorrection result;
+    result.score.s_mgal = 2.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        CorrectedRow row;
+        row.row.site = std::string(1, static_cast<char>('A' + i));
+        row.row.time = UtcTime(std::chrono::days(i));
+        row.row.rate_degc_per_h = 0.2;
+        row.is_used = true;
+        row.residual = MilliGal(-4.0);
+        row.u_corrected = MilliGal(2.0);
+        result.rows.push_back(row);
+        StationValue station;
+        station.site = row.row.site;
+        result.stations.push_back(station);
+    }
+    return result;
+}
+
+Grade first_grade(const SurveyCorrection& result) { return grade_readings(result).front().grade; }
+
+std::string first_reasons(const SurveyCorrection& result) {
+    std::string text;
+    const ReadingGrade first = grade_readings(result).front();
+    for (const std::string& reason : first.reasons) text += reason + '|';
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("a reading at its limits is trusted", "[report][grade]") {
+    const SurveyCorrection result = quiet(2);
+    CHECK(first_grade(result) == Grade::trust);
+    CHECK(first_reasons(result).empty());
+    CHECK(has_trusted_reading(result, grade_readings(result), "B"));
+}
+
+TEST_CASE("a temperature that moves means repeat, with a rate term care", "[report][grade]") {
+    SurveyCorrection result = quiet(2);
+    result.rows[0].row.rate_degc_per_h = -0.21;
+    CHECK(first_grade(result) == Grade::repeat);
+    CHECK_FALSE(has_trusted_reading(result, grade_readings(result), "A"));
+    CHECK(first_reasons(result) ==
+          "temperature moved at -0.21 °C/h (limit 0.20), which the model does not correct|");
+    result.rows[0].rate_correction = MilliGal(5.25);
+    CHECK(first_grade(result) == Grade::care);
+    CHECK_THAT(first_reasons(result), Catch::Contains("rests on a rate correction of 5.2 mGal"));
+}
+
+TEST_CASE("a temperature that goes one way counts from its range", "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    result.rows[0].row.details = {{"temperature_range_degc", 0.051},
+                                  {"temperature_is_monotone", 1.0}};
+    CHECK(first_grade(result) == Grade::repeat);
+    result.rows[0].row.details[1].value = 0.0;
+    CHECK(first_grade(result) == Grade::trust);
+}
+
+TEST_CASE("a residual of more than two u means care, of three repeat", "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    result.rows[0].residual = MilliGal(-4.1);
+    CHECK(first_grade(result) == Grade::care);
+    CHECK_THAT(first_reasons(result), Catch::Contains("off its reference by -4.1 mGal"));
+    result.rows[0].residual = MilliGal(6.1);
+    CHECK(first_grade(result) == Grade::repeat);
+    result.rows[0].residual.reset();
+    CHECK(first_grade(result) == Grade::trust);
+}
+
+TEST_CASE("trends that disagree mean care", "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    result.rows[0].row.details = {{"smoother_minus_eemd_mgal", -0.51}};
+    CHECK(first_grade(result) == Grade::care);
+    CHECK_THAT(first_reasons(result), Catch::Contains("differ by -0.51 mGal"));
+    result.rows[0].row.details[0].value = 0.5;
+    CHECK(first_grade(result) == Grade::trust);
+}
+
+TEST_CASE("a mark of the operator means repeat, in the fit care", "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    result.rows[0].row.is_flagged = true;
+    CHECK(first_grade(result) == Grade::care);
+    result.rows[0].is_used = false;
+    CHECK(first_grade(result) == Grade::repeat);
+}
+
+TEST_CASE("notes count as what they say, unknown ones as care", "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    result.rows[0].row.notes = {"disturbed_end"};
+    CHECK(first_grade(result) == Grade::trust);
+    CHECK(first_reasons(result) == "averaged up to a disturbance at its end|");
+    result.rows[0].row.notes = {"fallback"};
+    CHECK(first_grade(result) == Grade::care);
+    result.rows[0].row.notes = {"seen from afar"};
+    CHECK(first_grade(result) == Grade::care);
+    CHECK(first_reasons(result) == "seen from afar|");
+}
+
+TEST_CASE("readings of one station that disagree are both doubted", "[report][grade]") {
+    SurveyCorrection result = quiet(2);
+    result.rows[1].row.site = "A";
+    result.rows[1].row.occupation = 2;
+    result.stations.pop_back();
+    result.rows[1].corrected = MilliGal(5.6);  // 2 sqrt(2) s = 5.66
+    CHECK(first_grade(result) == Grade::trust);
+    result.rows[1].corrected = MilliGal(5.7);
+    CHECK(first_grade(result) == Grade::care);
+    CHECK(first_reasons(result) == "5.7 mGal from A (2), 2.0 times what s lets expect|");
+    CHECK(grade_readings(result)[1].reasons.front() ==
+          "5.7 mGal from A (1), 2.0 times what s lets expect");
+    result.rows[1].row.rate_degc_per_h = 0.3;  // to be repeated, so no witness
+    CHECK(first_grade(result) == Grade::trust);
+}
+
+TEST_CASE("set-ups of one stay have letters", "[report][grade]") {
+    SurveyCorrection result = quiet(3);
+    result.rows[2].row.site = "A";
+    CHECK(reading_name(result.rows, 0) == "A (1a)");
+    CHECK(reading_name(result.rows, 1) == "B (1)");
+    CHECK(reading_name(result.rows, 2) == "A (1b)");
+}

@@ -1,0 +1,81 @@
+#include "corrector/report/summary.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/unit/survey/survey_rows.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+SurveyCorrection corrected(const std::vector<SurveyRow>& rows) {
+    SurveyOptions options;
+    options.model = "t-rate-drift";
+    return correct_survey(rows, options);
+}
+
+/// All readings good, but with some scatter.
+std::vector<SurveyRow> scattered_day() {
+    auto rows = made_up::day();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].acceleration = rows[i].acceleration + MilliGal(i % 2 == 0 ? 0.5 : -0.5);
+    }
+    return rows;
+}
+
+}  // namespace
+
+TEST_CASE("readings are sorted by what to do about them", "[report][summary]") {
+    auto rows = scattered_day();
+    rows[1].is_flagged = true;  // S1, its only reading
+    rows[2].is_flagged = true;  // S2, read again later
+    rows[5].notes = {"gap"};    // S4
+    const SurveyCorrection result = corrected(rows);
+    std::vector<ReadingGrade> grades(rows.size());
+    grades[1].grade = grades[2].grade = Grade::repeat;
+    grades[5].grade = Grade::care;
+    const std::vector<std::string> list = actions(result, grades);
+    REQUIRE(list.size() == 4);
+    CHECK(list[0] == "Repeat, the station has no other reading to trust: S1 (1).");
+    CHECK(list[1] == "Repeat if there is time, the station has another reading to trust: S2 (1).");
+    CHECK(list[2] == "Use with care: S4 (1).");
+    CHECK(list[3] == "Trust: B (1), S3 (1), B (2), S5 (1), S6 (1), S7 (1), S2 (2), S3 (2), B (3).");
+}
+
+TEST_CASE("the limits name what nothing checks", "[report][summary]") {
+    auto rows = scattered_day();
+    rows[7].reference.reset();  // S6
+    const std::vector<std::string> limits = limits_of(corrected(rows));
+    REQUIRE(limits.size() == 2);
+    CHECK_THAT(limits[0], Catch::StartsWith("5 of 8 stations rest on one reading"));
+    CHECK_THAT(limits[1], Catch::EndsWith("nothing checks them: S6."));
+    rows[4].is_flagged = true;  // the second reading of the base
+    CHECK_THAT(limits_of(corrected(rows)).front(),
+               Catch::StartsWith("The base B has 2 readings in the fit"));
+}
+
+TEST_CASE("the scatter is given with its own standard error", "[report][summary]") {
+    ModelScore score;
+    score.row_count = 16;
+    score.parameter_count = 2;
+    score.rms_mgal = 2.0084;
+    score.loso_mgal = 2.276;
+    CHECK(standard_error_of_rms(score).value() == Approx(2.0084 / std::sqrt(28.0)));
+    CHECK_THAT(honest_sentence(score),
+               Catch::StartsWith("n = 16: the scatter of 2.01 mGal (in sample) has itself a "
+                                 "standard error of about 0.38 mGal") &&
+                   Catch::EndsWith("2.28 mGal (cross-validated, leave-one-station-out)."));
+    score.parameter_count = 16;
+    CHECK_FALSE(standard_error_of_rms(score).has_value());
+    CHECK_THAT(honest_sentence(score), Catch::Contains("say nothing about accuracy"));
+}
+
+TEST_CASE("the summary names the kind of every figure of accuracy", "[report][summary]") {
+    const std::string html = summary_html(corrected(scattered_day()), {"a"}, {"figures <missing>"});
+    CHECK_THAT(html, Catch::Contains("<td>in sample</td>") &&
+                         Catch::Contains("<td>cross-validated (leave-one-out)</td>") &&
+                         Catch::Contains("<td>cross-validated (leave-one-station-out)</td>") &&
+                         Catch::Contains("Warnings about the input: 1,") &&
+                         Catch::Contains("figures &lt;missing&gt;"));
+}
