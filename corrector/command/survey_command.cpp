@@ -10,7 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "corrector/command/figures_option.hpp"
 #include "corrector/command/progress_bar.hpp"
+#include "corrector/report/report.hpp"
 #include "corrector/survey/export_files.hpp"
 #include "corrector/survey/joint_table.hpp"
 #include "corrector/survey/occupation_rows.hpp"
@@ -32,6 +34,7 @@ struct SurveyCommandOptions {
     std::string tide;
     std::string trend;
     std::string curve;
+    std::vector<std::string> figures;
 };
 
 SurveyFile with_overrides(SurveyFile survey, const SurveyCommandOptions& options) {
@@ -98,7 +101,7 @@ SurveyCorrection corrected(const SurveyFile& survey, OccupationRows& read) {
     }
 }
 
-Day correct_day(const SurveyFile& survey) {
+Day correct_day(const SurveyFile& survey, const std::vector<std::string>& picture_formats) {
     ProgressBar bar(std::cerr, ::isatty(STDERR_FILENO) == 1, survey.name);
     OccupationRows read = average_occupations(
         survey, [&bar](std::size_t done, std::size_t total) { bar.show(done, total); });
@@ -106,10 +109,17 @@ Day correct_day(const SurveyFile& survey) {
     day.name = survey.name;
     day.result = corrected(survey, read);
     day.amendments = amendments_text(read.amendments);
-    day.files = result_files(day.result, settings_of(survey, day.result, read), read.inputs);
+    const nlohmann::ordered_json settings = settings_of(survey, day.result, read);
+    day.files = result_files(day.result, settings, read.inputs);
     for (NamedText& file : export_files(day.result, read.sites)) {
         day.files.push_back(std::move(file));
     }
+    Report report = make_report(
+        day.result, settings,
+        {survey.name, read.sites, std::move(read.records), std::move(read.temperature_course),
+         read.inputs, read.warnings, picture_formats});
+    std::move(report.files.begin(), report.files.end(), std::back_inserter(day.files));
+    read.warnings.insert(read.warnings.end(), report.warnings.begin(), report.warnings.end());
     for (const std::string& warning : read.warnings) {
         std::cerr << "a351-correct: " << survey.name << ": " << warning << '\n';
     }
@@ -130,7 +140,9 @@ void correct_days(const SurveyCommandOptions& options) {
                                           ? surveys.front().path.parent_path() / "result"
                                           : std::filesystem::path(options.out);
     std::vector<Day> days;
-    for (const SurveyFile& survey : surveys) days.push_back(correct_day(survey));
+    for (const SurveyFile& survey : surveys) {
+        days.push_back(correct_day(survey, options.figures));
+    }
 
     const bool is_joint = days.size() > 1;
     std::vector<SurveyCorrection> results;
@@ -176,6 +188,7 @@ void add_survey_command(CLI::App& program) {
         .add_option("--curve", options->curve,
                     "Which components make the EEMD trend; the model paper always has its own")
         ->check(CLI::IsMember({"paper", "slow"}));
+    add_figures_option(command, options->figures);
     command.callback([options] { correct_days(*options); });
 }
 

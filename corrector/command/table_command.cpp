@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "corrector/command/figures_option.hpp"
 #include "corrector/command/option_values.hpp"
+#include "corrector/report/report.hpp"
 #include "corrector/survey/export_files.hpp"
 #include "corrector/survey/result_files.hpp"
 #include "corrector/survey/table_text.hpp"
@@ -25,6 +27,7 @@ struct TableOptions {
     TideFactors factors;
     std::vector<std::tuple<std::string, double, double>> priors;
     std::string out = "result";
+    std::vector<std::string> figures;
 };
 
 void correct_table(TableOptions options) {
@@ -55,7 +58,7 @@ void correct_table(TableOptions options) {
     settings["base"] = result.options.base;
     settings["datum"] = options.survey.datum;
     settings["rate"] = "backward";
-    const std::vector<std::string> warnings = position_warnings(rows, sites);
+    std::vector<std::string> warnings = position_warnings(rows, sites);
     settings["warnings"] = warnings;
     settings["seed"] = options.survey.seed;
     std::vector<InputFile> inputs{describe_input("sites", options.sites),
@@ -63,7 +66,17 @@ void correct_table(TableOptions options) {
     if (!tide.series.empty()) inputs.push_back(describe_input("tide", tide.series));
     std::vector<NamedText> files = result_files(result, settings, inputs);
     for (NamedText& file : export_files(result, sites)) files.push_back(std::move(file));
+    Report report = make_report(result, settings,
+                                {std::filesystem::path(options.observations).stem().string(),
+                                 sites,
+                                 {},
+                                 {},
+                                 inputs,
+                                 warnings,
+                                 options.figures});
+    std::move(report.files.begin(), report.files.end(), std::back_inserter(files));
     write_together(options.out, files);
+    warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
     for (const std::string& warning : warnings) std::cerr << "a351-correct: " << warning << '\n';
     std::cout << survey_text(result) << "written to " << options.out << '\n';
 }
@@ -121,6 +134,7 @@ void add_table_command(CLI::App& program) {
         ->check(CLI::IsMember(linear_models))
         ->capture_default_str();
     command.add_option("--out", options->out, "Folder of the result")->capture_default_str();
+    add_figures_option(command, options->figures);
     command.callback([options] { correct_table(*options); });
 }
 

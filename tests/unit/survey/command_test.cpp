@@ -39,6 +39,53 @@ TEST_CASE("table corrects the published survey and writes the same bytes twice",
     }
 }
 
+TEST_CASE("table writes a report, the same bytes twice, in the formats asked for", "[command]") {
+    const ScratchFolder folder;
+    const std::string arguments = kTsukuba + "--model paper --figures pdf --figures png --out ";
+    const Outcome first = run(folder, arguments + "a");
+    CHECK(first.status == 0);
+    CHECK(first.errors.empty());
+    CHECK(run(folder, arguments + "b").status == 0);
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path() / "a")) {
+        if (!entry.is_regular_file()) continue;
+        ++count;
+        const auto name = std::filesystem::relative(entry.path(), folder.path() / "a");
+        CAPTURE(name);
+        CHECK(text::read_text_file(entry.path()) ==
+              text::read_text_file(folder.path() / "b" / name));
+    }
+    CHECK(count == 7 + 6 * 5);  // six figures as .gp, .dat, .svg, .pdf and .png
+    CHECK_THAT(text::read_text_file(folder.path() / "a/report.html"),
+               Catch::Contains("Gravity survey observations") &&
+                   Catch::Contains("n = 16: the scatter of 2.62 mGal (in sample)") &&
+                   Catch::Contains("<svg"));
+}
+
+TEST_CASE("without a gnuplot that works everything but figures is written", "[command]") {
+    const auto [script, reason] = GENERATE(table<std::string, std::string>({
+        {"", "figures are missing: gnuplot is not installed (not in PATH)"},
+        {"echo 'no fonts' >&2; exit 5", "gnuplot ended with status 5: no fonts; 5 more such"},
+    }));
+    CAPTURE(reason);
+    const ScratchFolder folder;
+    folder.write("bin/other", "");
+    if (!script.empty()) {
+        const auto file = folder.write("bin/gnuplot", "#!/bin/sh\n" + script + "\n");
+        std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+    }
+    const Outcome outcome = run(folder, kTsukuba, "PATH=\"$PWD/bin\"");
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.errors, Catch::StartsWith("a351-correct: ") && Catch::Contains(reason));
+    CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
+    for (const std::string name : {"occupations.csv", "result.json", "figures/residuals.gp"}) {
+        CHECK(std::filesystem::exists(folder.path() / "result" / name));
+    }
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "result/figures/residuals.svg"));
+    CHECK_THAT(text::read_text_file(folder.path() / "result/report.html"),
+               Catch::Contains(reason) && Catch::Contains("Repeated stations"));
+}
+
 TEST_CASE("the model paper prints its RMS before and after the drift step", "[command]") {
     const ScratchFolder folder;
     const Outcome outcome = run(folder, kTsukuba + "--model paper");
@@ -111,6 +158,7 @@ TEST_CASE("bad usage ends with 2, one line on standard error and nothing written
         {sites + "missing.csv", "missing.csv: cannot be read"},
         {kTsukuba + "--model kriging", "t-rate-drift"},
         {kTsukuba + "--tide tide.csv", "longman"},
+        {kTsukuba + "--figures gif", "pdf,png"},
         {kTsukuba + "--model paper --base No.3", "drift step is refused"},
         {"table --sites open.csv --observations open_readings.csv --model network",
          "model = network: no datum"},

@@ -17,9 +17,11 @@ struct Outcome {
     std::string errors;
 };
 
-inline Outcome run(const ScratchFolder& folder, const std::string& arguments) {
-    const std::string command = "cd '" + folder.path().string() + "' && '" A351_CORRECT "' " +
-                                arguments + " > stdout.txt 2> stderr.txt";
+/// @param environment  e.g. "PATH=bin".
+inline Outcome run(const ScratchFolder& folder, const std::string& arguments,
+                   const std::string& environment = {}) {
+    const std::string command = "cd '" + folder.path().string() + "' && " + environment +
+                                " '" A351_CORRECT "' " + arguments + " > stdout.txt 2> stderr.txt";
     const int status = std::system(command.c_str());
     return {WEXITSTATUS(status), text::read_text_file(folder.path() / "stdout.txt"),
             text::read_text_file(folder.path() / "stderr.txt")};

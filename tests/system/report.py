@@ -1,0 +1,84 @@
+"""The report of a simulated day: well-formed, alone in its file, with every figure; and without gnuplot."""
+
+import collections
+import json
+import os
+import re
+import time
+import xml.etree.ElementTree
+
+from programs import BIN, IS_SANITIZED, Scratch, demand, rows, run
+
+XLINK = "{http://www.w3.org/1999/xlink}href"
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def parse(file):
+    return xml.etree.ElementTree.parse(file).getroot()
+
+
+def drawn(file):
+    """Paths, marks and words; the groups around them also depend on what gnuplot drew before."""
+    return re.findall(r"<path[^>]*>|<use[^>]*>|<text>.*?</text>", file.read_text())
+
+
+with Scratch() as scratch:
+    run(BIN / "a351-sim", "survey", "--scenario", "tsukuba", "--seed", 3, "--out", scratch / "day")
+    began = time.monotonic()
+    said = run(BIN / "a351-correct", "survey", scratch / "day" / "survey.toml", "--out", scratch / "out")
+    seconds = time.monotonic() - began
+    if not IS_SANITIZED:
+        demand(f"a day of 19 readings to tables and report in {seconds:.1f} s (< 10)", seconds < 10.0)
+
+    page = parse(scratch / "out" / "report.html")
+    text = (scratch / "out" / "report.html").read_text()
+    elements = list(page.iter())
+    print(f"report.html: {len(text)} bytes, {len(elements)} elements")
+    pictures = [element for element in elements if element.tag == SVG + "svg"]
+    scripts = sorted(file.stem for file in (scratch / "out" / "figures").glob("*.gp"))
+    demand(f"{len(pictures)} figures are in it, one per script (19 readings, 8 others)",
+           len(pictures) == len(scripts) == 27)
+    ids = collections.Counter(element.get("id") for element in elements if element.get("id"))
+    demand(f"its {len(ids)} ids are unique", max(ids.values()) == 1)
+    wanted = {element.get(XLINK) for element in elements if element.get(XLINK)}
+    demand("every reference within it has its target", all(name[1:] in ids for name in wanted))
+    demand("nothing is loaded from elsewhere and nothing runs",
+           not re.search(r"<script|src=|url\(h|@import|<link|href=\"[^#]", text))
+    demand("nothing in it names a path of this machine", str(scratch) not in text)
+    demand("nor do its figures, scripts and data",
+           all(str(scratch) not in file.read_text() for file in (scratch / "out" / "figures").iterdir()))
+
+    table = rows(scratch / "out" / "occupations.csv")
+    readings = {f"{row['site']} ({row['occupation']})" for row in table}
+    actions = text.split("What to do</h2>")[1].split("</ul>")[0]
+    named = re.findall(r"[^,:>]+ \(\d+\)", actions)
+    demand("every reading has its verdict once", sorted(name.strip() for name in named) == sorted(readings))
+    result = json.loads((scratch / "out" / "result.json").read_text())
+    for name in ("loo_mgal", "loso_mgal"):
+        demand(f"{name} of result.json is in the report",
+               f">{result['cross_validated'][name]:.3f}<" in text)
+    demand("every input's checksum is in the report",
+           all(f">{entry['crc32']:08x}<" in text for entry in result["inputs"]))
+
+    # An author's way: change nothing, draw again from scripts and data alone.
+    again = scratch / "again"
+    run("cp", "-r", scratch / "out" / "figures", again)
+    for name in scripts:
+        before = drawn(again / f"{name}.svg")
+        (again / f"{name}.svg").unlink()
+        run("gnuplot", f"{name}.gp", cwd=again)
+        demand(f"{name}.gp alone draws the same {len(before)} strokes, marks and words",
+               len(before) > 20 and drawn(again / f"{name}.svg") == before)
+
+    empty = scratch / "empty"
+    empty.mkdir()
+    said = run(BIN / "a351-correct", "survey", scratch / "day" / "survey.toml", "--out", scratch / "bare",
+               env={"PATH": str(empty)})
+    demand("without gnuplot it says so on stderr, once", said.stderr.count("figures are missing") == 1)
+    demand("and in the report", "figures are missing: gnuplot is not installed" in
+           (scratch / "bare" / "report.html").read_text())
+    parse(scratch / "bare" / "report.html")
+    for name in os.listdir(scratch / "out"):
+        if name not in ("report.html", "figures"):
+            demand(f"{name} is the same as with it",
+                   (scratch / "bare" / name).read_bytes() == (scratch / "out" / name).read_bytes())
