@@ -49,6 +49,20 @@ std::string clean_utf8(std::string_view text) {
     return clean;
 }
 
+std::string short_label(std::string_view text) {
+    constexpr std::size_t kLongest = 20;
+    const std::string clean = clean_utf8(text);
+    std::string label;
+    std::size_t count = 0;
+    for (std::string_view rest = clean; !rest.empty(); ++count) {
+        const std::size_t size = character_size(rest);
+        if (count == kLongest - 1 && size < rest.size()) return label + "\xE2\x80\xA6";  // U+2026
+        label += rest.substr(0, size);
+        rest.remove_prefix(size);
+    }
+    return label;
+}
+
 std::string html_text(std::string_view text) {
     std::string html;
     for (const char c : clean_utf8(text)) {

@@ -11,6 +11,9 @@ namespace a351::corrector {
 /// becomes U+FFFD.
 [[nodiscard]] std::string clean_utf8(std::string_view text);
 
+/// clean_utf8() of at most 20 characters, for a label of a figure; a longer text ends with an ellipsis.
+[[nodiscard]] std::string short_label(std::string_view text);
+
 /// clean_utf8() with & < > " ' as character references: for element content and attributes.
 [[nodiscard]] std::string html_text(std::string_view text);
 

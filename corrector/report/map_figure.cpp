@@ -181,7 +181,7 @@ std::optional<Figure> map_figure(const SurveyCorrection& result,
     std::string labels;
     for (const text::Site* site : stations) {
         const std::string label =
-            clean_utf8(site->name) + ", " + fixed(site->altitude.value(), 0) + " m";
+            short_label(site->name) + ", " + fixed(site->altitude.value(), 0) + " m";
         const LabelPlace place = placer.place(*site, label.size());
         const double x = frame.x_px(site->longitude.value()) + place.x_px;
         const double y = frame.y_px(site->latitude.value()) + place.y_px;

@@ -170,7 +170,7 @@ std::string panels_script(const SurveyCorrection& result, const std::vector<Read
         const bool is_lowest = k + kColumns >= n;
         script += std::string("set format x '") + (is_lowest ? "%g" : "") + "'\nset format y '" +
                   (k % kColumns == 0 ? "%g" : "") + "'\nset label 3 " +
-                  gnuplot_string(reading_name(result.rows, records[k].row)) +
+                  gnuplot_string(short_label(reading_name(result.rows, records[k].row))) +
                   " at graph 0.04,0.9 font ',11' front\nset label 4 " +
                   gnuplot_string("mean " + fixed(panels.means[k], panels.label_decimals)) +
                   " at graph 0.96,0.09 right font ',10' front\nplot '" +

@@ -18,6 +18,12 @@ TEST_CASE("UTF-8 stays, other bytes and control characters become U+FFFD", "[rep
     CHECK(clean_utf8("ab\xE7\xAD") == "ab\uFFFD\uFFFD");                  // cut off
 }
 
+TEST_CASE("a label is cut between characters", "[report][escaping]") {
+    CHECK(short_label("12345678901234567890") == "12345678901234567890");
+    CHECK(short_label("\u7B51345678901234567890AB") == "\u7B51345678901234567890\u2026");
+    CHECK(short_label("\xFF") == "\uFFFD");
+}
+
 TEST_CASE("text in HTML cannot become markup", "[report][escaping]") {
     CHECK(html_text("<b a=\"1\" c='2'>&amp;") ==
           "&lt;b a=&quot;1&quot; c=&#39;2&#39;&gt;&amp;amp;");

@@ -108,6 +108,22 @@ TEST_CASE("every row is in a block of its kind, and an empty block is not plotte
     CHECK_FALSE(residual_figure(unknown).has_value());
 }
 
+TEST_CASE("the axis of time names each stay once, and the date where the hour does not tell",
+          "[report][figures]") {
+    auto rows = made_up::day();
+    rows[1].site = "B";
+    rows[1].occupation = 1;
+    std::string script = residual_figure(corrected(rows)).value().script;
+    CHECK(count(script, "'B (1)'") == 1);
+    CHECK(count(script, "'B (2)'") == 1);
+    CHECK_THAT(script,
+               Catch::Contains("set format x '%H:%M'") && Catch::Contains("'UTC, 2020-05-01'"));
+    rows.back().time += std::chrono::days(2);
+    script = residual_figure(corrected(rows)).value().script;
+    CHECK_THAT(script,
+               Catch::Contains("%m-%d\"") && Catch::Contains("'UTC, 2020-05-01 to 2020-05-03'"));
+}
+
 TEST_CASE("a record belongs to the row whose interval it has", "[report][figures]") {
     const UtcTime morning = made_up::kMorning;
     const std::vector<RepresentativeValue> values{record_at(morning),
