@@ -11,7 +11,7 @@ std::string script_head(const std::string& name, int width_px, int height_px) {
     const std::string inches =
         fixed(width_px / kPixelsPerInch, 3) + "in," + fixed(height_px / kPixelsPerInch, 3) + "in";
     const std::string pixels = std::to_string(width_px) + "," + std::to_string(height_px);
-    // A letter of 13 px is one of 9.75 points (PDF: x 0.75).  PNG at three times the size: 288 per inch.
+    // A letter of 13 px is one of 9.75 points (PDF: x 0.75).  PNG at three times the size.
     const std::string tripled = std::to_string(3 * width_px) + "," + std::to_string(3 * height_px);
     return "# gnuplot " + name + ".gp writes " + name + ".svg; gnuplot -e \"format='pdf'\" " +
            name +

@@ -7,14 +7,15 @@ namespace {
 
 constexpr std::string_view kStyle = R"(
 @page { size: A4; margin: 14mm 13mm; }
-body { font: 15px/1.45 "Liberation Sans", Arial, Helvetica, sans-serif; color: #111; max-width: 62em;
-  margin: 2em auto; padding: 0 1em; }
+body { font: 15px/1.45 "Liberation Sans", Arial, Helvetica, sans-serif; color: #111;
+  max-width: 62em; margin: 2em auto; padding: 0 1em; }
 h1 { font-size: 1.6em; margin: 0 0 .2em; }
 h2 { font-size: 1.2em; margin: 1.8em 0 .4em; border-bottom: 1px solid #999; }
 h3 { font-size: 1em; margin: 1.2em 0 .3em; }
 p { margin: .4em 0; }
 ul { margin: .4em 0; padding-left: 1.4em; }
-table { border-collapse: collapse; margin: .5em 0; font-size: .85em; font-variant-numeric: tabular-nums; }
+table { border-collapse: collapse; margin: .5em 0; font-size: .85em;
+  font-variant-numeric: tabular-nums; }
 th, td { padding: .12em .55em; border-bottom: 1px solid #ddd; vertical-align: top; }
 th { border-bottom: 1px solid #555; text-align: left; }
 .r { text-align: right; white-space: nowrap; }
@@ -33,8 +34,8 @@ code { font-size: .95em; }
   tr { break-inside: avoid; }
   thead { display: table-header-group; }
   .wide { overflow: visible; }
-  .wide table { font-size: 6.4pt; }
-  .wide th, .wide td { padding: .1em .3em; }
+  .many table { font-size: 6.4pt; }
+  .many th, .many td { padding: .1em .3em; }
 }
 )";
 
@@ -57,8 +58,10 @@ std::string line(std::string_view tag, std::string_view alignment, const HtmlCel
 
 std::string html_table(std::string_view alignment, const HtmlCells& header,
                        const std::vector<HtmlCells>& rows) {
-    std::string html = "<div class=\"wide\"><table>\n<thead>" + line("th", alignment, header) +
-                       "</thead>\n<tbody>\n";
+    constexpr std::size_t kMany = 10;  // more columns are too wide for A4 at the size of the text
+    std::string html =
+        alignment.size() > kMany ? "<div class=\"wide many\">" : "<div class=\"wide\">";
+    html += "<table>\n<thead>" + line("th", alignment, header) + "</thead>\n<tbody>\n";
     for (const HtmlCells& row : rows) html += line("td", alignment, row);
     return html + "</tbody></table></div>\n";
 }

@@ -66,8 +66,8 @@ std::vector<std::string> environment_with_fixed_locale() {
     return variables;
 }
 
-/// Whether the child ends before the limit.  Without a descriptor of it (an old kernel) it is waited
-/// for without a limit.
+/// Whether the child ends before the limit.  Where no descriptor of it is to be had (an old kernel)
+/// it is waited for without a limit.
 bool ends_within(pid_t child, std::chrono::milliseconds limit) {
     // The header of glibc 2.36 declares pidfd_open() for C alone.
     const auto descriptor = static_cast<int>(::syscall(SYS_pidfd_open, child, 0));

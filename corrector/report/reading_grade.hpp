@@ -29,7 +29,8 @@ struct GradeLimits {
     DegC monotone_range{0.05};
     /// Of the two trends of one record: a quarter of the 2 mGal that good readings scatter by.
     MilliGal trend_difference{0.5};
-    /// |residual| / u; of Gaussian errors one in 22 lies above the first, one in 370 above the other.
+    /// |residual| / u: of Gaussian errors one in 22 lies above the first, one in 370 above the
+    /// other.
     double care_ratio = 2.0;
     double repeat_ratio = 3.0;
 };

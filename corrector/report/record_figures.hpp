@@ -1,13 +1,12 @@
 #pragma once
 /// @file
-/// Figures of the records behind a survey: 10 and 11 of the publication, and the day's temperature.
+/// Figures of the records behind a survey: 10 and 11 of the publication.
 
 #include <vector>
 
 #include "corrector/report/figure.hpp"
 #include "corrector/signal/representative_value.hpp"
 #include "corrector/survey/survey_correction.hpp"
-#include "corrector/survey/temperature_course.hpp"
 
 namespace a351::corrector {
 
@@ -29,9 +28,5 @@ struct ReadingRecord {
 /// reading_figures().
 [[nodiscard]] std::vector<Figure> panel_figures(const SurveyCorrection& result,
                                                 const std::vector<ReadingRecord>& records);
-
-/// The temperature of the day with the readings.  Without a course the readings alone.
-[[nodiscard]] Figure temperature_figure(const SurveyCorrection& result,
-                                        const std::vector<MinuteTemperature>& course);
 
 }  // namespace a351::corrector

@@ -11,6 +11,7 @@
 #include "corrector/report/result_tables.hpp"
 #include "corrector/report/summary.hpp"
 #include "corrector/report/table_figures.hpp"
+#include "corrector/report/temperature_figure.hpp"
 
 namespace a351::corrector {
 namespace {

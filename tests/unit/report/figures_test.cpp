@@ -5,6 +5,7 @@
 #include "corrector/report/map_figure.hpp"
 #include "corrector/report/record_figures.hpp"
 #include "corrector/report/table_figures.hpp"
+#include "corrector/report/temperature_figure.hpp"
 #include "tests/golden/tsukuba_table.hpp"
 #include "tests/unit/survey/survey_rows.hpp"
 
