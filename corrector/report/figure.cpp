@@ -11,7 +11,7 @@ std::string script_head(const std::string& name, int width_px, int height_px) {
     const std::string inches =
         fixed(width_px / kPixelsPerInch, 3) + "in," + fixed(height_px / kPixelsPerInch, 3) + "in";
     const std::string pixels = std::to_string(width_px) + "," + std::to_string(height_px);
-    // A letter of 13 px is one of 9.75 points (PDF: x 0.75).  PNG at three times the size.
+    // PNG at three times the size.  The scales make letters and marks of all formats look alike.
     const std::string tripled = std::to_string(3 * width_px) + "," + std::to_string(3 * height_px);
     return "# gnuplot " + name + ".gp writes " + name + ".svg; gnuplot -e \"format='pdf'\" " +
            name +
@@ -20,13 +20,13 @@ std::string script_head(const std::string& name, int width_px, int height_px) {
            "if (!exists('format')) format = 'svg'\n"
            "if (format eq 'svg') set terminal svg noenhanced size " +
            pixels +
-           " font 'sans-serif,13' linewidth 1\n"
+           " font 'sans-serif,13'\n"
            "if (format eq 'pdf') set terminal pdfcairo noenhanced size " +
            inches +
-           " font 'sans-serif,13' fontscale 0.75 linewidth 1\n"
+           " font 'sans-serif,13' fontscale 0.56 pointscale 1.05\n"
            "if (format eq 'png') set terminal pngcairo noenhanced size " +
            tripled +
-           " font 'sans-serif,13' fontscale 2.25 linewidth 3 pointscale 3\n"
+           " font 'sans-serif,13' fontscale 2.25 linewidth 3 pointscale 4.2\n"
            "set encoding utf8\n"
            "set output '" +
            name +

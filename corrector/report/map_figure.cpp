@@ -14,7 +14,7 @@ namespace {
 const std::string kName = "map";
 // The plot within the SVG, so that the place of a label in pixels is known.
 constexpr int kWidth_px = 640, kHeight_px = 560;
-constexpr double kLeft = 0.12, kRight = 0.97, kBottom = 0.10, kTop = 0.97;
+constexpr double kLeft = 0.14, kRight = 0.97, kBottom = 0.10, kTop = 0.97;
 constexpr double kPlotWidth_px = (kRight - kLeft) * kWidth_px;
 constexpr double kPlotHeight_px = (kTop - kBottom) * kHeight_px;
 constexpr double kLetter_px = 6.0;  // of the labels' 11 px letters, as wide as the widest digits
@@ -174,7 +174,7 @@ std::optional<Figure> map_figure(const SurveyCorrection& result,
         if (!block) continue;
         clauses.push_back(
             "'" + kName + ".dat' index " + std::to_string(*block) + " using 1:2 with points " +
-            (is_known ? "pt 9 ps 0.9 lc rgb " + kBlue : "pt 8 ps 1 lw 1.5 lc rgb " + kVermilion) +
+            (is_known ? "pt 9 ps 0.7 lc rgb " + kBlue : "pt 8 ps 0.8 lw 1.5 lc rgb " + kVermilion) +
             " title '" + (is_known ? "known" : "unknown") + " gravity'");
     }
     LabelPlacer placer(frame, stations);

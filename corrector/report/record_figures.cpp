@@ -98,11 +98,11 @@ Figure reading_figure(const SurveyCorrection& result, const ReadingRecord& recor
         file + " index 0 using 1:($3-mean) with lines lw 2 lc rgb " + kBlue + " title 'trend'"};
     if (extrema) {
         clauses.push_back(file + " index " + std::to_string(*extrema) +
-                          " using 1:($2-mean) with points pt 12 ps 0.9 lc rgb " + kBlue +
+                          " using 1:($2-mean) with points pt 12 ps 0.6 lc rgb " + kBlue +
                           " title 'extrema'");
     }
     clauses.push_back(file + " index " + std::to_string(limits.value()) +
-                      " using 1:($2-mean) with points pt 13 ps 1 lc rgb " + kVermilion +
+                      " using 1:($2-mean) with points pt 13 ps 0.7 lc rgb " + kVermilion +
                       " title 'interval'");
     std::string lines;
     for (const UtcTime limit : {value.interval_start, value.interval_end}) {

@@ -25,12 +25,12 @@ struct Mark {
 const std::vector<Mark>& marks() {
     static const std::vector<Mark> all{
         {"in the fit", [](const CorrectedRow& row) { return row.is_used && !row.row.is_flagged; },
-         "pt 7 ps 0.7 lc rgb " + kBlue},
+         "pt 7 ps 0.6 lc rgb " + kBlue},
         {"marked by the operator, in the fit",
          [](const CorrectedRow& row) { return row.is_used && row.row.is_flagged; },
-         "pt 6 ps 0.9 lw 1.5 lc rgb " + kBlue},
+         "pt 6 ps 0.7 lw 1.5 lc rgb " + kBlue},
         {"left out of the fit", [](const CorrectedRow& row) { return !row.is_used; },
-         "pt 2 ps 0.9 lw 1.5 lc rgb " + kVermilion},
+         "pt 2 ps 0.7 lw 1.5 lc rgb " + kVermilion},
     };
     return all;
 }

@@ -195,10 +195,10 @@ TEST_CASE("a degree of latitude is as long as one of longitude over its cosine",
     std::smatch x, y;
     REQUIRE(std::regex_search(script, x, std::regex("xrange \\[(.*):(.*)\\]")));
     REQUIRE(std::regex_search(script, y, std::regex("yrange \\[(.*):(.*)\\]")));
-    // The plot is 0.85 x 640 by 0.87 x 560 pixels.
+    // The plot is 0.83 x 640 by 0.87 x 560 pixels.
     const double width_deg = std::stod(x[2]) - std::stod(x[1]);
     const double height_deg = std::stod(y[2]) - std::stod(y[1]);
-    CHECK(width_deg / (0.85 * 640) * 0.5 == Approx(height_deg / (0.87 * 560)).epsilon(1e-5));
+    CHECK(width_deg / (0.83 * 640) * 0.5 == Approx(height_deg / (0.87 * 560)).epsilon(1e-5));
     CHECK(std::stod(x[1]) < 10.0);
     CHECK(std::stod(x[2]) > 10.2);
     CHECK_THAT(script, Catch::Contains("'A, 100 m'") && Catch::Contains("unknown gravity") &&
