@@ -160,7 +160,7 @@ std::optional<Figure> map_figure(const SurveyCorrection& result,
     std::vector<const text::Site*> stations;
     for (const StationValue& station : result.stations) {
         const text::Site* const site = text::find_site(sites, station.site);
-        if (site != nullptr) stations.push_back(site);
+        if (site != nullptr && site->is_placed) stations.push_back(site);
     }
     if (stations.empty()) return std::nullopt;
     const Frame frame = frame_around(stations);

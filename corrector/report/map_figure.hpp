@@ -11,7 +11,7 @@ namespace a351::corrector {
 
 /// Stations by longitude and latitude with their heights, one scale both ways (cosine of the mean
 /// latitude), with a bar of a round length.
-/// @return std::nullopt when no station of the survey is in `sites`.
+/// @return std::nullopt when no station of the survey has a place in `sites`.
 [[nodiscard]] std::optional<Figure> map_figure(const SurveyCorrection& result,
                                                const std::vector<text::Site>& sites);
 

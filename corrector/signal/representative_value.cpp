@@ -175,6 +175,7 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
     EemdOptions decomposition;
     decomposition.seed = options.seed;
     decomposition.threads = options.threads;
+    if (options.curve != TrendCurve::paper) decomposition.ends = EndRule::mirror;
     const std::vector<double> despiked = despike(valid, found);
     const auto quiet = std::span(despiked).subspan(part.first, part_size);
     const EemdResult components =

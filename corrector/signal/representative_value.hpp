@@ -95,7 +95,7 @@ struct RepresentativeValue {
 ///                                is out of range.
 /// Method: S. Matsuda, K. Nakasendo, H. Morikawa, K. Iiyama and K. Sakai, "An experimental study on
 /// basic performances of accelerometer with crystal oscillator" (in Japanese).  Departs from it by
-/// default in the order of norm and decimation and in the trend curve.
+/// default in the order of norm and decimation, in the trend curve and in its mirrored ends (eemd.md).
 [[nodiscard]] std::optional<RepresentativeValue> representative_value(
     const OccupationRecord& record, const RepresentativeOptions& options = {});
 

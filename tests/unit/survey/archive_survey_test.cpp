@@ -54,7 +54,7 @@ TEST_CASE("occupations come out of the archive at the values that were put in",
 TEST_CASE("the records behind the rows and the temperature of the day come with them",
           "[survey][archive]") {
     Morning morning;
-    const OccupationRows result = morning.average();
+    const OccupationRows result = average(morning);
     constexpr double kHalfCount_degc = 0.0019;  // near the top the temperature stays on one count
     REQUIRE(result.records.size() == result.rows.size());
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
@@ -62,16 +62,16 @@ TEST_CASE("the records behind the rows and the temperature of the day come with 
         CHECK(record.interval_start == result.rows[i].start);
         CHECK(record.acceleration == result.rows[i].acceleration);
         REQUIRE(record.temperature_series.size() == record.series.size());
-        const double middle = seconds_between(kMorning, record.series.time_of(37.0));
+        const double middle = seconds_between(Morning::kBegin, record.series.time_of(37.0));
         CHECK(record.temperature_series.values()[37] ==
-              Approx(temperature_degc(middle)).epsilon(0).margin(kHalfCount_degc));
+              Approx(Morning::temperature_degc(middle)).epsilon(0).margin(kHalfCount_degc));
     }
     // From the first start to the last stop and a minute on both sides, as far as there is record.
     REQUIRE(result.temperature_course.size() == 16);
     for (const MinuteTemperature& minute : result.temperature_course) {
-        const double seconds = seconds_between(kMorning, minute.middle);
+        const double seconds = seconds_between(Morning::kBegin, minute.middle);
         CHECK(minute.mean.value() ==
-              Approx(temperature_degc(seconds)).epsilon(0).margin(kHalfCount_degc));
+              Approx(Morning::temperature_degc(seconds)).epsilon(0).margin(kHalfCount_degc));
     }
 }
 
