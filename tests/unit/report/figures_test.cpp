@@ -220,6 +220,22 @@ TEST_CASE("stations at one place still make a map", "[report][figures]") {
                                   Catch::Contains("set label '20 m'"));
 }
 
+TEST_CASE("a station without coordinates is on no map", "[report][figures]") {
+    SurveyCorrection result;
+    for (const char* const name : {"A", "B"}) {
+        StationValue station;
+        station.site = name;
+        result.stations.push_back(station);
+    }
+    std::vector<text::Site> sites{site("A", 10.0, 45.0), site("B", 10.0, 45.0)};
+    sites[1].is_placed = false;
+    const auto figure = map_figure(result, sites);
+    CHECK_THAT(figure.value().script,
+               Catch::Contains("'A, 100 m'") && !Catch::Contains("'B, 100 m'"));
+    sites[0].is_placed = false;
+    CHECK_FALSE(map_figure(result, sites));
+}
+
 TEST_CASE("steps of an axis are round", "[report][figures]") {
     CHECK(round_step(0.73) == Approx(0.5));
     CHECK(round_step(2.0) == Approx(2.0));
