@@ -18,6 +18,11 @@ void add_axis(std::vector<SurveyRow::Detail>& details, const std::string& name,
 }
 
 constexpr std::chrono::minutes kMargin(1);  // for the filters of the temperature
+constexpr std::chrono::hours kBefore(8);    // what the slowest response to it remembers
+
+UtcTime first_sample(bool is_axis, const std::vector<OccupationWindow>& windows) {
+    return windows.front().start - (is_axis ? Nanoseconds(kMargin) : Nanoseconds(kBefore));
+}
 
 /// Every file that read_samples() looks at.
 std::vector<InputFile> archive_files(const SurveyFile& survey, const record::StationCodes& codes,
@@ -31,7 +36,8 @@ std::vector<InputFile> archive_files(const SurveyFile& survey, const record::Sta
     using std::chrono::floor;
     const auto last_day = floor<days>(windows.back().end + kMargin);
     for (const std::string& channel : names) {
-        for (auto day = floor<days>(windows.front().start - kMargin); day <= last_day;
+        const bool is_axis = channel != channels.temperature.code;
+        for (auto day = floor<days>(first_sample(is_axis, windows)); day <= last_day;
              day += days(1)) {
             const auto file = record::sds_file(survey.root / "archive", codes, channel, day);
             if (std::filesystem::exists(file)) files.push_back(file);
@@ -43,20 +49,19 @@ std::vector<InputFile> archive_files(const SurveyFile& survey, const record::Sta
     return inputs;
 }
 
-/// All samples from the first window to the last; each channel is read once.
+/// All samples from the first window to the last, and the temperature before; each channel is read
+/// once.
 SurveySamples read_samples(const SurveyFile& survey, const record::StationCodes& codes,
                            const SurveyChannels& channels,
                            const std::vector<OccupationWindow>& windows) {
-    constexpr std::chrono::hours kBefore(8);  // what the slowest response to it remembers
-    const UtcTime from = windows.front().start - kMargin;
     const UtcTime to = windows.back().end + kMargin;
     SurveySamples samples;
     const auto read = [&](std::size_t k) {
         const bool is_axis = k < samples.axes.size();
-        (is_axis ? samples.axes[k] : samples.temperature) = record::read_channel(
-            survey.root / "archive", codes,
-            is_axis ? channels.axes[k].code : channels.temperature.code,
-            is_axis ? from : windows.front().start - kBefore, to);
+        (is_axis ? samples.axes[k] : samples.temperature) =
+            record::read_channel(survey.root / "archive", codes,
+                                 is_axis ? channels.axes[k].code : channels.temperature.code,
+                                 first_sample(is_axis, windows), to);
     };
     on_all_cores(samples.axes.size() + 1, read);
     return samples;
