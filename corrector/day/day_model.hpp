@@ -68,7 +68,7 @@ struct DayFit {
 ///
 /// Priors (mean, standard deviation): rA -12, 12 mGal/degC; rF 11.3, 11.3 mGal/(degC/h); rS -20, 20
 /// mGal/degC; d 0, 1 mGal/h; w 0, 36 mGal; bx, by 0, 2000 mGal/g.  Log-normal with the factor 1.5:
-/// lags 43 s and 2700 s, placement and flicker 1.2 mGal; with the factor 2 white, the bins' own scatter.
+/// lags 43 s and 2700 s; with the factor 2: placement and flicker 1.2 mGal, white the bins' own scatter.
 /// The means are those that explain the publication's long record and survey day (corrector/methods.md).
 ///
 /// @param nearby    a fit of nearly the same, to start from: faster.

@@ -22,8 +22,8 @@ struct NoteText {
     Grade grade;
     std::string_view text;
 };
-/// The doubts of representative_value.hpp in words.
-constexpr std::array<NoteText, 6> kNoteTexts{{
+/// The doubts of representative_value.hpp, and amendments, in words.
+constexpr std::array<NoteText, 10> kNoteTexts{{
     {"fallback", Grade::care,
      "the interval could not be chosen by its first rule (fallback): look at the record"},
     {"disturbed_start", Grade::trust, "averaged from after a disturbance at its start"},
@@ -31,6 +31,10 @@ constexpr std::array<NoteText, 6> kNoteTexts{{
     {"pulse", Grade::care, "a knock cut the record; its longer part was used"},
     {"gap", Grade::care, "samples are missing"},
     {"unsettled", Grade::care, "the weights of the smoother did not settle"},
+    {"excluded", Grade::repeat, "excluded by an amendment"},
+    {"included", Grade::trust, "included by an amendment"},
+    {"retimed", Grade::trust, "its times were amended"},
+    {"renamed", Grade::trust, "its site was amended"},
 }};
 
 void add_note(ReadingGrade& reading, const std::string& note) {
@@ -74,13 +78,16 @@ void add_temperature(ReadingGrade& reading, const CorrectedRow& row, bool correc
     }
 }
 
-void add_residual(ReadingGrade& reading, const CorrectedRow& row, const GradeLimits& limits) {
+/// @param is_left_out  u belongs to the prediction without the row's station, not to its residual.
+void add_residual(ReadingGrade& reading, const CorrectedRow& row, const GradeLimits& limits,
+                  bool is_left_out) {
     if (!row.residual || !row.u_corrected || !(row.u_corrected->value() > 0.0)) return;
-    const double ratio = std::abs(row.residual->value()) / row.u_corrected->value();
-    if (ratio <= limits.care_ratio) return;
-    add(reading, ratio > limits.repeat_ratio ? Grade::repeat : Grade::care,
-        "off its reference by " + fixed(row.residual->value(), 1) + " mGal, " + fixed(ratio, 1) +
-            " times its uncertainty");
+    const double ratio = is_left_out ? row.studentised_residual.value_or(0.0)
+                                     : row.residual->value() / row.u_corrected->value();
+    if (std::abs(ratio) <= limits.care_ratio) return;
+    add(reading, std::abs(ratio) > limits.repeat_ratio ? Grade::repeat : Grade::care,
+        "off its reference by " + fixed(ratio * row.u_corrected->value(), 1) + " mGal, " +
+            fixed(std::abs(ratio), 1) + " times its uncertainty");
 }
 
 void add_trends(ReadingGrade& reading, const SurveyRow& row, const GradeLimits& limits) {
@@ -125,7 +132,7 @@ std::vector<ReadingGrade> grade_readings(const SurveyCorrection& result,
                     (row.is_used ? ", in the fit all the same" : ""));
         }
         add_temperature(reading, row, corrects_rate, limits);
-        add_residual(reading, row, limits);
+        add_residual(reading, row, limits, result.model == "day");
         add_trends(reading, row.row, limits);
         for (const std::string& note : row.row.notes) add_note(reading, note);
     }

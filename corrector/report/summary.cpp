@@ -68,7 +68,10 @@ std::string headline(const SurveyCorrection& result) {
                        std::to_string(result.rows.size()) + " readings of " +
                        std::to_string(result.stations.size()) + " stations, base " +
                        result.options.base + ". Model " + result.model;
-    if (result.options.model == "auto") text += ", chosen by its error of stations left out";
+    if (result.options.model == "auto") {
+        text += result.model == "day" ? ", for there are records of the whole day"
+                                      : ", chosen by its error of stations left out";
+    }
     return text + "; " + std::to_string(result.score.row_count) + " readings in the fit, " +
            std::to_string(result.score.parameter_count) + " coefficients.";
 }
@@ -142,20 +145,22 @@ std::optional<double> standard_error_of_rms(const ModelScore& score) {
 std::string honest_sentence(const ModelScore& score) {
     const auto error = standard_error_of_rms(score);
     const std::string n = "n = " + std::to_string(score.row_count);
+    const std::string quote =
+        " For a new station the figure to quote is " +
+        (score.loso_mgal
+             ? fixed(*score.loso_mgal, 2) + " mGal (cross-validated, leave-one-station-out)."
+             : std::string("the leave-one-station-out error, which this model and "
+                           "these readings do not have."));
     if (!error) {
         return n +
                ": there are no more readings in the fit than coefficients, so the residuals say "
-               "nothing about accuracy.";
+               "nothing about accuracy." +
+               quote;
     }
     return n + ": the scatter of " + fixed(*score.rms_mgal, 2) +
            " mGal (in sample) has itself a standard error of about " + fixed(*error, 2) +
            " mGal, RMS / sqrt(2 (n - p)) with p = " + std::to_string(score.parameter_count) +
-           ". Differences between models smaller than that are not findings. For a new station the "
-           "figure to quote is " +
-           (score.loso_mgal
-                ? fixed(*score.loso_mgal, 2) + " mGal (cross-validated, leave-one-station-out)."
-                : std::string("the leave-one-station-out error, which this model and "
-                              "these readings do not have."));
+           ". Differences between models smaller than that are not findings." + quote;
 }
 
 std::string summary_html(const SurveyCorrection& result, const std::vector<std::string>& warnings,

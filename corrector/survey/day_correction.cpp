@@ -123,6 +123,25 @@ Estimate unknown_of(const DayFit& fit, const std::vector<DayStation>& stations, 
     return fit.unknown_mgal[stations[row].unknown];
 }
 
+/// Of a set-up's corrected value, when its station is unknown: the station's, and what its own
+/// placement differs from the mean of those that share the unknown.
+MilliGal row_uncertainty(const DayFit& fit, const std::vector<DayStation>& stations,
+                         std::size_t row) {
+    double count = 0.0;
+    for (const DayStation& station : stations)
+        if (!station.gravity && station.unknown == stations[row].unknown) count += 1.0;
+    const double own = fit.noise.placement_mgal * std::sqrt(1.0 - 1.0 / count);
+    return MilliGal(std::hypot(unknown_of(fit, stations, row).standard_error, own));
+}
+
+/// What is said of the row when its reference is not known.
+void set_left_out(CorrectedRow& out, MilliGal predicted, MilliGal uncertainty) {
+    out.u_corrected = uncertainty;
+    if (!out.row.reference) return;
+    out.row.details.back().value = predicted.value();
+    out.studentised_residual = (*out.row.reference - predicted).value() / uncertainty.value();
+}
+
 void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits) {
     const DaySetUp& set_up = fits.fit.set_ups[i];
     const auto effect = [&](DayTerm term) {
@@ -135,29 +154,44 @@ void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits) {
         -(effect(DayTerm::constant) + effect(DayTerm::level) + effect(DayTerm::slow));
     out.rate_correction = -effect(DayTerm::fast);
     out.drift_correction = -(effect(DayTerm::drift) + effect(DayTerm::warm_up));
+    out.tilt_correction = -(effect(DayTerm::x) + effect(DayTerm::y));
     out.corrected = set_up.corrected;
-    const MilliGal tilt = -(effect(DayTerm::x) + effect(DayTerm::y));
-    out.row.details.push_back({"tilt_correction_mgal", tilt.value()});
+    out.row.details.push_back({"tilt_correction_mgal", out.tilt_correction.value()});
     out.row.details.push_back({"flicker_correction_mgal", -set_up.flicker.value()});
     out.row.details.push_back({"left_out_mgal", std::nullopt});
     if (out.row.reference) {
         out.difference = out.row.acceleration - *out.row.reference - out.row.tide;
         out.residual = *out.row.reference - out.corrected;
     }
-    if (!fits.stations[i].gravity) {
-        out.u_corrected = MilliGal(unknown_of(fits.fit, fits.stations, i).standard_error);
-        return;
-    }
     const auto k = fits.number_of(out.row.site);
-    if (!k) return;
-    const DayFit& without = fits.without[*k];
-    const MilliGal predicted = without.set_ups[i].corrected;
-    out.row.details.back().value = predicted.value();
-    out.u_corrected = MilliGal(unknown_of(without, fits.others[*k], i).standard_error);
-    out.studentised_residual = (*out.row.reference - predicted).value() / out.u_corrected->value();
+    if (!fits.stations[i].gravity) {
+        set_left_out(out, out.corrected, row_uncertainty(fits.fit, fits.stations, i));
+    } else if (k) {
+        set_left_out(out, fits.without[*k].set_ups[i].corrected,
+                     row_uncertainty(fits.without[*k], fits.others[*k], i));
+    }
 }
 
-std::vector<StationValue> station_values(const std::vector<CorrectedRow>& rows) {
+/// Of the station's value: that of its unknown, or of the mean of several.
+std::optional<MilliGal> station_uncertainty(const DayFits& fits,
+                                            const std::vector<std::size_t>& members,
+                                            const std::string& site) {
+    const auto k = fits.number_of(site);
+    double squares = 0.0;
+    std::set<std::size_t> unknowns;
+    for (const std::size_t i : members) {
+        const bool is_held = fits.stations[i].gravity.has_value();
+        if (is_held && !k) return std::nullopt;
+        const DayFit& fit = is_held ? fits.without[*k] : fits.fit;
+        const auto& stations = is_held ? fits.others[*k] : fits.stations;
+        if (!unknowns.insert(stations[i].unknown).second) continue;
+        squares += std::pow(unknown_of(fit, stations, i).standard_error, 2);
+    }
+    return MilliGal(std::sqrt(squares) / static_cast<double>(unknowns.size()));
+}
+
+std::vector<StationValue> station_values(const std::vector<CorrectedRow>& rows, const DayFits& fits,
+                                         const RowSet& set) {
     std::vector<StationValue> stations;
     std::set<std::string> done;
     for (const CorrectedRow& first : rows) {
@@ -165,21 +199,19 @@ std::vector<StationValue> station_values(const std::vector<CorrectedRow>& rows) 
         StationValue station;
         station.site = first.row.site;
         station.reference = first.row.reference;
-        const auto is_flagged = [](const CorrectedRow& row) { return row.row.is_flagged; };
-        std::vector<const CorrectedRow*> own;
-        for (const CorrectedRow& row : rows)
-            if (row.row.site == station.site) own.push_back(&row);
-        station.is_flagged_only = std::all_of(own.begin(), own.end(), [&](const CorrectedRow* row) {
-            return is_flagged(*row) && !row->is_used;
-        });
-        double sum = 0.0;
-        for (const CorrectedRow* row : own) {
-            if (!station.is_flagged_only && is_flagged(*row) && !row->is_used) continue;
-            ++station.row_count;
-            sum += row->corrected.value();
-            station.u_gravity = row->u_corrected;
+        std::vector<std::size_t> own, members;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (rows[i].row.site != station.site) continue;
+            own.push_back(i);
+            if (!set.stands_alone(rows[i].row)) members.push_back(i);
         }
-        station.gravity = MilliGal(sum / static_cast<double>(station.row_count));
+        station.is_flagged_only = members.empty();
+        if (members.empty()) members = own;
+        double sum = 0.0;
+        for (const std::size_t i : members) sum += rows[i].corrected.value();
+        station.row_count = members.size();
+        station.gravity = MilliGal(sum / static_cast<double>(members.size()));
+        station.u_gravity = station_uncertainty(fits, members, station.site);
         if (station.reference) station.residual = *station.reference - station.gravity;
         stations.push_back(std::move(station));
     }
@@ -226,7 +258,7 @@ void correct_by_day(SurveyCorrection& result, const DayRowSets& sets, const DayR
     }
     for (std::size_t i = 0; i < rows.size(); ++i) correct_row(result.rows[i], i, fits);
     result.coefficients = coefficients_of(fits.fit);
-    result.stations = station_values(result.rows);
+    result.stations = station_values(result.rows, fits, {in_use, use_flags});
     const double lead_s = seconds_between(day.temperature.series.start(), day.bins.front().time);
     if (lead_s < kWantedLead_s)
         result.remarks.push_back(

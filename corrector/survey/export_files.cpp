@@ -86,7 +86,8 @@ std::string gsadjust_csv(const SurveyCorrection& result, const std::vector<text:
         const MilliGal u = row.u_corrected.value_or(kUnknownScatter);
         const bool is_kept_out =
             row.row.is_excluded || (row.row.is_flagged && result.options.use_flags);
-        const MilliGal gravity = row.corrected - row.drift_correction;
+        const MilliGal gravity = row.row.acceleration - row.row.tide + row.temperature_correction +
+                                 row.rate_correction + row.tilt_correction;
         for (const MilliGal value : {gravity - u, gravity + u}) {
             if (is_kept_out) csv += "% ";
             csv += gsadjust_name(row.row.site) + ',' + fixed(site->latitude.value(), 7) + ',' +

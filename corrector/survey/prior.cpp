@@ -29,6 +29,11 @@ const Prior* ModelPriors::find(std::string_view name) const {
     return value ? &*value : nullptr;
 }
 
+bool has_any(const ModelPriors& priors) {
+    return std::any_of(priors.values.begin(), priors.values.end(),
+                       [](const auto& value) { return value.has_value(); });
+}
+
 void set_prior(ModelPriors& priors, std::string_view origin, std::string_view name, Prior prior) {
     const auto* const at = std::find(kPriorNames.begin(), kPriorNames.end(), name);
     const std::string start = std::string(origin) + " = " + std::string(name);

@@ -43,6 +43,8 @@ struct ModelPriors {
     [[nodiscard]] const Prior* find(std::string_view name) const;
 };
 
+[[nodiscard]] bool has_any(const ModelPriors& priors);
+
 /// Sets one by name.
 /// @throws InputError  unknown name, number out of range; `origin` names the option.
 void set_prior(ModelPriors& priors, std::string_view origin, std::string_view name, Prior prior);

@@ -228,8 +228,10 @@ std::string result_json(const SurveyCorrection& result, const Json& settings,
     }
     json["model"] = result.model;
     json["base"] = result.options.base;
-    json["reference_temperature_degc"] = kReferenceTemperature.value();
-    json["reference_time_h_after_first_row"] = kReferenceTime_h;
+    if (result.model != "day") {
+        json["reference_temperature_degc"] = kReferenceTemperature.value();
+        json["reference_time_h_after_first_row"] = kReferenceTime_h;
+    }
     json["priors"] = priors_json(result);
     if (result.model == "robust") json["robust_terms"] = result.options.robust_terms;
     json["coefficients"] = Json::array();

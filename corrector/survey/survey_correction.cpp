@@ -144,7 +144,8 @@ void correct_robust(SurveyCorrection& result, const LinearModel& model, Applied&
         // The robust scale is hardly the row's own doing: no row is left out of it.
         row.studentised_residual.reset();
         if (row.residual && row.leverage.value() < 1.0) {
-            const double share = row.is_used ? 1.0 - row.leverage.value() : 1.0 + row.leverage.value();
+            const double share =
+                row.is_used ? 1.0 - row.leverage.value() : 1.0 + row.leverage.value();
             row.studentised_residual = row.residual->value() / (robust->s * std::sqrt(share));
         }
         if (row.is_used) row.weight = robust->weights(at++);
@@ -287,7 +288,8 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
 
     const std::vector<SurveyRow> used = chosen_rows(rows, in_use);
     result.model = options.model;
-    const auto refusal = day_refusal(rows, in_use, day);
+    auto refusal = day_refusal(rows, in_use, day);
+    if (!refusal && has_any(priors)) refusal = "has priors of its own, `prior` would be lost";
     if (options.model == "day" && refusal) {
         throw InputError("model = day: " + *refusal + "; allowed: another model");
     }
@@ -297,6 +299,7 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
         return result;
     }
     if (options.model == "auto") {
+        if (day != nullptr) result.remarks.push_back("not the whole-day model: " + *refusal);
         result.choice = choose_model(used, origin, base, priors);
         result.choice_loso_mgal = choice_loso_mgal(used, origin, base, priors);
         // Too few stations to compare models: the simplest one, or its refusal.

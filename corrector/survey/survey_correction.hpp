@@ -30,8 +30,8 @@ struct SurveyOptions {
     ModelPriors priors;  ///< Of the linear models and the network; `paper` has none.
 };
 
-/// One row and what became of it.  corrected = acceleration - tide + the three corrections; the
-/// constant is in the temperature correction.
+/// One row and what became of it.  corrected = acceleration - tide + the corrections, of which
+/// `day` has one of flicker too; the constant is in the temperature correction.
 struct CorrectedRow {
     SurveyRow row;
     bool is_used = false;                ///< In the fit.
@@ -39,6 +39,7 @@ struct CorrectedRow {
     MilliGal temperature_correction;
     MilliGal rate_correction;
     MilliGal drift_correction;
+    MilliGal tilt_correction;  ///< `day` only.
     MilliGal corrected;
     std::optional<MilliGal> residual;     ///< reference - corrected.
     std::optional<double> leverage;       ///< Of an unused row: as at its place.  Not for `day`.

@@ -125,6 +125,18 @@ TEST_CASE("rows that have no say do not tell of each other", "[survey][day]") {
     const auto result = correct_survey(rows, with_model("day"), &day);
     CHECK(result.score.row_count == rows.size() - 2);
     CHECK(result.rows[1].u_corrected);
+    const auto station = [](const SurveyCorrection& survey, const std::string& site) {
+        return *std::find_if(survey.stations.begin(), survey.stations.end(),
+                             [&](const StationValue& value) { return value.site == site; });
+    };
+    CHECK(station(result, "S1").is_flagged_only);
+    CHECK(station(result, "S1").row_count == 2);
+    rows[12].is_excluded = false;
+    const auto one = correct_survey(rows, with_model("day"), &day);
+    CHECK_FALSE(station(one, "S1").is_flagged_only);
+    CHECK(station(one, "S1").row_count == 1);
+    CHECK(station(one, "S1").gravity == one.rows[12].corrected);
+    rows[12].is_excluded = true;
     DayRecord other = day;
     for (DayBin& bin : other.bins)
         if (bin.set_up == 12) bin.reading = bin.reading + MilliGal(500.0);
@@ -144,6 +156,43 @@ TEST_CASE("all rows flagged: those that are used are scored alone", "[survey][da
     const auto result = correct_survey(rows, options, &day);
     CHECK(result.row_sets.front().scores.back().model != "day");
     CHECK(result.row_sets.back().scores.back().model == "day");
+}
+
+TEST_CASE("a row of a station that stood twice is less certain than the station", "[survey][day]") {
+    const DayRecord day = kScattered.record();
+    const auto result = correct_survey(rows_of(day), with_model("day"), &day);
+    for (const StationValue& station : result.stations)
+        for (const CorrectedRow& row : result.rows) {
+            if (row.row.site != station.site) continue;
+            if (station.row_count == 1)
+                CHECK(*row.u_corrected == *station.u_gravity);
+            else
+                CHECK(row.u_corrected->value() > 1.1 * station.u_gravity->value());
+        }
+}
+
+TEST_CASE("a flagged blunder is doubted by the fit that it has no part in", "[survey][day]") {
+    DayRecord day = kScattered.record();
+    for (DayBin& bin : day.bins)
+        if (bin.set_up == 5) bin.reading = bin.reading + MilliGal(15.0);
+    auto rows = rows_of(day);
+    rows[5].is_flagged = true;
+    const auto result = correct_survey(rows, with_model("day"), &day);
+    CHECK(result.rows[5].studentised_residual.value() < -5.0);
+    CHECK_FALSE(result.rows[5].doubt_statistical.empty());
+}
+
+TEST_CASE("what keeps auto from the whole-day model is told", "[survey][day]") {
+    DayRecord day = kScattered.record();
+    const auto rows = rows_of(day);
+    SurveyOptions options = with_model("day");
+    options.priors.values.front() = Prior{-30.0, 1.0};
+    CHECK_THROWS_WITH(correct_survey(rows, options, &day), Catch::Contains("priors of its own"));
+    day.temperature.longest_gap_s = 3600.0;
+    const auto result = correct_survey(rows, with_model("auto"), &day);
+    CHECK(result.model != "day");
+    REQUIRE_FALSE(result.remarks.empty());
+    CHECK_THAT(result.remarks.front(), Catch::Contains("not the whole-day model: the temperature"));
 }
 
 TEST_CASE("a day that determines nothing is refused with its reason", "[survey][day]") {

@@ -22,6 +22,8 @@ SurveyCorrection small_survey() {
     row.row.end = row.row.time + std::chrono::seconds(300);
     row.row.temperature = DegC(42.5);
     row.row.tide = MilliGal(-0.054);
+    row.row.acceleration = MilliGal(979899.646);
+    row.temperature_correction = MilliGal(0.05);
     row.corrected = MilliGal(979900.25);
     row.drift_correction = MilliGal(0.5);
     row.u_corrected = MilliGal(1.5);
@@ -80,4 +82,13 @@ TEST_CASE("GSadjust gets the value before the drift step, the tide's correction 
           "09:08:07,0,0,05/01/2020\n"
           "% B,36.1000000,140.1000000,20.000,979901.750000,2.000000,0,0,42.5000,0.054000,0,0,"
           "09:08:07,0,0,05/01/2020\n");
+}
+
+TEST_CASE("GSadjust gets readings without tilt, but with flicker and drift", "[survey][export]") {
+    SurveyCorrection result = small_survey();
+    result.rows.front().tilt_correction = MilliGal(2.0);
+    result.rows.front().corrected =
+        MilliGal(979910.0);  // what the model says of flicker is its own
+    CHECK_THAT(gsadjust_csv(result, kSites), Catch::Contains(",979900.250000,1.500000,") &&
+                                                 Catch::Contains(",979903.250000,1.500000,"));
 }
