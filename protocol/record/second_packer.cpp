@@ -30,7 +30,10 @@ void SecondPacker::add(const RecordContext& context, const SecondSample& sample)
 }
 
 void SecondPacker::pass(const RecordContext& context, UtcTime now) {
-    if (!counts_.empty() && now - first_ >= most_age_) close(context, false);
+    if (counts_.empty() || now - first_ < most_age_) return;
+    // A run that was shut down knew samples sooner than its replay does: they are yet to come.
+    if (context.sink.samples_held(code_, first_).value_or(0) > counts_.size()) return;
+    close(context, false);
 }
 
 void SecondPacker::close(const RecordContext& context, bool ends_series) {

@@ -28,7 +28,7 @@ public:
 
     void add(const RecordContext& context, const SecondSample& sample);
 
-    /// Closes the record if it is old by now.
+    /// Closes the record if it is old by now, and not shorter than the one the archive holds.
     void pass(const RecordContext& context, UtcTime now);
 
     /// Packs all that is left.

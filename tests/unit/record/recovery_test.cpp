@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/unit/record/collector.hpp"
 #include "tests/unit/record/data_root.hpp"
 #include "tests/unit/record/failing_files.hpp"
 
@@ -212,6 +213,46 @@ TEST_CASE("records that a shutdown ended early are run into by a later replay",
     CHECK(report.records_added > 0);
     CHECK(root.counts("BNZ") == expected(0, 3'700));
     CHECK(recover(posix_files(), root.path()).records_added == 0);
+}
+
+TEST_CASE("a shutdown at any age of the slow records is run into by later replays",
+          "[record][recovery]") {
+    // LCE has its seconds when a record of BN1 ends: at a shutdown sooner than in a replay, where
+    // it may be old before it has them.
+    const auto stop_s = GENERATE(range(48, 75));
+    const auto away_s = GENERATE(0, 8);
+    CAPTURE(stop_s, away_s);
+    const std::int64_t stopped = 50 * stop_s + 10, back = stopped + 50 * away_s;
+    JournalStream before, after;
+    before.frames(0, stopped);
+    after.frames(back, 10'000);
+    after.chunks.front() = header_at(due(back - 1));
+    DataRoot root;
+    root.write_journal(before.chunks);
+    archive_all(root, before.chunks);
+    {
+        // The second life: adopts the stream, and stops too.
+        ArchiveWriter writer(posix_files(), root.archive(), {});
+        Archiver archiver(writer);
+        writer.begin_replay();
+        for (const auto* chunks : {&before.chunks, &after.chunks})
+            for (const auto& chunk : *chunks) archiver.take(chunk);
+        archiver.close_records();
+        CHECK(writer.replay_conflicts() == 0);
+    }
+    const auto archived = root.files();
+    auto chunks = before.chunks;
+    chunks.insert(chunks.end(), after.chunks.begin(), after.chunks.end());
+    std::filesystem::remove_all(root.journal());
+    root.write_journal(chunks);
+    const auto report = recover(posix_files(), root.path());
+    CHECK(report.records_conflicting == 0);
+    CHECK(report.records_added == 0);
+    CHECK(root.files() == archived);
+    std::size_t seconds = 0;
+    for (const auto& record : root.records("LCE")) seconds += record.samples.size();
+    const auto whole = archive(chunks).sink.counts("LCE");
+    CHECK(seconds == whole.size());
 }
 
 TEST_CASE("an archive ahead of the journal keeps what it has and nothing comes twice",
