@@ -132,7 +132,7 @@ void JournalThread::run() noexcept {
 
 void JournalThread::go_round(Phase phase) noexcept {
     try {
-        work();
+        work(phase);
         if (phase != Phase::running) sync();
     } catch (const std::exception& error) {
         note_fault(error.what());
@@ -144,11 +144,13 @@ void JournalThread::go_round(Phase phase) noexcept {
     woken_.notify_all();
 }
 
-void JournalThread::work() {
+void JournalThread::work(Phase phase) {
     make_room();
     if (may_try_again()) {
         retry_unwritten();
         write_reads();
+        // Once drained, the archive would not see what a reader will see.
+        if (phase == Phase::running && is_clock_due()) write_clock(clock_.read());
         while (auto chunk = next_posted()) write(std::move(*chunk));
     }
     carry_out_commits();
@@ -219,10 +221,11 @@ void JournalThread::write_reads() {
         }
     }
     write_rx();
-    if (has_segment_ && time_.now() - last_clock_real_ >= kShortestClockInterval &&
-        clock_.raw() - last_clock_ >= kClockInterval) {
-        write_clock(clock_.read());
-    }
+}
+
+bool JournalThread::is_clock_due() const {
+    return has_segment_ && time_.now() - last_clock_real_ >= kShortestClockInterval &&
+           clock_.raw() - last_clock_ >= kClockInterval;
 }
 
 void JournalThread::write_clock(const timing::ClockReading& reading) {

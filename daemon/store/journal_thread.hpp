@@ -84,9 +84,10 @@ private:
 
     void run() noexcept;
     void go_round(Phase phase) noexcept;
-    void work();
+    void work(Phase phase);
     void make_room();
     void write_reads();
+    [[nodiscard]] bool is_clock_due() const;
     void write_clock(const timing::ClockReading& reading);
     [[nodiscard]] std::optional<record::JournalChunk> next_posted();
     void write(record::JournalChunk chunk);

@@ -49,8 +49,7 @@ struct SteppedRig : Rig {
     /// Frames arrive, and the store goes round once, every 250 ms.
     void advance(Store& store, Nanoseconds span) {
         for (Nanoseconds done{0}; done < span; done += kStep) {
-            set(utc + kStep);
-            real += std::chrono::duration_cast<std::chrono::steady_clock::duration>(kStep);
+            pass(kStep);
             for (std::vector<std::byte> frame; arrival(fed) <= utc; ++fed, frame.clear()) {
                 wire::append_frame(wire::BurstLayout::recommended(), values(fed), frame);
                 REQUIRE(reads.push(ReadQueue::Kind::rx, first + fed * kPeriod, frame));
@@ -58,6 +57,12 @@ struct SteppedRig : Rig {
             }
             store.step();
         }
+    }
+
+    /// Nothing arrives.
+    void pass(Nanoseconds span) {
+        set(utc + span);
+        real += std::chrono::duration_cast<std::chrono::steady_clock::duration>(span);
     }
 
     /// Somebody sets the clock; frames go on as they did.

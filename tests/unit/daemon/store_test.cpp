@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "protocol/text/text_file.hpp"
-#include "tests/unit/daemon/store_rig.hpp"
+#include "tests/unit/daemon/stepped_rig.hpp"
 
 using namespace a351;
 using namespace a351::daemon;
@@ -78,6 +78,31 @@ TEST_CASE_METHOD(Rig, "after a sleep the journal has the reader's own reading be
     CHECK(bytes_before == bytes.size() / 2);
     REQUIRE(header);
     CHECK(header->clock == woken);
+}
+
+TEST_CASE("after the journal is drained only what the archive posts is written to it",
+          "[daemon][store]") {
+    SteppedRig rig;
+    SpaceReserve reserve(rig.files, rig.root / "state" / "reserve", 0);
+    ChunkQueue written;
+    Progress progress;
+    JournalThread journal(rig.files, rig.root, rig.clock, rig.reads, written, progress, reserve,
+                          rig.options().time);
+    rig.begin_session();
+    rig.feed(10);
+    rig.pass(std::chrono::seconds(5));
+    journal.drain();
+    rig.pass(std::chrono::seconds(5));  // The archive takes its time to end.
+    journal.post(record::MarkChunk{});
+    CHECK(journal.finish());
+
+    std::size_t handed_over = 0;
+    while (written.try_pop()) ++handed_over;
+    std::vector<record::JournalChunk> journaled;
+    record::JournalSequence chunks(record::journal_segments(rig.root / "journal"));
+    while (auto chunk = chunks.next()) journaled.push_back(std::move(*chunk));
+    REQUIRE(journaled.size() == handed_over + 1);
+    CHECK(std::holds_alternative<record::MarkChunk>(journaled.back()));
 }
 
 TEST_CASE_METHOD(Rig, "the store says which sample belongs to an instant", "[daemon][store]") {
