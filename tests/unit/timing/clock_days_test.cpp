@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint64_t kSeeds = 3, kFewerSeeds = 3;
 constexpr int kHours = 1;
 #else
-constexpr std::uint64_t kSeeds = 40, kFewerSeeds = 12;
+constexpr std::uint64_t kSeeds = 40, kFewerSeeds = 8;
 constexpr int kHours = 4;
 #endif
 
