@@ -114,10 +114,12 @@ Day correct_day(const SurveyFile& survey, const std::vector<std::string>& pictur
     for (NamedText& file : export_files(day.result, read.sites)) {
         day.files.push_back(std::move(file));
     }
-    Report report = make_report(
-        day.result, settings,
-        {survey.name, read.sites, std::move(read.records), std::move(read.temperature_course),
-         read.inputs, read.warnings, picture_formats});
+    std::vector<std::string> told = read.warnings;
+    told.insert(told.end(), day.result.remarks.begin(), day.result.remarks.end());
+    Report report =
+        make_report(day.result, settings,
+                    {survey.name, read.sites, std::move(read.records),
+                     std::move(read.temperature_course), read.inputs, told, picture_formats});
     std::move(report.files.begin(), report.files.end(), std::back_inserter(day.files));
     read.warnings.insert(read.warnings.end(), report.warnings.begin(), report.warnings.end());
     for (const std::string& warning : read.warnings) {

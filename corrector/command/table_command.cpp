@@ -66,13 +66,15 @@ void correct_table(TableOptions options) {
     if (!tide.series.empty()) inputs.push_back(describe_input("tide", tide.series));
     std::vector<NamedText> files = result_files(result, settings, inputs);
     for (NamedText& file : export_files(result, sites)) files.push_back(std::move(file));
+    std::vector<std::string> told = warnings;
+    told.insert(told.end(), result.remarks.begin(), result.remarks.end());
     Report report = make_report(result, settings,
                                 {std::filesystem::path(options.observations).stem().string(),
                                  sites,
                                  {},
                                  {},
                                  inputs,
-                                 warnings,
+                                 told,
                                  options.figures});
     std::move(report.files.begin(), report.files.end(), std::back_inserter(files));
     write_together(options.out, files);

@@ -17,6 +17,7 @@ constexpr double kReferenceTemperature_degc = 42.5;  // set point of the publica
 constexpr double kWarmUp_h = 2.5;                    // of the publication's sensor, after power-on
 constexpr double kAnything_mgal = 1e4;               // of a constant and of gravity: no prior
 
+// fit_day() documents the priors, methods.md where they come from.
 constexpr std::array<NormalPrior, kDayTerms> kTermPriors{{{0.0, kAnything_mgal},
                                                           {-12.0, 12.0},
                                                           {-20.0, 20.0},

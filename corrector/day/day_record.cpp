@@ -75,7 +75,7 @@ std::vector<DayBin> bin_set_up(std::size_t set_up, const OccupationRecord& recor
     for (std::size_t first = 0; first < size.size(); first += kBinSamples) {
         DayBin bin;
         bin.set_up = set_up;
-        // Relative to the first sample, for the digits of values near 1 g.
+        // Less 1 g, for the last digits.
         double reading_g = 0.0, x_g = 0.0, y_g = 0.0, after_s = 0.0;
         const std::size_t behind = std::min(size.size(), first + kBinSamples);
         for (std::size_t i = first; i < behind; ++i) {

@@ -8,9 +8,17 @@
 #include "corrector/report/closure.hpp"
 #include "corrector/report/reading_name.hpp"
 #include "corrector/survey/aligned_text.hpp"
+#include "corrector/survey/outlier_tests.hpp"
 
 namespace a351::corrector {
 namespace {
+
+// |error| / u: of Gaussian errors one in 22 lies above the first, one in 370 above the other.
+constexpr double kCareRatio = 2.0;
+constexpr double kRepeatRatio = 3.0;
+
+// Between the two trends of one record: a quarter of the 2 mGal that good readings scatter by.
+constexpr double kTrendDifference_mgal = 0.5;
 
 void add(ReadingGrade& reading, Grade grade, std::string reason) {
     reading.grade = std::max(reading.grade, grade);
@@ -54,21 +62,10 @@ std::optional<double> detail(const SurveyRow& row, std::string_view name) {
     return std::nullopt;
 }
 
-void add_temperature(ReadingGrade& reading, const CorrectedRow& row, bool corrects_rate,
-                     const GradeLimits& limits) {
-    const double slope = row.row.rate_degc_per_h;
-    const double range = detail(row.row, "temperature_range_degc").value_or(0.0);
-    const bool is_monotone = detail(row.row, "temperature_is_monotone").value_or(0.0) > 0.0;
-    std::string text;
-    if (std::abs(slope) > limits.slope_degc_per_h) {
-        text = "temperature moved at " + fixed(slope, 2) + " °C/h (limit " +
-               fixed(limits.slope_degc_per_h, 2) + ")";
-    } else if (is_monotone && range > limits.monotone_range.value()) {
-        text = "temperature went one way by " + fixed(range, 3) + " °C (limit " +
-               fixed(limits.monotone_range.value(), 2) + ")";
-    } else {
-        return;
-    }
+void add_temperature(ReadingGrade& reading, const CorrectedRow& row, bool corrects_rate) {
+    const std::string doubt = temperature_doubt(row.row);
+    if (doubt.empty()) return;
+    const std::string text = "temperature not steady: " + doubt;
     if (corrects_rate) {
         add(reading, Grade::care,
             text + "; it rests on a rate correction of " + fixed(row.rate_correction.value(), 1) +
@@ -79,34 +76,32 @@ void add_temperature(ReadingGrade& reading, const CorrectedRow& row, bool correc
 }
 
 /// @param is_left_out  u belongs to the prediction without the row's station, not to its residual.
-void add_residual(ReadingGrade& reading, const CorrectedRow& row, const GradeLimits& limits,
-                  bool is_left_out) {
+void add_residual(ReadingGrade& reading, const CorrectedRow& row, bool is_left_out) {
     if (!row.residual || !row.u_corrected || !(row.u_corrected->value() > 0.0)) return;
     const double ratio = is_left_out ? row.studentised_residual.value_or(0.0)
                                      : row.residual->value() / row.u_corrected->value();
-    if (std::abs(ratio) <= limits.care_ratio) return;
-    add(reading, std::abs(ratio) > limits.repeat_ratio ? Grade::repeat : Grade::care,
+    if (std::abs(ratio) <= kCareRatio) return;
+    add(reading, std::abs(ratio) > kRepeatRatio ? Grade::repeat : Grade::care,
         "off its reference by " + fixed(ratio * row.u_corrected->value(), 1) + " mGal, " +
             fixed(std::abs(ratio), 1) + " times its uncertainty");
 }
 
-void add_trends(ReadingGrade& reading, const SurveyRow& row, const GradeLimits& limits) {
+void add_trends(ReadingGrade& reading, const SurveyRow& row) {
     const auto difference = detail(row, "smoother_minus_eemd_mgal");
-    if (!difference || std::abs(*difference) <= limits.trend_difference.value()) return;
+    if (!difference || std::abs(*difference) <= kTrendDifference_mgal) return;
     add(reading, Grade::care,
         "its two trends (smoother, EEMD) differ by " + fixed(*difference, 2) + " mGal");
 }
 
 /// A reading to be repeated says nothing about another one.
-void add_repeats(std::vector<ReadingGrade>& readings, const SurveyCorrection& result,
-                 const GradeLimits& limits) {
+void add_repeats(std::vector<ReadingGrade>& readings, const SurveyCorrection& result) {
     if (!result.score.s_mgal || !(*result.score.s_mgal > 0.0)) return;
     const double expected_mgal = std::sqrt(2.0) * *result.score.s_mgal;
     for (const Closure& pair : close_stations(result)) {
         if (readings[pair.earlier].grade == Grade::repeat) continue;
         if (readings[pair.later].grade == Grade::repeat) continue;
         const double ratio = std::abs(pair.after_all.value()) / expected_mgal;
-        if (ratio <= limits.care_ratio) continue;
+        if (ratio <= kCareRatio) continue;
         const std::string text = fixed(std::abs(pair.after_all.value()), 1) + " mGal from ";
         const std::string end = ", " + fixed(ratio, 1) + " times what s lets expect";
         add(readings[pair.earlier], Grade::care,
@@ -118,8 +113,7 @@ void add_repeats(std::vector<ReadingGrade>& readings, const SurveyCorrection& re
 
 }  // namespace
 
-std::vector<ReadingGrade> grade_readings(const SurveyCorrection& result,
-                                         const GradeLimits& limits) {
+std::vector<ReadingGrade> grade_readings(const SurveyCorrection& result) {
     const bool corrects_rate =
         std::any_of(result.rows.begin(), result.rows.end(),
                     [](const CorrectedRow& row) { return row.rate_correction != MilliGal(0.0); });
@@ -131,12 +125,12 @@ std::vector<ReadingGrade> grade_readings(const SurveyCorrection& result,
                 std::string("marked by the operator as not to be used") +
                     (row.is_used ? ", in the fit all the same" : ""));
         }
-        add_temperature(reading, row, corrects_rate, limits);
-        add_residual(reading, row, limits, result.model == "day");
-        add_trends(reading, row.row, limits);
+        add_temperature(reading, row, corrects_rate);
+        add_residual(reading, row, result.model == "day");
+        add_trends(reading, row.row);
         for (const std::string& note : row.row.notes) add_note(reading, note);
     }
-    add_repeats(readings, result, limits);
+    add_repeats(readings, result);
     return readings;
 }
 

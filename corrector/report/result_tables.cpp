@@ -40,8 +40,8 @@ std::string stations_html(const SurveyCorrection& result) {
                        "Redundancy", ""},
                       rows) +
            html_paragraph(
-               "u is the standard uncertainty from the scatter in sample; residuals are in "
-               "sample.");
+               "Residuals are in sample. u is a standard uncertainty: from the scatter in sample, "
+               "for the model day as if the station were unknown, for network a priori.");
 }
 
 std::string occupations_html(const SurveyCorrection& result) {
@@ -90,7 +90,7 @@ std::string closures_html(const SurveyCorrection& result) {
                     number(rms.after_all), ""});
     return html_table("llrrrrrrr",
                       {"Earlier", "Later", "Hours", "As read", "After tide", "After temperature",
-                       "After rate", "After drift (all)", "Drift mGal/h"},
+                       "After rate, tilt", "After drift (all)", "Drift mGal/h"},
                       rows) +
            html_paragraph(
                "Later less earlier reading of one station, in mGal. Drift: what each "
@@ -102,11 +102,8 @@ std::string models_html(const SurveyCorrection& result) {
     std::vector<HtmlCells> rows;
     for (const ScoredRowSet& set : result.row_sets) {
         for (const ModelScore& score : set.scores) {
-            rows.push_back({score.model, set.rows, std::to_string(score.row_count),
-                            std::to_string(score.parameter_count), cell(score.rms_mgal, 3),
-                            cell(score.s_mgal, 3), cell(score.loo_mgal, 3),
-                            cell(score.loso_mgal, 3), cell(score.aicc, 2),
-                            is_selected(result, set, score) ? "applied" : ""});
+            rows.push_back(score_cells(set, score));
+            rows.back().push_back(is_selected(result, set, score) ? "applied" : "");
         }
     }
     std::string html =

@@ -5,6 +5,7 @@
 #include "corrector/report/html.hpp"
 #include "corrector/report/reading_name.hpp"
 #include "corrector/survey/aligned_text.hpp"
+#include "corrector/survey/table_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -80,7 +81,10 @@ std::string headline(const SurveyCorrection& result) {
 
 std::vector<std::string> actions(const SurveyCorrection& result,
                                  const std::vector<ReadingGrade>& grades) {
-    std::vector<std::string> urgent, optional, care, trusted;
+    std::vector<std::string> urgent, optional, care, trusted, left_out;
+    for (const LeftOut& stay : result.left_out)
+        left_out.push_back(stay.site + " (" + std::to_string(stay.occupation) + ") " +
+                           flag_of(stay));
     for (std::size_t i = 0; i < grades.size(); ++i) {
         const std::string name = reading_name(result.rows, i);
         if (grades[i].grade == Grade::trust) {
@@ -97,6 +101,7 @@ std::vector<std::string> actions(const SurveyCorrection& result,
     const auto add = [&list](const std::string& what, const std::vector<std::string>& names) {
         if (!names.empty()) list.push_back(what + ": " + joined(names, ", ") + ".");
     };
+    add("Repeat, left without a value", left_out);
     add("Repeat, the station has no other reading to trust", urgent);
     add("Repeat if there is time, the station has another reading to trust", optional);
     add("Use with care", care);

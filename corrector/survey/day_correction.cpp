@@ -149,13 +149,13 @@ void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits) {
     };
     out.row.acceleration = set_up.reading;
     out.row.temperature = set_up.temperature;
-    out.row.rate_degc_per_h = set_up.rate_degc_per_h;
     out.temperature_correction =
         -(effect(DayTerm::constant) + effect(DayTerm::level) + effect(DayTerm::slow));
     out.rate_correction = -effect(DayTerm::fast);
     out.drift_correction = -(effect(DayTerm::drift) + effect(DayTerm::warm_up));
     out.tilt_correction = -(effect(DayTerm::x) + effect(DayTerm::y));
     out.corrected = set_up.corrected;
+    out.row.details.push_back({"fast_rate_degc_per_h", set_up.rate_degc_per_h});
     out.row.details.push_back({"tilt_correction_mgal", out.tilt_correction.value()});
     out.row.details.push_back({"flicker_correction_mgal", -set_up.flicker.value()});
     out.row.details.push_back({"left_out_mgal", std::nullopt});

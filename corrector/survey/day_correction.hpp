@@ -23,8 +23,8 @@ struct DayRowSets {
     std::vector<bool> used;  ///< Not flagged.
 };
 
-/// Fills in what the model gives.  Acceleration, temperature and rate of a row become those of the
-/// model: means of its bins, and (T - lag(T)) / lag.  A row's uncertainty is that of its station when
+/// Fills in what the model gives.  Acceleration and temperature of a row become means of its
+/// bins.  A row's uncertainty is that of its station when
 /// its reference is not known, and its studentised residual the error of that prediction over it:
 /// found by fitting anew without each station.  Flagged rows, which the fit leaves out, stand for
 /// stations of their own.

@@ -18,24 +18,26 @@ double detail_or_zero(const SurveyRow& row, std::string_view name) {
 
 }  // namespace
 
-std::string physical_doubt(const SurveyRow& row) {
+std::string temperature_doubt(const SurveyRow& row) {
     std::string reasons;
-    const auto add = [&reasons](const std::string& reason) {
-        reasons += (reasons.empty() ? "" : ";") + reason;
-    };
     if (std::abs(row.rate_degc_per_h) > kGreatestRate_degc_per_h) {
-        add("rate " + fixed(row.rate_degc_per_h, 3) + " degC/h");
+        reasons = "rate " + fixed(row.rate_degc_per_h, 3) + " degC/h";
     }
     const double range_degc = detail_or_zero(row, "temperature_range_degc");
-    if (range_degc > kGreatestRange_degc) {
-        if (detail_or_zero(row, "temperature_is_monotone") > 0.0) {
-            add("monotone over " + fixed(range_degc, 3) + " degC");
-        } else if (detail_or_zero(row, "temperature_is_half_wave") > 0.0) {
-            add("half a wave of " + fixed(range_degc, 3) + " degC");
-        }
+    if (!(range_degc > kGreatestRange_degc)) return reasons;
+    const std::string join = reasons.empty() ? "" : ";";
+    if (detail_or_zero(row, "temperature_is_monotone") > 0.0) {
+        reasons += join + "monotone over " + fixed(range_degc, 3) + " degC";
+    } else if (detail_or_zero(row, "temperature_is_half_wave") > 0.0) {
+        reasons += join + "half a wave of " + fixed(range_degc, 3) + " degC";
     }
+    return reasons;
+}
+
+std::string physical_doubt(const SurveyRow& row) {
+    std::string reasons = temperature_doubt(row);
     for (const std::string& note : row.notes) {
-        if (note == "fallback" || note == "pulse") add(note);
+        if (note == "fallback" || note == "pulse") reasons += (reasons.empty() ? "" : ";") + note;
     }
     return reasons;
 }

@@ -21,9 +21,12 @@ inline constexpr double kGreatestRate_degc_per_h = 0.2;
 /// At the some 30 mGal/degC of the sensor it makes 1.5 mGal that no full wave averages out.
 inline constexpr double kGreatestRange_degc = 0.05;
 
-/// From temperature and record alone: a rate above kGreatestRate_degc_per_h; a temperature that is
-/// monotone or half a wave with a range above kGreatestRange_degc; the notes fallback and pulse.
+/// A rate above kGreatestRate_degc_per_h; a temperature that is monotone or half a wave with a range
+/// above kGreatestRange_degc.
 /// @return the reasons, joined by `;`, empty when there are none.
+[[nodiscard]] std::string temperature_doubt(const SurveyRow& row);
+
+/// From temperature and record alone: temperature_doubt(), and the notes fallback and pulse.
 [[nodiscard]] std::string physical_doubt(const SurveyRow& row);
 
 /// Residual / its standard deviation, s from the other rows only.

@@ -61,11 +61,8 @@ std::string models_text(const SurveyCorrection& result) {
                              "RMS (leave-one-out)", "RMS (leave-one-station-out)", "AICc", ""}};
     for (const ScoredRowSet& set : result.row_sets) {
         for (const ModelScore& score : set.scores) {
-            rows.push_back({score.model, set.rows, std::to_string(score.row_count),
-                            std::to_string(score.parameter_count), cell(score.rms_mgal, 3),
-                            cell(score.s_mgal, 3), cell(score.loo_mgal, 3),
-                            cell(score.loso_mgal, 3), cell(score.aicc, 2),
-                            is_selected(result, set, score) ? "<" : ""});
+            rows.push_back(score_cells(set, score));
+            rows.back().push_back(is_selected(result, set, score) ? "<" : "");
         }
     }
     return aligned(rows);
@@ -154,6 +151,18 @@ std::string flag_of(const LeftOut& occupation) {
 
 bool is_selected(const SurveyCorrection& result, const ScoredRowSet& set, const ModelScore& score) {
     return score.model == result.model && set.rows == (result.options.use_flags ? "used" : "all");
+}
+
+std::vector<std::string> score_cells(const ScoredRowSet& set, const ModelScore& score) {
+    return {score.model,
+            set.rows,
+            std::to_string(score.row_count),
+            std::to_string(score.parameter_count),
+            cell(score.rms_mgal, 3),
+            cell(score.s_mgal, 3),
+            cell(score.loo_mgal, 3),
+            cell(score.loso_mgal, 3),
+            cell(score.aicc, 2)};
 }
 
 std::string survey_text(const SurveyCorrection& result) {

@@ -18,6 +18,10 @@ namespace a351::corrector {
 [[nodiscard]] bool is_selected(const SurveyCorrection& result, const ScoredRowSet& set,
                                const ModelScore& score);
 
+/// Model, rows, n, p, RMS and s in sample, RMS of rows and of stations left out, AICc.
+[[nodiscard]] std::vector<std::string> score_cells(const ScoredRowSet& set,
+                                                   const ModelScore& score);
+
 /// Aligned tables of occupations, stations and models.  Each root mean square says whether it is
 /// in sample or cross-validated.
 [[nodiscard]] std::string survey_text(const SurveyCorrection& result);

@@ -49,6 +49,13 @@ double value(MilliGal quantity) { return quantity.value(); }
 
 }  // namespace
 
+TEST_CASE("what a tilt explains is no drift", "[report][closure]") {
+    SurveyCorrection result = survey();
+    const double before = close_stations(result)[0].drift_mgal_per_h.value();
+    result.rows[2].tilt_correction = MilliGal(3.0);
+    CHECK(close_stations(result)[0].drift_mgal_per_h.value() == Approx(before + 1.5));
+}
+
 TEST_CASE("every pair of readings of a station closes step by step", "[report][closure]") {
     const std::vector<Closure> closures = close_stations(survey());
     REQUIRE(closures.size() == 3);

@@ -53,7 +53,7 @@ TEST_CASE("a temperature that moves means repeat, with a rate term care", "[repo
     CHECK(first_grade(result) == Grade::repeat);
     CHECK_FALSE(has_trusted_reading(result, grade_readings(result), "A"));
     CHECK(first_reasons(result) ==
-          "temperature moved at -0.21 °C/h (limit 0.20), which the model does not correct|");
+          "temperature not steady: rate -0.210 degC/h, which the model does not correct|");
     result.rows[0].rate_correction = MilliGal(5.25);
     CHECK(first_grade(result) == Grade::care);
     CHECK_THAT(first_reasons(result), Catch::Contains("rests on a rate correction of 5.2 mGal"));
@@ -65,6 +65,26 @@ TEST_CASE("a temperature that goes one way counts from its range", "[report][gra
                                   {"temperature_is_monotone", 1.0}};
     CHECK(first_grade(result) == Grade::repeat);
     result.rows[0].row.details[1].value = 0.0;
+    CHECK(first_grade(result) == Grade::trust);
+    result.rows[0].row.details.push_back({"temperature_is_half_wave", 1.0});
+    CHECK(first_grade(result) == Grade::repeat);
+}
+
+TEST_CASE("the whole-day model is graded by what it says without the station", "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    result.model = "day";
+    result.rows[0].residual = MilliGal(-9.0);
+    result.rows[0].studentised_residual = 1.9;
+    CHECK(first_grade(result) == Grade::trust);
+    result.rows[0].studentised_residual = -3.1;
+    CHECK(first_grade(result) == Grade::repeat);
+}
+
+TEST_CASE("an excluded reading is not for use, an amended one is", "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    result.rows[0].row.notes = {"excluded"};
+    CHECK(first_grade(result) == Grade::repeat);
+    result.rows[0].row.notes = {"retimed", "renamed"};
     CHECK(first_grade(result) == Grade::trust);
 }
 

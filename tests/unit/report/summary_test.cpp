@@ -1,6 +1,7 @@
 #include "corrector/report/summary.hpp"
 
 #include <catch2/catch.hpp>
+#include "corrector/survey/table_text.hpp"
 
 #include "tests/unit/survey/survey_rows.hpp"
 
@@ -31,16 +32,22 @@ TEST_CASE("readings are sorted by what to do about them", "[report][summary]") {
     rows[1].is_flagged = true;  // S1, its only reading
     rows[2].is_flagged = true;  // S2, read again later
     rows[5].notes = {"gap"};    // S4
-    const SurveyCorrection result = corrected(rows);
+    SurveyCorrection result = corrected(rows);
+    LeftOut stay;
+    stay.site = "S9";
+    stay.occupation = 2;
+    stay.reason = "no samples";
+    result.left_out = {stay};
     std::vector<ReadingGrade> grades(rows.size());
     grades[1].grade = grades[2].grade = Grade::repeat;
     grades[5].grade = Grade::care;
     const std::vector<std::string> list = actions(result, grades);
-    REQUIRE(list.size() == 4);
-    CHECK(list[0] == "Repeat, the station has no other reading to trust: S1 (1).");
-    CHECK(list[1] == "Repeat if there is time, the station has another reading to trust: S2 (1).");
-    CHECK(list[2] == "Use with care: S4 (1).");
-    CHECK(list[3] == "Trust: B (1), S3 (1), B (2), S5 (1), S6 (1), S7 (1), S2 (2), S3 (2), B (3).");
+    REQUIRE(list.size() == 5);
+    CHECK(list[0] == "Repeat, left without a value: S9 (2) " + flag_of(stay) + '.');
+    CHECK(list[1] == "Repeat, the station has no other reading to trust: S1 (1).");
+    CHECK(list[2] == "Repeat if there is time, the station has another reading to trust: S2 (1).");
+    CHECK(list[3] == "Use with care: S4 (1).");
+    CHECK(list[4] == "Trust: B (1), S3 (1), B (2), S5 (1), S6 (1), S7 (1), S2 (2), S3 (2), B (3).");
 }
 
 TEST_CASE("the limits name what nothing checks", "[report][summary]") {
