@@ -81,7 +81,8 @@ void ArchiveThread::run() noexcept {
     while (const auto numbered = chunks_.pop()) handle(*numbered);
     {
         const std::lock_guard lock(mutex_);
-        archiver_->close_records();
+        // What this run recorded may be adopted by the next, whose replay gives such times anew.
+        if (!has_recorded_ || archiver_->are_times_fixed()) archiver_->close_records();
     }
     // The journal is written: whatever space is left is for the archive.
     if (!put_away(true)) put_away(true);
@@ -126,6 +127,7 @@ void ArchiveThread::begin_session(const record::JournalHeader& header) {
         undescribed_.push_back(header);
     if (session_ != header.session) outbox_.last_sample.reset();
     note_session(header.session);
+    has_recorded_ = true;
 }
 
 void ArchiveThread::note_session(const record::SessionId& session) {

@@ -156,13 +156,14 @@ private:
     std::unique_ptr<record::ArchiveWriter> writer_;
     steady_time last_sync_, last_model_real_, last_look_at_space_;
     RawTime last_model_;
-    std::optional<steady_time> retry_at_;  ///< Set while the archive is in trouble.
+    std::optional<steady_time> retry_at_;            ///< Set while the archive is in trouble.
     std::deque<record::JournalHeader> undescribed_;  ///< Sessions whose metadata are to be written.
     std::atomic<bool> are_marks_true_{true};
     std::optional<record::SessionId> marked_;  ///< Session of the writer's records.
 
     mutable std::mutex mutex_;  ///< Of archiver_ and what it feeds; short, no disk below it.
     std::condition_variable hurried_;
+    bool has_recorded_ = false;  ///< A session, or more of one, in this run.
     bool is_hurried_ = false;
     Outbox outbox_;
     std::unique_ptr<record::Archiver> archiver_;

@@ -359,6 +359,11 @@ void Archiver::close_records() {
     if (session_) session_->close_records(false);
 }
 
+bool Archiver::are_times_fixed() const noexcept {
+    const auto last = last_index();
+    return !last || session_->clock().is_fixed(*last);
+}
+
 const ArchiverCounters& Archiver::counters() const noexcept { return counters_; }
 
 std::optional<std::int64_t> Archiver::last_index() const noexcept {

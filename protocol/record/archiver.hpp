@@ -86,6 +86,10 @@ public:
     /// Closes the open records: clean shutdown, or the end of a journal that will not grow.
     void close_records();
 
+    /// Whether no time of a sample taken so far will be another once more is known: of a stream that
+    /// may go on, no other records may be closed.
+    [[nodiscard]] bool are_times_fixed() const noexcept;
+
     [[nodiscard]] const ArchiverCounters& counters() const noexcept;
     [[nodiscard]] std::optional<std::int64_t> last_index() const noexcept;
 

@@ -181,6 +181,26 @@ TEST_CASE("what a replay that was killed wrote survives a power cut after the ne
     std::printf("replays killed: %d\n", kills);
 }
 
+TEST_CASE("a stop as soon as a stream has begun costs no sample when the stream is adopted",
+          "[daemon][store][recovery]") {
+    // Whether its times are fixed by then or not: ArrivalEdge::is_settled.
+    const Nanoseconds begun = GENERATE(range(1, 13)) * kStep;
+    CAPTURE(begun);
+    RecoveryRig rig;
+    rig.largest_lateness = std::chrono::milliseconds(15);
+    for (const Nanoseconds span : {begun, Nanoseconds(seconds(40))}) {
+        Store store(rig.files, rig.options(), rig.clock, rig.reads);
+        rig.begin_session(1);
+        rig.advance(store, span);
+        CHECK(store.stop());
+        CHECK(status_of(store).more_counters.at("archive_conflicts") == 0);
+    }
+    rig.check_archived_once(rig.root);
+    const auto report = recover(rig.files, rig.options(), rig.clock);
+    CHECK(report.records_conflicting == 0);
+    CHECK(report.records_added == 0);
+}
+
 TEST_CASE_METHOD(RecoveryRig, "a clock of 1970 begins no epoch of the station metadata",
                  "[daemon][store][recovery]") {
     const auto file = root / "metadata" / "station.xml";

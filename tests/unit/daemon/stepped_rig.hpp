@@ -41,9 +41,12 @@ struct SteppedRig : Rig {
         return static_cast<std::int32_t>(mixed >> 20) + 16'000'000;
     }
 
+    Nanoseconds largest_lateness{0};  ///< Of frames, less than their period.
+
     /// Arrival of the frame of a sample.
     [[nodiscard]] UtcTime arrival(int i) const {
-        return UtcTime((first + i * kPeriod).time_since_epoch());
+        const Nanoseconds late = largest_lateness * (counts(i, 0) % 256) / 256;
+        return UtcTime((first + i * kPeriod + late).time_since_epoch());
     }
 
     /// Frames arrive, and the store goes round once, every 250 ms.
@@ -52,7 +55,8 @@ struct SteppedRig : Rig {
             pass(kStep);
             for (std::vector<std::byte> frame; arrival(fed) <= utc; ++fed, frame.clear()) {
                 wire::append_frame(wire::BurstLayout::recommended(), values(fed), frame);
-                REQUIRE(reads.push(ReadQueue::Kind::rx, first + fed * kPeriod, frame));
+                REQUIRE(reads.push(ReadQueue::Kind::rx, RawTime(arrival(fed).time_since_epoch()),
+                                   frame));
                 bytes.insert(bytes.end(), frame.begin(), frame.end());
             }
             store.step();
