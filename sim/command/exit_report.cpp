@@ -96,6 +96,7 @@ std::string to_json(const ExitReport& report, int indent) {
         {"runs", runs_of(line)},
         {"largest_lateness_s", lateness_s},
         {"largest_lateness_real_s", lateness_s / report.speed},
+        {"steady_lateness_s", seconds(line.steady_lateness)},
         {"frames_late", line.frames_late},
         {"mean_rate_real_hz", rate_hz},
         {"commands", report.commands},

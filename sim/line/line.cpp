@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "sim/line/baud.hpp"
 
@@ -13,6 +14,7 @@ using namespace std::chrono_literals;
 constexpr std::int64_t kBitsPerByte = 10;
 constexpr int kUsualBaud = 460800;
 constexpr Nanoseconds kPunctual = 1ms;
+constexpr std::int64_t kFewFrames = 50;  // Half of what a receiver needs to set its clock at 50 Hz.
 
 Nanoseconds wire_time(std::size_t bytes, int baud) {
     return Nanoseconds(1s) * static_cast<std::int64_t>(bytes) * kBitsPerByte / baud;
@@ -169,6 +171,11 @@ void Line::count_sent(const TruthRecord& truth, Nanoseconds lateness) {
     constexpr unsigned kTroubles = wire::kFlagError | wire::kFlagAliasing | wire::kFlagAlarms;
     if ((truth.values.flag & kTroubles) != 0) ++report_.frames_flagged;
     report_.largest_lateness = std::max(report_.largest_lateness, lateness);
+    least_lateness_ = std::min(least_lateness_, lateness);
+    if (report_.frames_sent % kFewFrames == 0) {
+        report_.steady_lateness =
+            std::max(report_.steady_lateness, std::exchange(least_lateness_, Nanoseconds::max()));
+    }
     if (lateness > kPunctual) ++report_.frames_late;
 }
 

@@ -35,7 +35,9 @@ struct LineReport {
     std::int64_t bytes_of_frames = 0;   ///< Of those handed over: in frames that arrived whole.
     std::vector<Run> runs;              ///< One per stay in sampling mode, of frames sent.
     Nanoseconds largest_lateness{0};    ///< Simulated time from when it might to when it was sent.
-    std::int64_t frames_late = 0;       ///< Sent more than 1 ms (simulated) after they might.
+    /// Largest least lateness of 50 frames: no receiver can tell that much from a delay of the line.
+    Nanoseconds steady_lateness{0};
+    std::int64_t frames_late = 0;  ///< Sent more than 1 ms (simulated) after they might.
 };
 
 class Line final : public LineSink {
@@ -121,7 +123,8 @@ private:
     std::vector<Mark> marks_;
     std::size_t marks_start_ = 0;  ///< Those before it are settled.
     int last_run_ = 0;
-    std::optional<UtcTime> last_frame_;  ///< Instant of the last one sent here.
+    Nanoseconds least_lateness_ = Nanoseconds::max();  ///< Of the frames since the last 50.
+    std::optional<UtcTime> last_frame_;                ///< Instant of the last one sent here.
     LineReport report_;
 };
 

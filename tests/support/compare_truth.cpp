@@ -83,9 +83,16 @@ bool is_same(const ArchivedSample& sample, const TruthRow& row) {
     return true;
 }
 
-std::vector<ArchivedSample> read_channel(const std::filesystem::path& archive, std::size_t place,
-                                         std::int64_t zero_ns) {
-    const std::string channel = kChannels[place];
+struct ArchivedRecord {
+    int sequence;
+    double start_s;  // relative to the first truth row
+    double rate_hz;
+    std::vector<std::int32_t> counts;
+};
+
+/// In the order of writing, which is not that of the day files where a leap second is inserted.
+std::vector<ArchivedRecord> read_records(const std::filesystem::path& archive,
+                                         const std::string& channel, std::int64_t zero_ns) {
     std::vector<std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(archive)) {
         if (entry.is_regular_file() && entry.path().parent_path().filename() == channel + ".D") {
@@ -93,28 +100,40 @@ std::vector<ArchivedSample> read_channel(const std::filesystem::path& archive, s
         }
     }
     std::sort(files.begin(), files.end());
-    std::vector<ArchivedSample> samples;
+    std::vector<ArchivedRecord> records;
     for (const std::string& file : files) {
         MSRecord* record = nullptr;
         int status = MS_NOERROR;
         while ((status = ms_readmsr(&record, file.c_str(), 0, nullptr, nullptr, 0, 1, 0)) ==
                MS_NOERROR) {
-            const double start_s =
-                static_cast<double>(record->starttime - zero_ns / 1000) / HPTMODULUS;
             const auto* values = static_cast<const std::int32_t*>(record->datasamples);
-            for (std::int64_t i = 0; i < record->numsamples; ++i) {
-                const double time_s = start_s + static_cast<double>(i) / record->samprate;
-                const bool follows_gap =
-                    samples.empty() || time_s - samples.back().time_s > 1.5 / record->samprate;
-                samples.push_back({{}, time_s, i == 0, follows_gap});
-                samples.back().counts[place] = values[i];
-            }
+            records.push_back({record->sequence_number,
+                               static_cast<double>(record->starttime - zero_ns / 1000) / HPTMODULUS,
+                               record->samprate,
+                               {values, values + record->numsamples}});
         }
         if (status != MS_ENDOFFILE) {
             std::fprintf(stderr, "%s: libmseed: %s\n", file.c_str(), ms_errorstr(status));
             std::exit(1);
         }
         ms_readmsr(&record, nullptr, 0, nullptr, nullptr, 0, 0, 0);
+    }
+    std::stable_sort(records.begin(), records.end(),
+                     [](const auto& a, const auto& b) { return a.sequence < b.sequence; });
+    return records;
+}
+
+std::vector<ArchivedSample> read_channel(const std::filesystem::path& archive, std::size_t place,
+                                         std::int64_t zero_ns) {
+    std::vector<ArchivedSample> samples;
+    for (const ArchivedRecord& record : read_records(archive, kChannels[place], zero_ns)) {
+        for (std::size_t i = 0; i < record.counts.size(); ++i) {
+            const double time_s = record.start_s + static_cast<double>(i) / record.rate_hz;
+            const bool follows_gap =
+                samples.empty() || time_s - samples.back().time_s > 1.5 / record.rate_hz;
+            samples.push_back({{}, time_s, i == 0, follows_gap});
+            samples.back().counts[place] = record.counts[i];
+        }
     }
     return samples;
 }

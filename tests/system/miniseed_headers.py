@@ -9,12 +9,13 @@ Header = collections.namedtuple("Header", "file start_us samples rate_hz timing_
 
 
 def headers(files):
-    """Of all records of these files, in their order."""
+    """Of all records of these files of a channel, in the order of writing, which a leap second makes another than that
+    of the days."""
     found = []
     for file in files:
         data = file.read_bytes()
-        found += [read(file, data[at:at + RECORD]) for at in range(0, len(data), RECORD)]
-    return found
+        found += [(data[at:at + 6], read(file, data[at:at + RECORD])) for at in range(0, len(data), RECORD)]
+    return [header for _, header in sorted(found, key=lambda one: one[0])]
 
 
 def read(file, record):

@@ -42,6 +42,19 @@ TEST_CASE("a frame counts as sent once its last byte has gone", "[sim][line]") {
     CHECK(line.is_empty());
 }
 
+TEST_CASE("the steady lateness is the least of fifty frames where that is largest", "[sim][line]") {
+    Line line({}, 1, UtcTime(0s), [](const TruthRecord&) {});
+    for (std::uint32_t i = 0; i < 175; ++i) {
+        // 0 to 9 ms; of the second fifty 4 to 13, and of the last, no fifty, 900 and more.
+        const auto late = (i % 10 + (i / 50 == 1 ? 4 : i / 50 == 3 ? 900 : 0)) * 1ms;
+        const TruthRecord frame = frame_of(i);
+        line.send(kFrame, UtcTime(i * 2s), &frame);
+        line.handed_over(line.shown(UtcTime(i * 2s) + late).size(), UtcTime(i * 2s) + late);
+    }
+    CHECK(line.report().steady_lateness == 4ms);
+    CHECK(line.report().largest_lateness == 909ms);
+}
+
 TEST_CASE("bytes leave in the order in which they came, answers among them", "[sim][line]") {
     for (const bool is_bytewise : {false, true}) {
         LineParameters parameters;
