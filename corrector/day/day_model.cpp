@@ -11,10 +11,15 @@ namespace {
 
 using Index = Eigen::Index;
 
+constexpr auto kLags = static_cast<Index>(kDayLags);
+constexpr auto kTerms = static_cast<Index>(kDayTerms);
+
 /// What is estimated, in the units of the terms.
 struct Estimates {
     Eigen::VectorXd values, standard_errors;  ///< (estimated)
     Eigen::VectorXd placement_mgal;           ///< (set-ups) expected, given all readings.
+    DayPriors::Vector shift;
+    DayPriors::Matrix shift_covariance;
 };
 
 /// Values by least squares at the point; errors with the lags as two more terms and the noise that is
@@ -30,21 +35,22 @@ Estimates estimate(const DayProblem& problem, const DayRecord& record, std::size
     const Eigen::VectorXd left = columns.col(0) - x * scaled;
 
     Estimates result;
-    result.values.resize(estimated);
-    for (Index k = 0; k < estimated; ++k)
-        result.values(k) = problem.prior(k).mean + problem.prior(k).deviation * scaled(k);
+    result.values = problem.unscaled(u, scaled);
 
-    Eigen::MatrixXd all(x.rows(), 1 + estimated + 2);
-    all << problem.scaled(u),
-        problem.lag_columns(u, result.values(static_cast<Index>(DayTerm::fast)),
-                            result.values(static_cast<Index>(DayTerm::slow)));
+    Eigen::MatrixXd all(x.rows(), 1 + estimated + kLags);
+    all << problem.scaled(u), problem.lag_columns(u, result.values);
     whiten(record.bins, problem.expected_noise(u), all);
-    const Eigen::MatrixXd normal = normal_matrix(all.rightCols(estimated + 2));
-    const Eigen::VectorXd variances =
-        normal.llt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols())).diagonal();
-    result.standard_errors.resize(estimated);
-    for (Index k = 0; k < estimated; ++k)
-        result.standard_errors(k) = problem.prior(k).deviation * std::sqrt(variances(k));
+    const Eigen::MatrixXd normal = normal_matrix(all.rightCols(estimated + kLags));
+    const Eigen::MatrixXd covariance =
+        normal.llt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
+    const Eigen::MatrixXd unscaling = problem.unscaling();
+    result.standard_errors =
+        (unscaling * covariance * unscaling.transpose()).diagonal().cwiseSqrt();
+    result.shift << u[kFastLag], u[kSlowLag], scaled.head(kTerms);
+    // The lags stand last in `covariance` and first in the shift.
+    result.shift_covariance << covariance.bottomRightCorner(kLags, kLags),
+        covariance.bottomLeftCorner(kLags, kTerms), covariance.topRightCorner(kTerms, kLags),
+        covariance.topLeftCorner(kTerms, kTerms);
 
     Eigen::MatrixXd members = Eigen::MatrixXd::Zero(x.rows(), static_cast<Index>(set_ups));
     for (std::size_t i = 0; i < record.bins.size(); ++i)
@@ -97,12 +103,12 @@ std::string_view day_term_name(DayTerm term) {
 }
 
 std::optional<DayFit> fit_day(const DayRecord& record, const std::vector<DayStation>& stations,
-                              const DayFit* nearby) {
+                              const DayFit* nearby, const DayPriors& priors) {
     const bool is_held = std::any_of(record.bins.begin(), record.bins.end(), [&](const auto& bin) {
         return stations[bin.set_up].gravity.has_value();
     });
     if (!is_held) return std::nullopt;
-    const DayProblem problem(record, stations);
+    const DayProblem problem(record, stations, priors);
     const DayProblem::Point u =
         problem.most_likely(nearby != nullptr ? std::optional(nearby->point) : std::nullopt);
     const Estimates estimates = estimate(problem, record, stations.size(), u);
@@ -110,6 +116,8 @@ std::optional<DayFit> fit_day(const DayRecord& record, const std::vector<DayStat
     DayFit fit;
     fit.point = u;
     fit.noise = problem.noise(u);
+    fit.shift = estimates.shift;
+    fit.shift_covariance = estimates.shift_covariance;
     fit.fast_lag_s = problem.lag_s(u, kFastLag);
     fit.slow_lag_s = problem.lag_s(u, kSlowLag);
     fit.log_likelihood = -problem.cost(u);

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "corrector/day/day_noise.hpp"
+#include "corrector/day/day_priors.hpp"
 #include "corrector/day/day_record.hpp"
 
 namespace a351::corrector {
@@ -26,9 +27,6 @@ struct DayStation {
     std::optional<MilliGal> gravity;  ///< Held.
     std::size_t unknown = 0;          ///< Otherwise: number of the unknown it shares.
 };
-
-enum class DayTerm { constant, level, slow, fast, drift, warm_up, x, y };
-inline constexpr std::size_t kDayTerms = 8;
 
 /// Name and unit, as in result.json.
 [[nodiscard]] std::string_view day_term_name(DayTerm term);
@@ -60,13 +58,17 @@ struct DayFit {
     double log_likelihood = 0.0;                   ///< Restricted, with the priors.
     std::array<Estimate, kDayTerms> coefficients;  ///< Standard errors: those of the lags included.
     std::vector<Estimate> unknown_mgal;            ///< Gravity of each unknown.
+    /// Lags and terms after the day, in the coordinates in which their priors are independent
+    /// and of variance 1: (estimate - mean) = factor x shift.
+    DayPriors::Vector shift = DayPriors::Vector::Zero();
+    DayPriors::Matrix shift_covariance = DayPriors::Matrix::Identity();
     std::vector<DaySetUp> set_ups;
 };
 
 /// Generalised least squares with priors for the coefficients; lags and noise by the largest
 /// restricted likelihood times their priors.
 ///
-/// Priors (mean, standard deviation): rA -12, 12 mGal/degC; rF 11.3, 11.3 mGal/(degC/h); rS -20, 20
+/// Usual priors (mean, standard deviation): rA -12, 12 mGal/degC; rF 11.3, 11.3 mGal/(degC/h); rS -20, 20
 /// mGal/degC; d 0, 1 mGal/h; w 0, 36 mGal; bx, by 0, 2000 mGal/g.  Log-normal with the factor 1.5:
 /// lags 43 s and 2700 s; with the factor 2: placement and flicker 1.2 mGal, white the bins' own scatter.
 /// The means are those that explain the publication's long record and survey day (corrector/methods.md).
@@ -80,6 +82,7 @@ struct DayFit {
 /// nearby, BOBYQA (M. J. D. Powell, report NA2009/06, Cambridge).
 [[nodiscard]] std::optional<DayFit> fit_day(const DayRecord& record,
                                             const std::vector<DayStation>& stations,
-                                            const DayFit* nearby = nullptr);
+                                            const DayFit* nearby = nullptr,
+                                            const DayPriors& priors = usual_day_priors());
 
 }  // namespace a351::corrector

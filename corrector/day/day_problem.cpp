@@ -15,18 +15,11 @@ using Index = Eigen::Index;
 constexpr double kSecondsPerHour = 3600.0;
 constexpr double kReferenceTemperature_degc = 42.5;  // set point of the publication's oven
 constexpr double kWarmUp_h = 2.5;                    // of the publication's sensor, after power-on
-constexpr double kAnything_mgal = 1e4;               // of a constant and of gravity: no prior
+constexpr double kAnything_mgal = 1e4;               // of gravity: no prior
+constexpr auto kLags = static_cast<Index>(kDayLags);
+constexpr auto kTerms = static_cast<Index>(kDayTerms);
 
-// fit_day() documents the priors, methods.md where they come from.
-constexpr std::array<NormalPrior, kDayTerms> kTermPriors{{{0.0, kAnything_mgal},
-                                                          {-12.0, 12.0},
-                                                          {-20.0, 20.0},
-                                                          {11.3, 11.3},
-                                                          {0.0, 1.0},
-                                                          {0.0, 36.0},
-                                                          {0.0, 2000.0},
-                                                          {0.0, 2000.0}}};
-constexpr LogNormalPrior kFastLagPrior_s{43.0, 1.5}, kSlowLagPrior_s{2700.0, 1.5};
+// fit_day() documents them, methods.md where they come from.
 constexpr LogNormalPrior kPlacementPrior_mgal{1.2, 2.0}, kFlickerPrior_mgal{1.2, 2.0};
 constexpr double kWhiteFactor = 2.0;
 constexpr double kFarthest = 12.0;  // standard deviations of the priors: anything at all
@@ -61,9 +54,11 @@ Eigen::MatrixXd normal_matrix(const Eigen::Ref<const Eigen::MatrixXd>& columns) 
     return normal;
 }
 
-DayProblem::DayProblem(const DayRecord& record, const std::vector<DayStation>& stations)
+DayProblem::DayProblem(const DayRecord& record, const std::vector<DayStation>& stations,
+                       const DayPriors& priors)
     : record_(record),
       stations_(stations),
+      priors_(priors),
       unknowns_(static_cast<Index>(unknown_count(stations))),
       means_(record.temperature.series, record.bins),
       white_mgal_{bin_scatter_mgal(record.bins), kWhiteFactor} {
@@ -135,9 +130,20 @@ Eigen::VectorXd DayProblem::slow_column(double lag_s) const {
            kReferenceTemperature_degc;
 }
 
-NormalPrior DayProblem::prior(Index estimated) const {
-    const auto term = static_cast<std::size_t>(estimated);
-    return term < kDayTerms ? kTermPriors.at(term) : NormalPrior{0.0, kAnything_mgal};
+Eigen::VectorXd DayProblem::unscaled(const Point& u, const Eigen::VectorXd& scaled) const {
+    Eigen::VectorXd all(estimated() + kLags);
+    all << scaled, u[kFastLag], u[kSlowLag];
+    Eigen::VectorXd values = unscaling() * all;
+    values.head(kTerms) += priors_.mean.tail<kTerms>();
+    return values;
+}
+
+Eigen::MatrixXd DayProblem::unscaling() const {
+    Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(estimated(), estimated() + kLags);
+    derivative.topLeftCorner(kTerms, kTerms) = priors_.factor.bottomRightCorner<kTerms, kTerms>();
+    derivative.diagonal().tail(unknowns_).setConstant(kAnything_mgal);
+    derivative.topRightCorner(kTerms, kLags) = priors_.factor.bottomLeftCorner<kTerms, kLags>();
+    return derivative;
 }
 
 DayNoise DayProblem::noise(const Point& u) const {
@@ -163,7 +169,9 @@ DayNoise DayProblem::expected_noise(const Point& u) const {
 }
 
 double DayProblem::lag_s(const Point& u, DayHyper lag) const {
-    return (lag == kFastLag ? kFastLagPrior_s : kSlowLagPrior_s).at(u.at(lag));
+    const auto place = static_cast<Index>(lag);
+    return std::exp(priors_.mean(place) + priors_.factor(place, kFastLag) * u[kFastLag] +
+                    priors_.factor(place, kSlowLag) * u[kSlowLag]);
 }
 
 Eigen::MatrixXd DayProblem::design(const Point& u) const {
@@ -176,26 +184,27 @@ Eigen::MatrixXd DayProblem::design(const Point& u) const {
 Eigen::MatrixXd DayProblem::scaled(const Point& u) const {
     const Eigen::MatrixXd x = design(u);
     Eigen::MatrixXd columns(x.rows(), x.cols() + 1);
-    columns.col(0) = readings_mgal_;
-    for (Index k = 0; k < x.cols(); ++k) {
-        columns.col(0) -= prior(k).mean * x.col(k);
-        columns.col(k + 1) = prior(k).deviation * x.col(k);
-    }
+    columns.col(0) = readings_mgal_ - x * unscaled(u, Eigen::VectorXd::Zero(estimated()));
+    columns.middleCols(1, kTerms) =
+        x.leftCols(kTerms) * priors_.factor.bottomRightCorner<kTerms, kTerms>();
+    columns.rightCols(unknowns_) = kAnything_mgal * x.rightCols(unknowns_);
     return columns;
 }
 
-Eigen::MatrixXd DayProblem::lag_columns(const Point& u, double fast, double slow) const {
+Eigen::MatrixXd DayProblem::lag_columns(const Point& u, const Eigen::VectorXd& values) const {
     constexpr double kStep = 0.1;
-    Point more = u, less = u;
+    const auto lagged_effects = [&](const Point& at) -> Eigen::VectorXd {
+        return values(static_cast<Index>(DayTerm::fast)) * fast_column(lag_s(at, kFastLag)) +
+               values(static_cast<Index>(DayTerm::slow)) * slow_column(lag_s(at, kSlowLag));
+    };
+    Eigen::MatrixXd columns = design(u) * unscaling().rightCols(kLags);
     for (const DayHyper lag : {kFastLag, kSlowLag}) {
+        Point more = u, less = u;
         more.at(lag) += kStep;
         less.at(lag) -= kStep;
+        columns.col(static_cast<Index>(lag)) +=
+            (lagged_effects(more) - lagged_effects(less)) / (2.0 * kStep);
     }
-    Eigen::MatrixXd columns(readings_mgal_.size(), 2);
-    columns.col(0) = fast / (2.0 * kStep) *
-                     (fast_column(lag_s(more, kFastLag)) - fast_column(lag_s(less, kFastLag)));
-    columns.col(1) = slow / (2.0 * kStep) *
-                     (slow_column(lag_s(more, kSlowLag)) - slow_column(lag_s(less, kSlowLag)));
     return columns;
 }
 

@@ -12,12 +12,7 @@
 
 namespace a351::corrector {
 
-/// Of a linear term.
-struct NormalPrior {
-    double mean = 0.0, deviation = 0.0;
-};
-
-/// Of a lag or a noise: median x factor^u, u normal.
+/// Of a noise: median x factor^u, u normal.
 struct LogNormalPrior {
     double median = 0.0, factor = 1.0;
     [[nodiscard]] double at(double u) const;
@@ -31,13 +26,19 @@ class DayProblem {
 public:
     using Point = DayFit::Point;
 
-    DayProblem(const DayRecord& record, const std::vector<DayStation>& stations);
+    DayProblem(const DayRecord& record, const std::vector<DayStation>& stations,
+               const DayPriors& priors);
 
     [[nodiscard]] Eigen::Index unknowns() const { return unknowns_; }
     [[nodiscard]] Eigen::Index estimated() const {
         return static_cast<Eigen::Index>(kDayTerms) + unknowns_;
     }
-    [[nodiscard]] NormalPrior prior(Eigen::Index estimated) const;
+
+    /// What is estimated, as a straight function of the point's lags and of the scaled coefficients.
+    /// @return (estimated)
+    [[nodiscard]] Eigen::VectorXd unscaled(const Point& u, const Eigen::VectorXd& scaled) const;
+    /// (estimated, estimated + 2): its derivative, that by the lags last.
+    [[nodiscard]] Eigen::MatrixXd unscaling() const;
 
     [[nodiscard]] DayNoise noise(const Point& u) const;
 
@@ -56,12 +57,13 @@ public:
     /// (n, estimated) in the units of the terms.
     [[nodiscard]] Eigen::MatrixXd design(const Point& u) const;
 
-    /// (n, 1 + estimated): readings less what the priors expect, then the design in units of the
-    /// priors' deviations, whose own prior is then 1.
+    /// (n, 1 + estimated): readings less what the priors expect, then the design for coefficients
+    /// whose own priors are independent and of variance 1.
     [[nodiscard]] Eigen::MatrixXd scaled(const Point& u) const;
 
-    /// (n, 2): what one deviation of the lags' priors changes in the readings.
-    [[nodiscard]] Eigen::MatrixXd lag_columns(const Point& u, double fast, double slow) const;
+    /// (n, 2): what the point's lags change in the readings, per unit.
+    /// @param values  (estimated), from unscaled().
+    [[nodiscard]] Eigen::MatrixXd lag_columns(const Point& u, const Eigen::VectorXd& values) const;
 
     [[nodiscard]] const BinMeans& means() const { return means_; }
     /// (n) less tide and gravity, held or rough.
@@ -77,6 +79,7 @@ private:
 
     const DayRecord& record_;
     const std::vector<DayStation>& stations_;
+    const DayPriors& priors_;
     Eigen::Index unknowns_;
     BinMeans means_;
     LogNormalPrior white_mgal_;

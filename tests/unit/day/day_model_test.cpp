@@ -113,3 +113,49 @@ TEST_CASE("the fit is the same to the bit each time", "[day]") {
     for (std::size_t s = 0; s < MadeUpDay::kSetUps; ++s)
         CHECK(a->set_ups[s].corrected == b->set_ups[s].corrected);
 }
+
+TEST_CASE("priors that are known better hold what the day cannot tell", "[day]") {
+    // Level and slow slope known to 2 mGal/degC each and better together, x to 1 mGal/g.
+    const MadeUpDay day{.placement_mgal = 1.2, .white_mgal = 0.2};
+    DayPriors priors = usual_day_priors();
+    const auto level = DayPriors::place_of(DayTerm::level);
+    const auto slow = DayPriors::place_of(DayTerm::slow), x = DayPriors::place_of(DayTerm::x);
+    Eigen::Matrix3d covariance = Eigen::Vector3d(4.0, 4.0, 1.0).asDiagonal();
+    covariance(0, 1) = covariance(1, 0) = -3.9;  // their sum is known to 0.4
+    priors.observe({level, slow, x}, Eigen::Vector3d(-14.0, -26.0, 900.5), covariance);
+    const auto usual = fit_day(day.record(), MadeUpDay::stations());
+    const auto fit = fit_day(day.record(), MadeUpDay::stations(), nullptr, priors);
+    REQUIRE(fit);
+    CHECK(coefficient(*fit, DayTerm::level) + coefficient(*fit, DayTerm::slow) ==
+          Approx(-40.0).margin(1.2));
+    CHECK(coefficient(*fit, DayTerm::x) == Approx(900.5).margin(0.2));
+    CHECK(fit->coefficients.at(static_cast<std::size_t>(DayTerm::x)).standard_error ==
+          Approx(1.0).margin(0.01));
+    CHECK(fit->coefficients.at(static_cast<std::size_t>(DayTerm::level)).standard_error <=
+          Approx(2.0));
+    CHECK(usual->coefficients.at(static_cast<std::size_t>(DayTerm::x)).standard_error > 50.0);
+    // Estimates are the prior's mean moved by the shift.
+    const DayPriors::Vector moved = priors.mean + priors.factor * fit->shift;
+    CHECK(moved(level) == Approx(coefficient(*fit, DayTerm::level)));
+    CHECK(moved(slow) == Approx(coefficient(*fit, DayTerm::slow)));
+    CHECK(std::exp(moved(0)) == Approx(fit->fast_lag_s));
+    const DayPriors::Matrix left =
+        priors.factor * fit->shift_covariance * priors.factor.transpose();
+    CHECK(std::sqrt(left(slow, slow)) ==
+          Approx(fit->coefficients.at(static_cast<std::size_t>(DayTerm::slow)).standard_error));
+}
+
+TEST_CASE("a lag that is tied to a slope takes it along", "[day]") {
+    // The fast lag's logarithm moves by 1 when the slope does by 10.
+    const MadeUpDay day;
+    DayPriors priors = usual_day_priors();
+    Eigen::Matrix2d covariance;
+    covariance << 0.04, 0.4, 0.4, 4.0 + 1e-6;
+    priors.observe({0, DayPriors::place_of(DayTerm::fast)}, Eigen::Vector2d(std::log(45.0), 7.0),
+                   covariance);
+    const auto fit = fit_day(day.record(), MadeUpDay::stations(), nullptr, priors);
+    REQUIRE(fit);
+    CHECK(std::log(fit->fast_lag_s / 45.0) * 10.0 ==
+          Approx(coefficient(*fit, DayTerm::fast) - 7.0).margin(0.01));
+    CHECK(fit->fast_lag_s == Approx(day.fast_lag_s).epsilon(0.01));
+}
