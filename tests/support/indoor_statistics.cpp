@@ -2,9 +2,9 @@
 #include <span>
 
 #include "corrector/eemd/eemd.hpp"
+#include "corrector/signal/band_pass.hpp"
 #include "sim/scenario/survey_plan.hpp"
 #include "sim/signal/slow_signal.hpp"
-#include "tests/support/band_filter.hpp"
 #include "tests/support/plant_statistics.hpp"
 
 namespace a351::sim {
@@ -92,8 +92,8 @@ Regression turned_and_moved(const IndoorRecord& record) {
 
 IndoorRecord in_band(const IndoorRecord& record) {
     constexpr double kShorter = 600.0, kLonger = 1500.0;
-    return {band_pass(record.temperature_degc, kStep, kShorter, kLonger),
-            band_pass(record.difference_mgal, kStep, kShorter, kLonger)};
+    return {corrector::band_pass(record.temperature_degc, kStep, kShorter, kLonger),
+            corrector::band_pass(record.difference_mgal, kStep, kShorter, kLonger)};
 }
 
 /// The mode whose mean period is nearest to the cycle, by ratio.

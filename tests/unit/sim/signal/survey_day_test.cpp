@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "corrector/signal/band_pass.hpp"
 #include "protocol/text/csv.hpp"
-#include "tests/support/band_filter.hpp"
 #include "tests/support/plant_statistics.hpp"
 
 using namespace a351;
@@ -29,7 +29,7 @@ double gain(double period_s) {
     for (std::size_t i = 0; i < sine.size(); ++i) {
         sine[i] = std::sin(2.0 * std::numbers::pi * 20.0 * static_cast<double>(i) / period_s);
     }
-    const auto passed = band_pass(sine, 20.0, 600.0, 1500.0);
+    const auto passed = corrector::band_pass(sine, 20.0, 600.0, 1500.0);
     double in = 0.0, out = 0.0;
     for (std::size_t i = 1000; i < 3000; ++i) {
         in += sine[i] * sine[i];

@@ -1,4 +1,4 @@
-#include "tests/support/band_filter.hpp"
+#include "corrector/signal/band_pass.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <complex>
 #include <numbers>
 
-namespace a351::sim {
+namespace a351::corrector {
 namespace {
 
 using Complex = std::complex<double>;
@@ -72,4 +72,4 @@ std::vector<double> band_pass(const std::vector<double>& values, double step_s,
     return {first, first + static_cast<std::ptrdiff_t>(values.size())};
 }
 
-}  // namespace a351::sim
+}  // namespace a351::corrector

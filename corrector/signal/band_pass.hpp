@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace a351::sim {
+namespace a351::corrector {
 
 /// Second-order Butterworth band pass between two periods, run forward and backward: no phase, gain
 /// 1 in the band and 1/2 at both periods.  The ends are continued by point reflection over three of
@@ -13,4 +13,4 @@ namespace a351::sim {
 [[nodiscard]] std::vector<double> band_pass(const std::vector<double>& values, double step_s,
                                             double shorter_period_s, double longer_period_s);
 
-}  // namespace a351::sim
+}  // namespace a351::corrector
