@@ -8,6 +8,7 @@
 
 #include "corrector/command/decimate_command.hpp"
 #include "corrector/command/emd_command.hpp"
+#include "corrector/command/record_command.hpp"
 #include "corrector/command/retime_command.hpp"
 #include "corrector/command/smooth_command.hpp"
 #include "corrector/command/survey_command.hpp"
@@ -36,6 +37,7 @@ int main(int argc, char** argv) {
     program.require_subcommand(1);
     a351::corrector::add_decimate_command(program);
     a351::corrector::add_emd_command(program);
+    a351::corrector::add_record_command(program);
     a351::corrector::add_retime_command(program);
     a351::corrector::add_smooth_command(program);
     a351::corrector::add_survey_command(program);

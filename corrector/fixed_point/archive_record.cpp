@@ -1,0 +1,280 @@
+#include "corrector/fixed_point/archive_record.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <pugixml.hpp>
+#include <set>
+
+#include "corrector/fixed_point/csv_record.hpp"
+#include "corrector/fixed_point/stretch_builder.hpp"
+#include "corrector/survey/occupation_window.hpp"
+#include "corrector/tide/earth_tide.hpp"
+#include "protocol/core/input_error.hpp"
+#include "protocol/record/sds.hpp"
+#include "protocol/record/station_document.hpp"
+#include "protocol/text/csv.hpp"
+
+namespace a351::corrector {
+namespace {
+
+using std::chrono::days;
+using Day = std::chrono::sys_time<days>;
+
+constexpr std::size_t kChannels = 4;  // x, y, z, temperature
+constexpr std::size_t kVertical = 2;
+constexpr std::int64_t kBlock = 16384;  // samples: a channel's block stays in the cache
+constexpr double kLongestGap_s = 3600.0;
+constexpr double kMilliGalPerMps2 = 1e5;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+using DayOfChannels = std::array<record::ChannelData, kChannels>;
+
+/// Samples of a segment by their number in the stretch.
+struct Placed {
+    const record::Segment* segment;
+    std::int64_t first;
+    [[nodiscard]] std::int64_t behind() const {
+        return first + static_cast<std::int64_t>(segment->counts.size());
+    }
+};
+
+/// Turns the days of four channels into stretches.
+class ArchiveStream {
+public:
+    ArchiveStream(LongRecord& record, const std::array<record::ChannelScale, kChannels>& scales)
+        : record_(record), scales_(scales) {}
+
+    /// Samples of the day after those taken so far.
+    void take(const DayOfChannels& day) {
+        std::vector<Placed> run;
+        for (const record::Segment& segment : day[kVertical].segments) {
+            if (record_.raw_rate_hz == 0.0) begin(segment.rate_hz);
+            const UtcTime start = segment.time_of(0);
+            std::int64_t first = 0;
+            if (builder_) {
+                const double late = seconds_between(next_time_, start) * record_.raw_rate_hz;
+                if (late > -0.5 && late < kLongestGap_s * record_.raw_rate_hz) {
+                    first = next_ + std::llround(late);
+                } else {
+                    push(run, day);
+                    run.clear();
+                    end_stretch(late <= -0.5, start);
+                }
+            }
+            if (!builder_) builder_.emplace(stages_, kChannels - 1);
+            run.push_back({&segment, first});
+            note_times(run.back());
+            next_ = run.back().behind();
+            next_time_ = segment.time_of(segment.counts.size() - 1) +
+                         from_seconds(1.0 / record_.raw_rate_hz);
+        }
+        push(run, day);
+    }
+
+    void finish() {
+        if (builder_) end_stretch(false, {});
+    }
+
+private:
+    void begin(double rate_hz) {
+        record_.raw_rate_hz = rate_hz;
+        const auto stages = record_stages(1.0 / rate_hz);
+        if (!stages) {
+            throw InputError("archive: rate = " + text::shortest(rate_hz) +
+                             " Hz; allowed: 0.05, 0.5, 5 or 50 Hz within 10 %");
+        }
+        stages_ = *stages;
+        record_.step_s = std::pow(kRecordFactor, stages_) / rate_hz;
+    }
+
+    void end_stretch(bool is_step_back, UtcTime start) {
+        record_.stretches.push_back(builder_->finish(record_.step_s));
+        builder_.reset();
+        next_ = 0;
+        if (is_step_back) {
+            record_.warnings.push_back("at " + to_rfc3339(start) +
+                                       " the time of the archive goes back by " +
+                                       text::shortest(seconds_between(start, next_time_)) + " s");
+        }
+    }
+
+    void note_times(const Placed& placed) {
+        const std::int64_t step = builder_->inputs_per_sample();
+        for (std::int64_t k = (placed.first + step - 1) / step; k * step < placed.behind(); ++k) {
+            const auto offset = static_cast<std::size_t>(k * step - placed.first);
+            builder_->set_time(k, placed.segment->time_of(offset));
+        }
+    }
+
+    /// The channel's segments on the numbers that the vertical axis has by then.
+    [[nodiscard]] std::vector<Placed> place(const record::ChannelData& channel,
+                                            const std::vector<Placed>& run) const {
+        std::vector<Placed> placed;
+        for (const record::Segment& segment : channel.segments) {
+            const UtcTime start = segment.time_of(0);
+            const Placed* beside = &run.front();
+            for (const Placed& candidate : run)
+                if (candidate.segment->time_of(0) <= start) beside = &candidate;
+            const auto& anchors = beside->segment->anchors;
+            auto after = std::upper_bound(
+                anchors.begin(), anchors.end(), start,
+                [](UtcTime time, const auto& anchor) { return time < anchor.time; });
+            if (after != anchors.begin()) --after;
+            const double behind = seconds_between(after->time, start) * record_.raw_rate_hz;
+            placed.push_back({&segment, beside->first + static_cast<std::int64_t>(after->offset) +
+                                            std::llround(behind)});
+        }
+        return placed;
+    }
+
+    void push(const std::vector<Placed>& run, const DayOfChannels& day) {
+        if (run.empty()) return;
+        std::array<std::vector<Placed>, kChannels> placed;
+        for (std::size_t k = 0; k < kChannels; ++k)
+            placed[k] = k == kVertical ? run : place(day[k], run);
+        const std::int64_t behind = run.back().behind();
+        for (std::int64_t at = builder_->input_count(); at < behind; at += kBlock) {
+            const auto count = static_cast<std::size_t>(std::min(kBlock, behind - at));
+            for (std::size_t k = 0; k < kChannels; ++k) fill(block_[k], placed[k], k, at, count);
+            builder_->push(block_);
+        }
+    }
+
+    void fill(std::vector<double>& values, const std::vector<Placed>& placed, std::size_t channel,
+              std::int64_t at, std::size_t count) const {
+        values.assign(count, kNaN);
+        const double unit = channel < kChannels - 1 ? kMilliGalPerMps2 : 1.0;
+        const double gain = unit * scales_[channel].gain, offset = unit * scales_[channel].offset;
+        const std::int64_t behind = at + static_cast<std::int64_t>(count);
+        for (const Placed& part : placed) {
+            const std::int64_t end = std::min(part.behind(), behind);
+            for (std::int64_t i = std::max(part.first, at); i < end; ++i)
+                values[static_cast<std::size_t>(i - at)] =
+                    offset + gain * part.segment->counts[static_cast<std::size_t>(i - part.first)];
+        }
+    }
+
+    LongRecord& record_;
+    const std::array<record::ChannelScale, kChannels>& scales_;
+    int stages_ = 0;
+    std::optional<StretchBuilder> builder_;
+    std::int64_t next_ = 0;  ///< Number of the sample that would continue the stretch ...
+    UtcTime next_time_;      ///< ... and its time.
+    std::vector<std::vector<double>> block_{kChannels};
+};
+
+std::optional<TideStation> position_of(const std::filesystem::path& metadata) {
+    const auto document = record::load_station_document(metadata);
+    const auto station = document.child("FDSNStationXML").child("Network").child("Station");
+    if (!station.child("Latitude") || !station.child("Longitude")) return std::nullopt;
+    return TideStation{Degrees(station.child("Latitude").text().as_double()),
+                       Degrees(station.child("Longitude").text().as_double()),
+                       Metres(station.child("Elevation").text().as_double())};
+}
+
+void remove_tide(LongRecord& record, const TideStation& station) {
+    for (RecordStretch& stretch : record.stretches) {
+        for (std::size_t i = 0; i < stretch.size(); ++i) {
+            if (std::isnan(stretch.acceleration_mgal[i])) continue;
+            stretch.acceleration_mgal[i] -= direct_tide(stretch.times[i], station).value();
+        }
+    }
+    record.is_tide_removed = true;
+}
+
+/// Files of the channels for those days, by day.
+std::set<Day> days_with_files(const std::filesystem::path& archive,
+                              const record::StationCodes& codes, const std::string& channel,
+                              const RecordWindow& window) {
+    std::set<Day> found;
+    for (const auto& file : record::day_files(archive, codes, channel)) {
+        // ... .YEAR.DAY
+        const std::string name = file.filename().string();
+        if (name.size() < 9) continue;
+        const int year = std::atoi(name.substr(name.size() - 8, 4).c_str());
+        const int day = std::atoi(name.substr(name.size() - 3).c_str());
+        const Day first = Day(std::chrono::year(year) / 1 / 1) + days(day - 1);
+        if (window.from && UtcTime(first + days(1)) <= *window.from) continue;
+        if (window.to && UtcTime(first) >= *window.to) continue;
+        found.insert(first);
+    }
+    return found;
+}
+
+void describe_inputs(LongRecord& record, const std::filesystem::path& root,
+                     const record::StationCodes& codes, const std::vector<std::string>& channels,
+                     const std::set<Day>& of_days) {
+    std::vector<std::filesystem::path> files;
+    for (const std::string& channel : channels) {
+        for (const Day day : of_days) {
+            auto file = record::sds_file(root / "archive", codes, channel, day);
+            if (std::filesystem::exists(file)) files.push_back(std::move(file));
+        }
+    }
+    std::vector<InputFile> inputs(files.size());
+    on_all_cores(files.size(),
+                 [&](std::size_t i) { inputs[i] = describe_input("archive", files[i]); });
+    record.inputs.insert(record.inputs.end(), inputs.begin(), inputs.end());
+}
+
+void add_damage(std::vector<std::string>& warnings, const record::ChannelData& channel) {
+    for (const record::ArchiveDamage& damage : channel.damage) {
+        warnings.push_back(damage.file.filename().string() + ": " +
+                           std::to_string(damage.byte_count) + " bytes at " +
+                           std::to_string(damage.offset) + " are no record");
+    }
+}
+
+}  // namespace
+
+LongRecord read_archive_record(const std::filesystem::path& root, const RecordWindow& window,
+                               const Progress& progress) {
+    const std::filesystem::path metadata = root / "metadata" / "station.xml";
+    const std::filesystem::path archive = root / "archive";
+    record::StationMetadata station = record::read_station_xml(metadata, window.from);
+    SurveyChannels found = find_channels(station, metadata);
+    const std::set<Day> of_days =
+        days_with_files(archive, station.codes, found.axes[kVertical].code, window);
+    if (!window.from && !of_days.empty()) {
+        // Of epochs that follow each other the one in which the record ends: the first day may begin
+        // before the epoch does.
+        station = record::read_station_xml(metadata, UtcTime(*of_days.rbegin() + days(1)));
+        found = find_channels(station, metadata);
+    }
+    const std::array<record::ChannelScale, kChannels> scales{found.axes[0], found.axes[1],
+                                                             found.axes[2], found.temperature};
+
+    LongRecord record;
+    ArchiveStream stream(record, scales);
+    std::size_t done = 0;
+    for (const Day day : of_days) {
+        const UtcTime from = std::max(UtcTime(day), window.from.value_or(UtcTime(day)));
+        const UtcTime next = day + days(1);
+        DayOfChannels samples;
+        on_all_cores(kChannels, [&](std::size_t k) {
+            samples[k] = record::read_channel(archive, station.codes, scales[k].code, from,
+                                              std::min(next, window.to.value_or(next)));
+        });
+        for (const record::ChannelData& channel : samples) add_damage(record.warnings, channel);
+        stream.take(samples);
+        progress(++done, of_days.size());
+    }
+    stream.finish();
+    if (record.stretches.empty()) {
+        throw InputError(root.string() + ": archive: no sample of " + scales[kVertical].code +
+                         "; allowed: an archive with samples from --from to --to");
+    }
+    if (const auto position = position_of(metadata)) {
+        remove_tide(record, *position);
+    } else {
+        record.warnings.push_back(metadata.string() + ": no position: the tide is left in");
+    }
+    record.inputs.push_back(describe_input("metadata", metadata));
+    describe_inputs(record, root, station.codes,
+                    {scales[0].code, scales[1].code, scales[2].code, scales[3].code}, of_days);
+    return record;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,54 @@
+"""record: a simulated night from its archive, whole and with a gap, twice the same bytes; bad input in one line."""
+
+import json
+
+from programs import BIN, Scratch, demand, run
+
+
+def record(folder, *arguments, check=True):
+    return run(BIN / "a351-correct", "record", *arguments, cwd=folder, check=check)
+
+
+with Scratch() as scratch:
+    run(BIN / "a351-sim", "survey", "--scenario", "indoor", "--seed", "1", "--out", scratch / "night")
+    text = record(scratch, "night", "--out", "a").stdout
+    record(scratch, next((scratch / "night" / "archive").rglob("*BNZ.D.*")), "--out", "b")
+    result = json.loads((scratch / "a" / "result.json").read_text())
+    statistics = result["statistics"]
+    print(f"one segment of {result['segments'][0]['samples']} samples, "
+          f"negative peak after {statistics['band_negative_delay_s']:.0f} s")
+    demand("the night is one segment of 12 h less the filters' ends",
+           [s["samples"] for s in result["segments"]] == [2151] and result["tide_removed"])
+    demand("the acceleration follows the temperature with its sign turned 220 to 300 s late",
+           220 < statistics["band_negative_delay_s"] < 300 and "rate of change" in text)
+    demand("the response at the cycle is known", any(
+        p["refused"] is None and 800 < p["period_s"] < 1000 for p in result["response_by_spectrum"]))
+    same = [(scratch / "a" / f).read_bytes() == (scratch / "b" / f).read_bytes()
+            for f in ("record.csv", "response.csv", "result.json")]
+    demand("a day file stands for its root, with the same bytes", all(same))
+
+    record(scratch, "a/record.csv", "--out", "c")
+    again = json.loads((scratch / "c" / "result.json").read_text())["statistics"]
+    demand("record.csv is read again to the same statistics",
+           all(abs(again[k] - v) <= 1e-3 * abs(v) + 1e-3 for k, v in statistics.items()))
+
+    # Records of 512 bytes: a tenth of the file's middle is lost to the vertical axis.
+    day = next((scratch / "night" / "archive").rglob("*BNZ.D.*"))
+    content = day.read_bytes()
+    begin = len(content) // 512 // 2 * 512
+    day.write_bytes(content[:begin] + content[begin + len(content) // 5120 * 512:])
+    record(scratch, "night", "--out", "d")
+    parts = json.loads((scratch / "d" / "result.json").read_text())["segments"]
+    print("with a gap:", [(s["samples"], s["begins_with"]) for s in parts])
+    demand("a gap divides", len(parts) == 2 and parts[1]["begins_with"].startswith("gap of "))
+
+    for arguments, words in (
+            (("a/result.json",), "temperature_degc"),
+            (("night", "--to", "2017-06-01T10:00:00Z"), "too short"),
+            (("night", "--from", "2018-01-01T00:00:00Z"), "no sample"),
+            (("night", "--from", "yesterday"), "--from"),
+            (("night", "--cycle", "7"), "--cycle")):
+        bad = record(scratch, *arguments, "--out", "e", check=False)
+        print(bad.stderr.strip())
+        demand(f"{arguments}: one line, status 2, nothing written",
+               bad.returncode == 2 and bad.stderr.count("\n") == 1 and not (scratch / "e").exists())

@@ -1,0 +1,72 @@
+/// Simulated nights indoors analysed by the product: the publication's statistics (Matsuda et al.,
+/// tests/golden/tsukuba/README.md), as means over seeds.  The ranges are those of
+/// tests/support/indoor_statistics.cpp, which computes them without the product.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+
+#include "corrector/fixed_point/record_result.hpp"
+#include "tests/unit/fixed_point/simulated_record.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+TEST_CASE("the publication's statistics of a night come out of simulated ones", "[fixed_point]") {
+    constexpr int kSeeds = 10;
+    std::map<std::string, double> means;
+    for (int seed = 1; seed <= kSeeds; ++seed) {
+        RecordResult result;
+        result.parts.segments.push_back(
+            simulated_segment("indoor", static_cast<std::uint64_t>(seed)));
+        result.options.ensemble_size = 60;
+        result.analysis = analyse_record(result.segment(), kRecordStep_s, result.options);
+        CHECK(result.analysis.modes.has_value());
+        for (const RecordStatistic& statistic : record_statistics(result))
+            means[statistic.key] += statistic.value / kSeeds;
+    }
+    const auto check = [&means](const std::string& key, double low, double high) {
+        CAPTURE(key);
+        CHECK(means.at(key) >= low);
+        CHECK(means.at(key) <= high);
+    };
+    check("band_period_s", 700.0, 1050.0);
+    check("band_temperature_swing_degc", 0.010, 0.025);
+    check("band_acceleration_swing_mgal", 3.5, 7.0);
+    check("raw_slope_mgal_per_degc", 80.0, 180.0);
+    check("raw_r2", 0.15, 0.40);
+    check("band_slope_mgal_per_degc", 200.0, 310.0);
+    check("band_r2", 0.35, 0.65);
+    check("band_negative_delay_s", 220.0, 300.0);
+    check("band_positive_delay_s", -260.0, -120.0);
+    check("band_peak_ratio", 0.9, 1.1);
+    check("mode_slope_mgal_per_degc", 180.0, 360.0);
+    check("mode_r2", 0.2, 0.6);
+    check("mode_negative_delay_s", 220.0, 300.0);
+    check("trend_slope_mgal_per_degc", 0.0, 1e9);
+    // Of the plant's transfer function at 900 s: 271 mGal/degC at +76 degrees.
+    check("band_phase_deg", 66.0, 86.0);
+}
+
+TEST_CASE("two peaks of one narrow band are read as one response", "[fixed_point]") {
+    // 257 mGal/degC, negative and 260 s late at 900 s, with nothing else: 9.9 mGal per degC/h.
+    std::vector<double> temperature, acceleration;
+    for (int i = 0; i < 2160; ++i) {
+        const double time_s = 20.0 * i, angular_hz = 2.0 * M_PI / 900.0;
+        temperature.push_back(0.01 * std::sin(angular_hz * time_s));
+        acceleration.push_back(-2.57 * std::sin(angular_hz * (time_s - 260.0)));
+    }
+    const PairStatistics pair = pair_statistics(temperature, acceleration, 20.0, 900.0, 280.0);
+    CHECK(pair.correlation.negative.delay_s == Approx(260.0).margin(1.0));
+    CHECK(pair.correlation.positive.delay_s == Approx(-190.0).margin(1.0));
+    CHECK(phase_of_peaks_deg(pair) == Approx(76.0).margin(0.5));
+    CHECK(rate_coefficient(pair) == Approx(9.9).margin(0.1));
+    CHECK_THAT(causal_reading(pair),
+               Catch::Contains("rate of change") && Catch::Contains("before the thermometer"));
+}
+
+TEST_CASE("a record shorter than eight cycles is not analysed", "[fixed_point]") {
+    RecordSegment segment;
+    segment.acceleration_mgal.assign(359, 1.0);
+    segment.temperature_degc.assign(359, 1.0);
+    CHECK_THROWS_AS(analyse_record(segment, kRecordStep_s, {}), std::invalid_argument);
+}

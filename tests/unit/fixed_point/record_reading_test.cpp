@@ -1,0 +1,104 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+
+#include "corrector/fixed_point/csv_record.hpp"
+#include "corrector/fixed_point/stretch_builder.hpp"
+#include "protocol/core/input_error.hpp"
+#include "tests/unit/survey/scratch_folder.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+const UtcTime kStart = *parse_rfc3339("2026-03-01T00:00:00Z");
+const Progress kSilent = [](std::size_t, std::size_t) {};
+
+std::string rows(double step_s, int first, int behind) {
+    std::string text;
+    for (int i = first; i < behind; ++i)
+        text += to_rfc3339(kStart + from_seconds(step_s * i), 3) + "," +
+                std::to_string(979763.0 + i % 7) + ",42.5\n";
+    return text;
+}
+
+const std::string kHeader = "time_utc,acceleration_mgal,temperature_degc\n";
+
+}  // namespace
+
+TEST_CASE("blocks of any size make the same stretch", "[fixed_point][reading]") {
+    const auto build = [](std::size_t block) {
+        StretchBuilder builder(2, 3);
+        builder.set_time(0, kStart);
+        for (std::size_t at = 0; at < 5000; at += block) {
+            std::vector<std::vector<double>> channels(4);
+            for (std::size_t i = at; i < std::min<std::size_t>(5000, at + block); ++i) {
+                const auto x = static_cast<double>(i);
+                channels[0].push_back(std::sin(x));
+                channels[1].push_back(std::cos(x));
+                channels[2].push_back(979763.0);
+                channels[3].push_back(42.5 + 0.01 * std::sin(0.001 * x));
+            }
+            builder.push(channels);
+        }
+        return builder.finish(2.0);
+    };
+    const RecordStretch whole = build(5000), cut = build(77);
+    REQUIRE(whole.size() == 50);
+    REQUIRE(cut.size() == 50);
+    CHECK(whole.times[3] == kStart + from_seconds(6.0));
+    for (std::size_t k = 0; k < 50; ++k) {
+        CHECK(std::isnan(whole.acceleration_mgal[k]) == (k < 5 || k > 45));
+        if (k < 5 || k > 45) continue;
+        CHECK(whole.acceleration_mgal[k] == cut.acceleration_mgal[k]);
+        CHECK(whole.temperature_degc[k] == cut.temperature_degc[k]);
+        // Axes first: vibration of 1 mGal across does not show.
+        CHECK(whole.acceleration_mgal[k] == Approx(979763.0).margin(1e-6));
+        CHECK(whole.raw[k].acceleration_high_mgal == cut.raw[k].acceleration_high_mgal);
+        CHECK(whole.raw[k].temperature_low_degc <= whole.temperature_degc[k]);
+    }
+}
+
+TEST_CASE("a CSV at 2 s is decimated once, missing rows are a gap", "[fixed_point][reading]") {
+    const ScratchFolder folder;
+    const auto file = folder.write("r.csv", kHeader + rows(2.0, 0, 1000) + rows(2.0, 1030, 3000));
+    const LongRecord record = read_csv_record(file, {}, kSilent);
+    REQUIRE(record.stretches.size() == 1);
+    const RecordStretch& stretch = record.stretches[0];
+    REQUIRE(stretch.size() == 300);
+    CHECK(stretch.times[200] == kStart + from_seconds(4000.0));
+    CHECK(std::isnan(stretch.acceleration_mgal[100]));
+    CHECK(std::isfinite(stretch.acceleration_mgal[95]));
+    CHECK(std::isfinite(stretch.acceleration_mgal[108]));
+    CHECK(stretch.acceleration_mgal[50] == Approx(979766.0).margin(0.1));
+}
+
+TEST_CASE("a CSV at 20 s is taken as it is, and a long gap begins a new stretch",
+          "[fixed_point][reading]") {
+    const ScratchFolder folder;
+    const auto file = folder.write("r.csv", kHeader + rows(20.0, 0, 50) + rows(20.0, 300, 350));
+    const LongRecord record = read_csv_record(file, {}, kSilent);
+    REQUIRE(record.stretches.size() == 2);
+    CHECK(record.stretches[0].acceleration_mgal[13] == 979769.0);
+    CHECK(record.stretches[0].raw.empty());
+    RecordWindow window;
+    window.from = kStart + from_seconds(200.0);
+    window.to = kStart + from_seconds(400.0);
+    CHECK(read_csv_record(file, window, kSilent).stretches[0].size() == 10);
+}
+
+TEST_CASE("what no record can be is named with its line", "[fixed_point][reading]") {
+    const ScratchFolder folder;
+    const auto refused = [&](const std::string& text, const std::string& message) {
+        const auto file = folder.write("r.csv", text);
+        CHECK_THROWS_WITH(read_csv_record(file, {}, kSilent), Catch::Contains(message));
+    };
+    refused(kHeader + rows(3.0, 0, 50),
+            "a row every 3 s; allowed: every 0.02, 0.2, 2 or 20 s");
+    refused(kHeader + rows(20.0, 0, 5) + rows(20.0, 2, 9), "r.csv:7: time_utc");
+    refused(kHeader + rows(20.0, 0, 5) + "2026-03-01T01:00:00Z,abc,42\n",
+            "r.csv:7: acceleration_mgal");
+    refused("time_utc,temperature_degc\n2026-03-01T01:00:00Z,42\n", "acceleration_mgal");
+    refused(kHeader + rows(20.0, 0, 1), "fewer than two rows");
+}

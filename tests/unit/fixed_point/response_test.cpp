@@ -1,0 +1,86 @@
+/// Gain and phase by period against the plant's transfer function.
+#include <catch2/catch.hpp>
+#include <complex>
+#include <numbers>
+#include <random>
+
+#include "corrector/fixed_point/record_analysis.hpp"
+#include "tests/unit/fixed_point/simulated_record.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+/// H(s) = rA - kA s tauA / (1 + s tauA) + rC / (1 + s tauC) with the values of the scenarios.
+std::complex<double> true_response(double period_s) {
+    const std::complex<double> s(0.0, 2.0 * std::numbers::pi / period_s);
+    return -12.0 + 950.0 * s * 43.0 / (1.0 + 43.0 * s) - 20.0 / (1.0 + 2700.0 * s);
+}
+
+struct Count {
+    int claimed = 0, covered = 0;
+
+    void add(const ResponsePoint& point) {
+        if (!point.refusal.empty()) return;
+        const std::complex<double> truth = true_response(point.period_s);
+        const double phase = std::arg(truth) * 180.0 / std::numbers::pi;
+        ++claimed;
+        const bool is_covered = std::abs(truth) >= point.gain.low &&
+                                std::abs(truth) <= point.gain.high &&
+                                phase >= point.phase_deg.low && phase <= point.phase_deg.high;
+        UNSCOPED_INFO(point.period_s << " s: " << point.gain.value << " [" << point.gain.low << ", "
+                                     << point.gain.high << "] at " << point.phase_deg.value
+                                     << ", true " << std::abs(truth) << " at " << phase
+                                     << (is_covered ? "" : "  MISSED"));
+        covered += is_covered ? 1 : 0;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("both ways' limits hold the plant's response", "[fixed_point][response]") {
+    Count by_spectrum, by_modes;
+    int at_cycle = 0;
+    constexpr int kSeeds = 10;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+        RecordAnalysisOptions options;
+        options.ensemble_size = 60;
+        const RecordAnalysis analysis =
+            analyse_record(simulated_segment("indoor", seed), kRecordStep_s, options);
+        bool is_at_cycle = false;
+        for (const ResponsePoint& point : analysis.by_spectrum) {
+            by_spectrum.add(point);
+            is_at_cycle |= point.refusal.empty() && std::abs(point.period_s - 900.0) < 100.0;
+        }
+        for (const ResponsePoint& point : analysis.by_modes) by_modes.add(point);
+        at_cycle += is_at_cycle ? 1 : 0;
+    }
+    CHECK(at_cycle == kSeeds);
+    CHECK(by_modes.claimed >= kSeeds);
+    // 95 % each of gain and phase.
+    CHECK(by_spectrum.covered >= 0.85 * by_spectrum.claimed);
+    CHECK(by_modes.covered >= 0.85 * by_modes.claimed);
+}
+
+TEST_CASE("noise without a response is refused, and so is a record too short",
+          "[fixed_point][response]") {
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> normal;
+    std::vector<double> temperature, acceleration;
+    for (int i = 0; i < 2160; ++i) {
+        const double phase = 2.0 * std::numbers::pi * 20.0 * i / 900.0;
+        temperature.push_back(42.5 + 0.01 * std::sin(phase) + 0.001 * normal(random));
+        acceleration.push_back(normal(random));
+    }
+    int claimed = 0, short_ones = 0, silent = 0;
+    for (const ResponsePoint& point : response_by_spectrum(temperature, acceleration, 20.0)) {
+        claimed += point.refusal.empty() ? 1 : 0;
+        short_ones += point.refusal == "fewer than 6 cycles" ? 1 : 0;
+        silent += point.refusal.starts_with("no excitation") ? 1 : 0;
+        CHECK(point.refusal.empty() == point.needed.empty());
+    }
+    CHECK(claimed == 0);
+    CHECK(short_ones >= 2);
+    CHECK(silent >= 3);
+}
