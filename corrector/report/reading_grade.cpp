@@ -31,13 +31,14 @@ struct NoteText {
     std::string_view text;
 };
 /// The doubts of representative_value.hpp, and amendments, in words.
-constexpr std::array<NoteText, 10> kNoteTexts{{
+constexpr std::array<NoteText, 11> kNoteTexts{{
     {"fallback", Grade::care,
      "the interval could not be chosen by its first rule (fallback): look at the record"},
     {"disturbed_start", Grade::trust, "averaged from after a disturbance at its start"},
     {"disturbed_end", Grade::trust, "averaged up to a disturbance at its end"},
     {"pulse", Grade::care, "a knock cut the record; its longer part was used"},
     {"gap", Grade::care, "samples are missing"},
+    {"no-stop", Grade::care, "not stopped: it lasts to the next start, the way there included"},
     {"unsettled", Grade::care, "the weights of the smoother did not settle"},
     {"excluded", Grade::repeat, "excluded by an amendment"},
     {"included", Grade::trust, "included by an amendment"},

@@ -1,6 +1,7 @@
 #include "corrector/survey/occupation_list.hpp"
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 
 #include "protocol/core/input_error.hpp"
@@ -64,6 +65,21 @@ UtcTime instant(const text::CsvTable& table, std::size_t row, std::string_view c
     return *time;
 }
 
+/// Instants at which a start ended an occupation that had no stop.
+std::set<UtcTime> ends_without_stop(const std::vector<record::Event>& events) {
+    std::set<UtcTime> ends;
+    bool is_running = false;
+    for (const record::Event& event : events) {
+        if (event.type == "start") {
+            if (is_running) ends.insert(event.utc);
+            is_running = true;
+        } else if (event.type == "stop" || event.type == "discard") {
+            is_running = false;
+        }
+    }
+    return ends;
+}
+
 }  // namespace
 
 OccupationList read_occupation_table(const std::filesystem::path& file,
@@ -105,11 +121,17 @@ OccupationList read_logged_occupations(const std::filesystem::path& events) {
         list.warnings.push_back(damage.file.filename().string() + ":" +
                                 std::to_string(damage.line) + ": not an event, passed over");
     }
+    const std::set<UtcTime> ends = ends_without_stop(log.events);
     for (const record::Occupation& occupation : record::occupations_of(log.events)) {
         for (const record::Occupation::SetUp& set_up : occupation.set_ups) {
             list.windows.push_back({occupation.site, occupation.number, set_up.start, set_up.end,
                                     !occupation.used.value_or(true)});
         }
+        OccupationWindow& last = list.windows.back();
+        if (!ends.contains(last.end)) continue;
+        last.notes.emplace_back("no-stop");
+        list.warnings.push_back(named(last) + " has no stop: it lasts to the next start, at " +
+                                to_rfc3339(last.end));
     }
     if (const auto site = record::running_site(log.events)) {
         list.warnings.push_back(events.string() + ": the last occupation, of " + *site +

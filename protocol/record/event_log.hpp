@@ -61,7 +61,8 @@ struct Occupation {
 };
 
 /// Occupations that were started and stopped and not discarded, in time order.  A start while
-/// another runs ends that one; `setup` begins a further set-up; a running one is left out.  `discard`
+/// another runs ends that one; `setup` begins a further set-up; a running one is left out.  One that
+/// ends before it starts, which the daemon does not log, stands as it was logged.  `discard`
 /// and `rename` speak of the running occupation, or else of the last one stopped and not discarded;
 /// notes of start, stop and rename, and `note` while one runs, are joined by "; ".
 /// @param events  in the order they were logged.

@@ -51,7 +51,7 @@ private:
     }
 
     void begin_set_up(UtcTime time) {
-        if (time > set_up_) running_.set_ups.push_back({set_up_, time});
+        if (time != set_up_) running_.set_ups.push_back({set_up_, time});
         set_up_ = time;
     }
 

@@ -153,6 +153,12 @@ TEST_CASE("a running occupation and one of no length are left out", "[record][ev
     CHECK(shown({stop("09:00")}).empty());
 }
 
+TEST_CASE("one that ends before it starts stands as logged and keeps its number",
+          "[record][event_log]") {
+    CHECK(shown({start("09:10", "A"), stop("09:00"), start("10:00", "A"), stop("10:10")}) ==
+          Lines{"A#1 09:10-09:00", "A#2 10:00-10:10"});
+}
+
 TEST_CASE("a discarded occupation does not count", "[record][event_log]") {
     const auto discard = event_of("discard", "23:00");
     CHECK(shown({start("09:00", "A"), discard, stop("09:10"), start("10:00", "A"),

@@ -1,0 +1,77 @@
+// A survey day whose event log has slips, corrected by the program: they are said, the rest is computed.
+#include <catch2/catch.hpp>
+
+#include "protocol/record/event_log.hpp"
+#include "protocol/text/csv.hpp"
+#include "tests/unit/survey/morning.hpp"
+#include "tests/unit/survey/run_command.hpp"
+
+using namespace a351;
+
+namespace {
+
+record::Event start(std::size_t i) {
+    return {"start", Morning::start_of(i), {}, {}, {{"site", Morning::kSites[i]}}};
+}
+
+record::Event stop(std::size_t i) {
+    return {"stop", Morning::start_of(i) + Morning::kStay, {}, {}, {}};
+}
+
+/// Corrects a morning of which these events were logged, in this order.
+Outcome correct(const Morning& morning, const std::vector<record::Event>& events) {
+    for (const record::Event& event : events)
+        record::append_event(record::posix_files(), morning.folder().path() / "data/events", event);
+    morning.folder().write("day.toml", "[survey]\nmodel = 't'\n");
+    return run(morning.folder(), "survey day.toml");
+}
+
+/// "site (occupation) flags" of each row, with a star where it has no value.
+std::vector<std::string> rows_of(const Morning& morning) {
+    const auto table = text::read_csv(morning.folder().path() / "result/occupations.csv");
+    std::vector<std::string> rows;
+    for (std::size_t row = 0; row < table.row_count(); ++row) {
+        rows.push_back(table.cell(row, "site") + " (" + table.cell(row, "occupation") + ") " +
+                       table.cell(row, "flags"));
+        if (table.cell(row, "corrected_mgal").empty()) rows.back() += '*';
+    }
+    return rows;
+}
+
+using Rows = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("a stop logged before its start costs that occupation, by its number", "[logged]") {
+    const Morning morning;
+    auto late = start(0), early = stop(0);
+    std::swap(late.utc, early.utc);
+    const Outcome outcome =
+        correct(morning, {late, early, start(1), stop(1), start(2), stop(2), start(3), stop(3)});
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.errors,
+               Catch::Contains("B (1) at 2020-05-01T23:52:50Z is left out: ends before it starts, "
+                               "at 2020-05-01T23:50:20Z"));
+    CHECK(rows_of(morning) == Rows{"B (1) ends-before-it-starts*", "S1 (1) ", "S2 (1) ", "B (2) "});
+}
+
+TEST_CASE("a start before the stop of another is said and flags what it ended", "[logged]") {
+    const Morning morning;
+    const Outcome outcome =
+        correct(morning, {start(0), stop(0), start(1), start(2), stop(2), start(3), stop(3)});
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.errors, Catch::Contains("S1 (1) at 2020-05-01T23:54:20Z has no stop: it "
+                                               "lasts to the next start, at 2020-05-01T23:58:20Z"));
+    CHECK_THAT(rows_of(morning)[1], Catch::StartsWith("S1 (1) no-stop"));
+    CHECK_THAT(text::read_text_file(morning.folder().path() / "result/report.html"),
+               Catch::Contains("the way there included"));
+}
+
+TEST_CASE("events logged in another order than they happened are the same survey", "[logged]") {
+    const Morning morning;
+    const Outcome outcome = correct(
+        morning, {start(3), stop(3), start(1), stop(1), start(0), stop(0), start(2), stop(2)});
+    CHECK(outcome.status == 0);
+    CHECK(outcome.errors.empty());
+    CHECK(rows_of(morning) == Rows{"B (1) ", "S1 (1) ", "S2 (1) ", "B (2) "});
+}
