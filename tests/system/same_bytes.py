@@ -4,7 +4,7 @@ import random
 import re
 import shutil
 
-from programs import BIN, TOP, Scratch, demand, run
+from programs import BIN, IS_SANITIZED, TOOLS, TOP, Scratch, demand, read_json, run
 
 GOLDEN = TOP / "tests" / "golden" / "tsukuba"
 FILES = {"occupations.csv", "stations.csv", "models.csv", "result.json", "stations.geojson", "gsadjust.csv",
@@ -72,6 +72,14 @@ with Scratch() as scratch:
     first = content(scratch / "first")
     demand_equal("another place, no truth", first, content(scratch / "second"))
     demand_equal("one core", first, content(scratch / "third"))
+    model = read_json(scratch / "first" / "result.json")["model"]
+    demand(f"{len(first)} files, figures among them, by the model {model}", model == "day" and "figures/map.svg" in first)
+    # A sanitizer's library must come first among those preloaded.
+    for cores in () if IS_SANITIZED else (1, 2, 7):
+        out = scratch / f"threads-{cores}"
+        run(BIN / "a351-correct", "survey", root / "survey.toml", "--out", out,
+            env={"LD_PRELOAD": str(TOOLS / "libcore-count.so"), "A351_CORES": str(cores)})
+        demand_equal(f"{cores} threads", first, content(out))
 
     # The same day from a table of occupations, its rows and those of the sites in order and shuffled.
     day = {"ordered": scratch / "ordered", "shuffled": scratch / "shuffled"}
