@@ -44,7 +44,8 @@ def make_day(scratch, scenario, scatter, setups, seed):
 
 
 def correct(day, survey, out, model):
-    run(BIN / "a351-correct", "survey", survey, "--model", model, "--flags", "ignore", "--out", out)
+    run(BIN / "a351-correct", "survey", survey, "--model", model, "--flags", "ignore", "--out", out,
+        env={"PATH": str(day)})  # where no gnuplot is: nothing is drawn
     return rows(out / "occupations.csv")
 
 
@@ -155,18 +156,23 @@ def coverage(intervals):
 
 failures = []
 seeds = seeds_of(sys.argv[1] if len(sys.argv) > 1 else "5001-5020")
-with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
     means = {}
     for case in CASES:
         scenario, scatter, setups, most_out, most_in = case
         name = f"{scenario}, units within {100 * scatter:.0f} %, {setups} set-up{'s' if setups > 1 else ''}"
-        days = list(pool.map(lambda seed: look_at(scratch, case, seed, IS_LONG or seed == seeds[0]), seeds))
-        print(f"{name}: mean over {len(days)} days, mGal")
+        print(name, flush=True)
+        days = []
+        for day in pool.map(lambda seed: look_at(scratch, case, seed, IS_LONG or seed == seeds[0]), seeds):
+            print(f"  seed {seeds[len(days)]}: " + ", ".join(f"{figure} {value:.3f}" for figure, value in day[0].items()),
+                  flush=True)
+            days.append(day)
+        print(f"  mean over {len(days)} days, mGal")
         for figure in days[0][0]:
             values = [found[figure] for found, *_ in days]
             spread = statistics.stdev(values) if len(values) > 1 else 0.0
             means[name, figure] = statistics.fmean(values)
-            print(f"  {figure}: {means[name, figure]:.3f} (from day to day +- {spread:.3f})")
+            print(f"    {figure}: {means[name, figure]:.3f} (from day to day +- {spread:.3f})")
         print("  " + coverage([one for _, stations, _ in days for one in stations])[0])
         worst = max(day[2] for day in days)
         print(f"  hidden and run again, or left out by the program: equal to {worst:.4f} mGal", flush=True)
