@@ -99,6 +99,7 @@ ModelScore score_of(const std::vector<CorrectedRow>& rows, const std::vector<boo
         const auto k = fits.number_of(rows[i].row.site);
         if (k) left_out += std::pow(reference - fits.without[*k].set_ups[i].corrected.value(), 2);
     }
+    score.dof = score.row_count - std::min(score.row_count, score.parameter_count);
     const auto n = static_cast<double>(score.row_count);
     score.rms_mgal = std::sqrt(in_sample / n);
     if (!fits.left_out.empty()) score.loso_mgal = std::sqrt(left_out / n);

@@ -171,6 +171,7 @@ ModelScore score_linear_model(const LinearModel& model, const std::vector<Survey
     const auto n = static_cast<double>(score.row_count);
     const auto k = static_cast<double>(score.parameter_count + 1);
     score.rms_mgal = std::sqrt(fit->rss / n);
+    score.dof = static_cast<std::size_t>(fit->dof());
     score.s_mgal = fit->residual_scale();
     if (score.s_mgal) {
         const Eigen::ArrayXd left_out = fit->residuals.array() / (1.0 - fit->leverages.array());
@@ -196,8 +197,10 @@ ModelScore score_paper_model(const std::vector<SurveyRow>& rows, const std::vect
     score.rms_before_drift_mgal = rms(errors->before_mgal, in_use).value();
     if (errors->after_mgal.empty()) return score;
     const auto n = static_cast<double>(score.row_count);
+    score.dof = score.row_count - std::min(score.row_count, score.parameter_count);
     score.rms_mgal = rms(errors->after_mgal, in_use).value();
-    if (n > 4.0) score.s_mgal = *score.rms_mgal * std::sqrt(n / (n - 4.0));
+    if (score.dof > 0)
+        score.s_mgal = *score.rms_mgal * std::sqrt(n / static_cast<double>(score.dof));
 
     double sum = 0.0;
     for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -65,8 +65,10 @@ struct ModelScore {
     std::string model;
     std::size_t row_count = 0;        ///< n
     std::size_t parameter_count = 0;  ///< p
+    /// Degrees of freedom of the residuals: n, priors and datum counted in, less p.
+    std::size_t dof = 0;
     std::optional<double> rms_mgal;   ///< In sample, divisor n.
-    std::optional<double> s_mgal;     ///< In sample, divisor n - p.
+    std::optional<double> s_mgal;     ///< In sample, divisor dof.
     std::optional<double> loo_mgal;   ///< Each row predicted without it.
     std::optional<double> loso_mgal;  ///< Each row predicted without the rows of its station.
     /// n ln(rss/n) + 2K + 2K(K+1)/(n-K-1), K = p + 1.  Not for a model with a prior, where p would

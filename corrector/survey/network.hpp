@@ -8,8 +8,8 @@
 ///
 ///     x = (A^T W A)^-1 A^T W y,  v = A x - y,  s0^2 = v^T W v / dof,  r_i = (Q_vv W)_ii
 ///
-/// A pause of more than kLoopPause_h begins a loop with a constant and a drift of its own.  The rate
-/// takes part when it has a prior.  Which unknowns are open and why: network_diagnosis.hpp.
+/// A pause of more than kLoopPause_h begins a loop with a constant and a drift of its own; one that
+/// has no reading in use has neither.  The rate takes part when it has a prior.  Which unknowns are open and why: network_diagnosis.hpp.
 /// Redundancy numbers: W. Baarda, A testing procedure for use in geodetic networks, Delft 1968.
 
 #include <Eigen/Core>
@@ -53,6 +53,7 @@ struct NetworkAdjustment {
     Eigen::VectorXd unknowns;        ///< Stations, then terms.
     Eigen::MatrixXd covariance;      ///< A priori.
     Eigen::MatrixXd term_columns;    ///< One line per survey row, in use or not.
+    std::vector<bool> is_tied;       ///< One per survey row: its loop has a reading in use.
     std::vector<NetworkRow> rows;    ///< Readings in use, in order; datum; priors.
     std::size_t reading_count = 0;
     std::size_t datum_count = 0;

@@ -13,6 +13,7 @@ ModelScore score_of(const NetworkAdjustment& network, double reading_sd_mgal) {
     score.model = "network";
     score.row_count = network.reading_count;
     score.parameter_count = static_cast<std::size_t>(network.unknowns.size());
+    score.dof = network.dof;
     double squares = 0.0;
     for (std::size_t i = 0; i < network.reading_count; ++i) {
         squares += network.rows[i].residual * network.rows[i].residual;
@@ -118,6 +119,29 @@ StationValue flagged_station(const SurveyCorrection& result, const NetworkAdjust
     return station;
 }
 
+/// Takes out the rows whose loop has no constant, and says so.
+void leave_out_untied(SurveyCorrection& result, const NetworkAdjustment& network) {
+    std::vector<CorrectedRow> rows;
+    std::string names;
+    for (std::size_t i = 0; i < result.rows.size(); ++i) {
+        const SurveyRow& row = result.rows[i].row;
+        if (network.is_tied[i]) {
+            rows.push_back(std::move(result.rows[i]));
+            continue;
+        }
+        names +=
+            (names.empty() ? "" : ", ") + row.site + " (" + std::to_string(row.occupation) + ')';
+        result.left_out.push_back({row.site, row.occupation, row.start.value_or(row.time),
+                                   row.end.value_or(row.time), "no reading of its loop in use"});
+    }
+    result.rows = std::move(rows);
+    if (names.empty()) return;
+    result.remarks.push_back("no reading in use between two pauses of more than " +
+                             std::to_string(std::lround(kLoopPause_h)) +
+                             " h, so that the instrument's constant there is open: left out are " +
+                             names);
+}
+
 void set_stations(SurveyCorrection& result, const NetworkAdjustment& network) {
     for (const CorrectedRow& row : result.rows) {
         const std::string& site = row.row.site;
@@ -165,6 +189,7 @@ void correct_network(SurveyCorrection& result, const std::vector<SurveyRow>& row
                                        std::sqrt(network.adjustment->covariance(at, at))});
     }
     set_rows(result, *network.adjustment, not_flagged);
+    leave_out_untied(result, *network.adjustment);
     set_stations(result, *network.adjustment);
     const auto& remarks = network.adjustment->remarks;
     result.remarks.insert(result.remarks.end(), remarks.begin(), remarks.end());

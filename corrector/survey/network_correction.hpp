@@ -13,6 +13,9 @@ namespace a351::corrector {
 /// is seen in flagged rows only has the mean of what they read.  The score's LOSO predicts every
 /// datum with its own reference hidden; it needs two of them.
 ///
+/// Rows of a loop that has no reading in the network cannot be corrected: they go from rows to
+/// left_out, with a remark.
+///
 /// @param result       rows, options and the other models' scores are set.
 /// @param not_flagged  one per row: in the network.
 /// @throws InputError  the network leaves something open; says what, why and what would help.

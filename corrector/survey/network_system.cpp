@@ -1,6 +1,7 @@
 #include "corrector/survey/network_system.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "corrector/survey/model_fit.hpp"
 
@@ -9,12 +10,27 @@ namespace {
 
 constexpr double kSecondsPerHour = 3600.0;
 
-std::vector<std::size_t> loops_of(const std::vector<SurveyRow>& rows) {
-    std::vector<std::size_t> loops;
+/// The loop of every row, numbered over those that have a reading in use; std::nullopt in others.
+struct Loops {
+    std::vector<std::optional<std::size_t>> of;
+    std::size_t count = 0;
+};
+
+Loops find_loops(const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use) {
+    Loops loops;
+    std::size_t first = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const bool is_new = i > 0 && seconds_between(rows[i - 1].time, rows[i].time) >
-                                         kLoopPause_h * kSecondsPerHour;
-        loops.push_back(i == 0 ? 0 : loops.back() + (is_new ? 1 : 0));
+        const bool is_last =
+            i + 1 == rows.size() ||
+            seconds_between(rows[i].time, rows[i + 1].time) > kLoopPause_h * kSecondsPerHour;
+        if (!is_last) continue;
+        const auto begin = in_use.begin();
+        const bool is_used = std::find(begin + static_cast<std::ptrdiff_t>(first),
+                                       begin + static_cast<std::ptrdiff_t>(i + 1),
+                                       true) != begin + static_cast<std::ptrdiff_t>(i + 1);
+        loops.of.resize(i + 1, is_used ? std::optional(loops.count) : std::nullopt);
+        if (is_used) ++loops.count;
+        first = i + 1;
     }
     return loops;
 }
@@ -54,8 +70,8 @@ Eigen::MatrixXd::RowXpr add_row(NetworkSystem& system, NetworkAdjustment& networ
 
 void set_terms(NetworkAdjustment& network, const std::vector<SurveyRow>& rows,
                const std::vector<bool>& in_use, const ModelPriors& priors, int drift_degree) {
-    const std::vector<std::size_t> loops = loops_of(rows);
-    for (std::size_t loop = 0; loop <= loops.back(); ++loop) {
+    const Loops loops = find_loops(rows, in_use);
+    for (std::size_t loop = 0; loop < loops.count; ++loop) {
         for (std::string& name : loop_terms(loop, drift_degree)) {
             network.terms.push_back(std::move(name));
         }
@@ -77,15 +93,17 @@ void set_terms(NetworkAdjustment& network, const std::vector<SurveyRow>& rows,
                                                  static_cast<Eigen::Index>(network.terms.size()));
     UtcTime origin = rows.front().time;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (i > 0 && loops[i] != loops[i - 1]) origin = rows[i].time;
+        network.is_tied.push_back(loops.of[i].has_value());
+        if (!loops.of[i]) continue;
+        if (i > 0 && loops.of[i] != loops.of[i - 1]) origin = rows[i].time;
         auto line = network.term_columns.row(static_cast<Eigen::Index>(i));
         const double hours =
             seconds_between(origin, rows[i].time) / kSecondsPerHour - kReferenceTime_h;
-        auto k = static_cast<Eigen::Index>(loops[i]) * (degree + 1);
+        auto k = static_cast<Eigen::Index>(*loops.of[i]) * (degree + 1);
         line(k) = 1.0;
         if (degree >= 1) line(k + 1) = hours;
         if (degree >= 2) line(k + 2) = hours * hours;
-        k = static_cast<Eigen::Index>(loops.back() + 1) * (degree + 1);
+        k = static_cast<Eigen::Index>(loops.count) * (degree + 1);
         if (has_temperature) {
             line(k++) = (rows[i].temperature - kReferenceTemperature).value();
         }
@@ -97,13 +115,13 @@ Occupied find_stations(const std::vector<SurveyRow>& rows, const std::vector<boo
                        const std::vector<std::string>& datum) {
     Occupied occupied;
     auto& [stations, is_held, station_of, loop_of] = occupied.readings;
-    const std::vector<std::size_t> loops = loops_of(rows);
+    const Loops loops = find_loops(rows, in_use);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (!in_use[i]) continue;
         const std::string& site = rows[i].site;
         const auto at = std::find(stations.begin(), stations.end(), site);
         station_of.push_back(static_cast<std::size_t>(at - stations.begin()));
-        loop_of.push_back(loops[i]);
+        loop_of.push_back(loops.of[i].value());
         if (at != stations.end()) continue;
         const bool is_listed =
             datum.empty() || std::find(datum.begin(), datum.end(), site) != datum.end();

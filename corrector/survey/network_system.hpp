@@ -21,7 +21,7 @@ struct Occupied {
                                      const std::vector<bool>& in_use,
                                      const std::vector<std::string>& datum);
 
-/// Sets the terms of the instrument and their columns for all rows.  A temperature that does not
+/// Sets the terms of the instrument, their columns for all rows, and which rows are tied to them.  A temperature that does not
 /// vary and has no prior is left out, with a remark.
 void set_terms(NetworkAdjustment& network, const std::vector<SurveyRow>& rows,
                const std::vector<bool>& in_use, const ModelPriors& priors, int drift_degree);

@@ -7,28 +7,17 @@
 #include "corrector/survey/aligned_text.hpp"
 
 namespace a351::corrector {
-namespace {
-
-double detail_or_zero(const SurveyRow& row, std::string_view name) {
-    for (const SurveyRow::Detail& detail : row.details) {
-        if (detail.name == name) return detail.value.value_or(0.0);
-    }
-    return 0.0;
-}
-
-}  // namespace
-
 std::string temperature_doubt(const SurveyRow& row) {
     std::string reasons;
     if (std::abs(row.rate_degc_per_h) > kGreatestRate_degc_per_h) {
         reasons = "rate " + fixed(row.rate_degc_per_h, 3) + " degC/h";
     }
-    const double range_degc = detail_or_zero(row, "temperature_range_degc");
+    const double range_degc = row.detail("temperature_range_degc").value_or(0.0);
     if (!(range_degc > kGreatestRange_degc)) return reasons;
     const std::string join = reasons.empty() ? "" : ";";
-    if (detail_or_zero(row, "temperature_is_monotone") > 0.0) {
+    if (row.detail("temperature_is_monotone").value_or(0.0) > 0.0) {
         reasons += join + "monotone over " + fixed(range_degc, 3) + " degC";
-    } else if (detail_or_zero(row, "temperature_is_half_wave") > 0.0) {
+    } else if (row.detail("temperature_is_half_wave").value_or(0.0) > 0.0) {
         reasons += join + "half a wave of " + fixed(range_degc, 3) + " degC";
     }
     return reasons;

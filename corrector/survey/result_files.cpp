@@ -60,6 +60,7 @@ Json score_json(const ModelScore& score, const std::string& rows, bool is_select
     json["rows"] = rows;
     json["n"] = score.row_count;
     json["p"] = score.parameter_count;
+    json["dof"] = score.dof;
     json["rms_mgal"] = json_of(score.rms_mgal);
     json["s_mgal"] = json_of(score.s_mgal);
     json["loo_mgal"] = json_of(score.loo_mgal);
@@ -198,7 +199,8 @@ std::string stations_csv(const SurveyCorrection& result) {
 
 std::string models_csv(const SurveyCorrection& result) {
     std::string csv =
-        "model,rows,n,p,rms_mgal,s_mgal,loo_mgal,loso_mgal,aicc,selected,rms_before_drift_mgal\n";
+        "model,rows,n,p,rms_mgal,s_mgal,loo_mgal,loso_mgal,aicc,selected,rms_before_drift_mgal,"
+        "dof\n";
     for (const ScoredRowSet& set : result.row_sets) {
         for (const ModelScore& score : set.scores) {
             CsvLine line;
@@ -206,7 +208,7 @@ std::string models_csv(const SurveyCorrection& result) {
             line.count(score.parameter_count).number(score.rms_mgal).number(score.s_mgal);
             line.number(score.loo_mgal).number(score.loso_mgal).number(score.aicc);
             line.text(is_selected(result, set, score) ? "1" : "0");
-            line.number(score.rms_before_drift_mgal);
+            line.number(score.rms_before_drift_mgal).count(score.dof);
             csv += line.end();
         }
     }

@@ -58,6 +58,7 @@ ModelScore score_robust_model(const LinearModel& model, const std::vector<Survey
     score.parameter_count = model.parameter_count();
     const auto robust = fit_robust_model(model, rows, origin, priors);
     if (!robust) return score;
+    score.dof = score.row_count - score.parameter_count;
     score.rms_mgal = std::sqrt(robust->fit.rss / static_cast<double>(rows.size()));
     score.s_mgal = robust->s;
     score.loo_mgal = left_out_mgal(model, rows, origin, priors,

@@ -56,9 +56,8 @@ std::string statistical_doubt(double studentised, double limit) {
 /// Errors of the prediction without the row's station: one bad row does not hide another.
 void test_left_out(SurveyCorrection& result) {
     const ModelScore& score = result.score;
-    if (score.row_count <= score.parameter_count) return;
-    const double limit = studentised_limit(
-        score.row_count, static_cast<double>(score.row_count - score.parameter_count));
+    if (score.dof == 0) return;
+    const double limit = studentised_limit(score.row_count, static_cast<double>(score.dof));
     for (CorrectedRow& row : result.rows) {
         if (row.studentised_residual && std::abs(*row.studentised_residual) > limit)
             row.doubt_statistical = statistical_doubt(*row.studentised_residual, limit);

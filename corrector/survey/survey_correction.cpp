@@ -242,6 +242,13 @@ const std::vector<std::string>& model_names() {
     return names;
 }
 
+void add_left_out(SurveyCorrection& result, const std::vector<LeftOut>& occupations) {
+    auto& all = result.left_out;
+    all.insert(all.end(), occupations.begin(), occupations.end());
+    std::stable_sort(all.begin(), all.end(),
+                     [](const LeftOut& a, const LeftOut& b) { return a.start < b.start; });
+}
+
 SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const SurveyOptions& options,
                                 const DayRecord* day) {
     const auto& names = model_names();

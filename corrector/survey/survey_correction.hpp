@@ -81,7 +81,7 @@ struct SurveyCorrection {
     std::string model;      ///< Applied; with `auto` the chosen one.
     std::vector<Coefficient> coefficients;
     std::vector<CorrectedRow> rows;
-    std::vector<LeftOut> left_out;  ///< By start; correct_survey() knows of none.
+    std::vector<LeftOut> left_out;  ///< By start; correct_survey() knows those of `network` only.
     std::vector<StationValue> stations;
     std::vector<ScoredRowSet> row_sets;         ///< used, all.
     ModelScore score;                           ///< Of `model` on the rows of the fit.
@@ -91,6 +91,9 @@ struct SurveyCorrection {
     std::optional<NetworkAdjustment> network;   ///< `network` only.
     std::vector<std::string> remarks;           ///< What else has to be known, in sentences.
 };
+
+/// Adds occupations that have no row, by start.
+void add_left_out(SurveyCorrection& result, const std::vector<LeftOut>& occupations);
 
 /// @param rows  in strictly ascending time, with tide and rates set.
 /// @param day   of these rows, for the model `day`; null: there are only averages.

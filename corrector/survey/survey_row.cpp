@@ -58,6 +58,13 @@ int whole_number(const text::CsvTable& table, std::size_t row, std::string_view 
 
 }  // namespace
 
+std::optional<double> SurveyRow::detail(std::string_view name) const {
+    for (const Detail& known : details) {
+        if (known.name == name) return known.value;
+    }
+    return std::nullopt;
+}
+
 std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
                                          const std::vector<text::Site>& sites) {
     const text::CsvTable table = text::read_csv(file);

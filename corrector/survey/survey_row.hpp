@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "corrector/tide/earth_tide.hpp"
@@ -35,6 +36,9 @@ struct SurveyRow {
     MilliGal tide;                      ///< Effect on gravity; to be subtracted.
     std::optional<MilliGal> reference;  ///< Known gravity of the site.
     std::vector<Detail> details;
+
+    /// Value of a detail; absent where the row has none of that name.
+    [[nodiscard]] std::optional<double> detail(std::string_view name) const;
 };
 
 /// An occupation that has no row.

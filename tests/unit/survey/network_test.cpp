@@ -247,3 +247,41 @@ TEST_CASE("hiding a datum's reference gives the error that the network's LOSO sa
     CHECK(correct_survey(rows, options).score.loso_mgal.value() ==
           Approx(std::sqrt(squares / 3.0)).epsilon(1e-5));
 }
+
+TEST_CASE("a loop without a reading in use is left out by name, the rest is computed",
+          "[survey][network]") {
+    auto rows = day_with_quadratic_drift(0.0);
+    const auto first_day = rows;
+    for (const int day : {1, 2}) {
+        for (SurveyRow row : first_day) {
+            row.time = row.time + day * std::chrono::hours(24);
+            row.occupation += 3 * day;
+            row.is_flagged = day == 1;
+            rows.push_back(row);
+        }
+    }
+    rows[13].site = "S9";  // seen on the flagged day only
+    SurveyOptions options;
+    options.model = "network";
+    const SurveyCorrection result = correct_survey(rows, options);
+    CHECK(result.rows.size() == 24);
+    CHECK(result.left_out.size() == 12);
+    CHECK(result.left_out.front().site == "B");
+    CHECK(result.left_out.front().occupation == 4);
+    CHECK(result.left_out.front().start == rows[12].time);
+    CHECK_THAT(result.remarks.back(), Catch::StartsWith("no reading in use between two pauses") &&
+                                          Catch::Contains("left out are B (4), S9 (4), S2 (4)"));
+    CHECK(result.stations.size() == 8);
+    for (const CorrectedRow& row : result.rows)
+        CHECK(row.corrected.value() ==
+              Approx(true_gravity_mgal(row.row.site)).epsilon(0).margin(1e-6));
+    std::vector<SurveyRow> others;
+    for (const SurveyRow& row : rows)
+        if (!row.is_flagged) others.push_back(row);
+    const SurveyCorrection without = correct_survey(others, options);
+    CHECK(without.coefficients.size() == result.coefficients.size());
+    for (std::size_t k = 0; k < result.coefficients.size(); ++k) {
+        CHECK(result.coefficients[k].name == without.coefficients[k].name);
+        CHECK(result.coefficients[k].value == without.coefficients[k].value);
+    }
+}
