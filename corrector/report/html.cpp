@@ -17,32 +17,44 @@ ul { margin: .4em 0; padding-left: 1.4em; }
 table { border-collapse: collapse; margin: .5em 0; font-size: .85em;
   font-variant-numeric: tabular-nums; }
 th, td { padding: .12em .55em; border-bottom: 1px solid #ddd; vertical-align: top; }
-th { border-bottom: 1px solid #555; text-align: left; }
-.r { text-align: right; white-space: nowrap; }
+th { border-bottom: 1px solid #555; text-align: left; vertical-align: bottom; }
+.r { text-align: right; }
+td.r, .n { white-space: nowrap; }
 .wide { overflow-x: auto; }
+.many { margin: 0 min(0px, (66em - 100vw) / 2); }
+.many table { margin-left: auto; margin-right: auto; }
+.many th, .many td { padding: .12em .35em; }
 figure { margin: 1em 0; break-inside: avoid; }
 figure svg { display: block; width: 100%; height: auto; max-height: 235mm; }
 figcaption { font-size: .85em; color: #333; }
 .small { display: grid; grid-template-columns: 1fr 1fr; gap: 0 1em; }
 .small figure { margin: .5em 0; }
 code { font-size: .95em; }
+@media screen and (max-width: 40em) {
+  th, td { padding: .12em .3em; }
+  figure { overflow-x: auto; }
+  figure svg { width: 40em; }
+  figcaption { position: sticky; left: 0; }
+  .small { grid-template-columns: 1fr; }
+  .small figure svg { width: 100%; }
+}
 @media print {
   body { font-size: 9.5pt; max-width: none; margin: 0; padding: 0; }
   h2, h3 { break-after: avoid; }
-  section { break-before: page; }
-  section.first { break-before: auto; }
+  section.first { break-after: page; }
   tr { break-inside: avoid; }
   thead { display: table-header-group; }
   .wide { overflow: visible; }
-  .many table { font-size: 6.4pt; }
-  .many th, .many td { padding: .1em .3em; }
+  .many { margin: 0; }
+  .many table { font-size: 6.4pt; margin: .5em 0; }
+  .many th, .many td { padding: .1em .25em; }
 }
 )";
 
 std::string cell(std::string_view tag, char alignment, std::string_view text) {
     std::string html = "<";
     html += tag;
-    if (alignment == 'r') html += " class=\"r\"";
+    if (alignment != 'l') html += std::string(" class=\"") + alignment + '"';
     html += '>' + html_text(text) + "</";
     html += tag;
     return html + '>';
@@ -58,7 +70,7 @@ std::string line(std::string_view tag, std::string_view alignment, const HtmlCel
 
 std::string html_table(std::string_view alignment, const HtmlCells& header,
                        const std::vector<HtmlCells>& rows) {
-    constexpr std::size_t kMany = 10;  // more columns are too wide for A4 at the size of the text
+    constexpr std::size_t kMany = 12;  // more columns are too wide for A4 at the size of the text
     std::string html =
         alignment.size() > kMany ? "<div class=\"wide many\">" : "<div class=\"wide\">";
     html += "<table>\n<thead>" + line("th", alignment, header) + "</thead>\n<tbody>\n";

@@ -10,7 +10,7 @@ namespace a351::corrector {
 
 using HtmlCells = std::vector<std::string>;
 
-/// @param alignment  a letter per column: l left, r right (numbers).
+/// @param alignment  a letter per column: l left, n left in one line, r right (numbers).
 /// @param header     as many cells as letters, and so in every row.
 [[nodiscard]] std::string html_table(std::string_view alignment, const HtmlCells& header,
                                      const std::vector<HtmlCells>& rows);

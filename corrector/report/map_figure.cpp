@@ -158,9 +158,15 @@ std::string station_lines(const std::vector<const text::Site*>& stations, bool i
 std::optional<Figure> map_figure(const SurveyCorrection& result,
                                  const std::vector<text::Site>& sites) {
     std::vector<const text::Site*> stations;
+    std::string absent;
     for (const StationValue& station : result.stations) {
         const text::Site* const site = text::find_site(sites, station.site);
-        if (site != nullptr && site->is_placed) stations.push_back(site);
+        if (site != nullptr && site->is_placed) {
+            stations.push_back(site);
+        } else {
+            absent +=
+                (absent.empty() ? " Without a position, and not on it: " : ", ") + station.site;
+        }
     }
     if (stations.empty()) return std::nullopt;
     const Frame frame = frame_around(stations);
@@ -197,7 +203,9 @@ std::optional<Figure> map_figure(const SurveyCorrection& result,
         };
         return "set xrange " + text(frame.longitude) + "set yrange " + text(frame.latitude);
     }();
-    return Figure{kName, "Stations with their heights; one scale in both directions.",
+    return Figure{kName,
+                  "Stations with their heights; one scale in both directions." +
+                      (absent.empty() ? absent : absent + '.'),
                   script_head(kName, kWidth_px, kHeight_px) + "set lmargin at screen " +
                       fixed(kLeft, 2) + "\nset rmargin at screen " + fixed(kRight, 2) +
                       "\nset bmargin at screen " + fixed(kBottom, 2) + "\nset tmargin at screen " +

@@ -97,8 +97,8 @@ ProgramRun run_program(const std::string& program, const std::vector<std::string
     const int error = ::posix_spawnp(&child, program.c_str(), actions.get(), nullptr,
                                      pointers(words).data(), pointers(variables).data());
     ProgramRun run;
-    // EACCES: what PATH has under this name is no program.
-    if (error == ENOENT || error == EACCES) {
+    // EACCES: what PATH has under this name is no program; ENOTDIR: PATH has a file for a folder.
+    if (error == ENOENT || error == EACCES || error == ENOTDIR) {
         run.is_found = false;
         return run;
     }

@@ -46,7 +46,18 @@ constexpr std::array<NoteText, 11> kNoteTexts{{
     {"renamed", Grade::trust, "its site was amended"},
 }};
 
-void add_note(ReadingGrade& reading, const std::string& note) {
+/// Of the trend and its interval.
+constexpr std::array<std::string_view, 4> kTrendNotes{"fallback", "disturbed_start",
+                                                      "disturbed_end", "unsettled"};
+
+/// @param is_day  the trend is not what the model averages.
+void add_note(ReadingGrade& reading, const std::string& note, bool is_day) {
+    if (is_day && std::find(kTrendNotes.begin(), kTrendNotes.end(), note) != kTrendNotes.end())
+        return;
+    if (is_day && note == "pulse") {
+        add(reading, Grade::care, "a knock: the samples around it were left out");
+        return;
+    }
     const auto known = std::find_if(kNoteTexts.begin(), kNoteTexts.end(),
                                     [&note](const NoteText& text) { return text.note == note; });
     if (known == kNoteTexts.end()) {
@@ -56,16 +67,10 @@ void add_note(ReadingGrade& reading, const std::string& note) {
     }
 }
 
-std::optional<double> detail(const SurveyRow& row, std::string_view name) {
-    for (const SurveyRow::Detail& detail : row.details) {
-        if (detail.name == name) return detail.value;
-    }
-    return std::nullopt;
-}
-
 void add_temperature(ReadingGrade& reading, const CorrectedRow& row, bool corrects_rate) {
-    const std::string doubt = temperature_doubt(row.row);
+    std::string doubt = temperature_doubt(row.row);
     if (doubt.empty()) return;
+    if (const auto at = doubt.find(';'); at != std::string::npos) doubt.replace(at, 1, ", ");
     const std::string text = "temperature not steady: " + doubt;
     if (corrects_rate) {
         add(reading, Grade::care,
@@ -83,28 +88,49 @@ void add_residual(ReadingGrade& reading, const CorrectedRow& row, bool is_left_o
                                      : row.residual->value() / row.u_corrected->value();
     if (std::abs(ratio) <= kCareRatio) return;
     add(reading, std::abs(ratio) > kRepeatRatio ? Grade::repeat : Grade::care,
-        "off its reference by " + fixed(ratio * row.u_corrected->value(), 1) + " mGal, " +
+        "off its reference by " + fixed(ratio * row.u_corrected->value(), 1) + " mGal" +
+            (is_left_out ? " when its station is left out" : "") + ", " +
             fixed(std::abs(ratio), 1) + " times its uncertainty");
 }
 
 void add_trends(ReadingGrade& reading, const SurveyRow& row) {
-    const auto difference = detail(row, "smoother_minus_eemd_mgal");
+    const auto difference = row.detail("smoother_minus_eemd_mgal");
     if (!difference || std::abs(*difference) <= kTrendDifference_mgal) return;
     add(reading, Grade::care,
         "its two trends (smoother, EEMD) differ by " + fixed(*difference, 2) + " mGal");
 }
 
+/// What readings of one station scatter by after all corrections.
+struct Scatter {
+    std::string name;
+    double mgal = 0.0;
+};
+
+std::optional<Scatter> scatter_of(const SurveyCorrection& result) {
+    if (result.model != "day") {
+        if (!result.score.s_mgal) return std::nullopt;
+        return Scatter{"s", *result.score.s_mgal};
+    }
+    // The rest of what the model estimates is taken off the readings.
+    for (const Coefficient& coefficient : result.coefficients) {
+        if (coefficient.name == "placement_mgal") return Scatter{"placement", coefficient.value};
+    }
+    return std::nullopt;
+}
+
 /// A reading to be repeated says nothing about another one.
 void add_repeats(std::vector<ReadingGrade>& readings, const SurveyCorrection& result) {
-    if (!result.score.s_mgal || !(*result.score.s_mgal > 0.0)) return;
-    const double expected_mgal = std::sqrt(2.0) * *result.score.s_mgal;
+    const auto scatter = scatter_of(result);
+    if (!scatter || !(scatter->mgal > 0.0)) return;
+    const double expected_mgal = std::sqrt(2.0) * scatter->mgal;
     for (const Closure& pair : close_stations(result)) {
         if (readings[pair.earlier].grade == Grade::repeat) continue;
         if (readings[pair.later].grade == Grade::repeat) continue;
         const double ratio = std::abs(pair.after_all.value()) / expected_mgal;
         if (ratio <= kCareRatio) continue;
         const std::string text = fixed(std::abs(pair.after_all.value()), 1) + " mGal from ";
-        const std::string end = ", " + fixed(ratio, 1) + " times what s lets expect";
+        const std::string end =
+            ", " + fixed(ratio, 1) + " times what " + scatter->name + " lets expect";
         add(readings[pair.earlier], Grade::care,
             text + reading_name(result.rows, pair.later) + end);
         add(readings[pair.later], Grade::care,
@@ -118,6 +144,7 @@ std::vector<ReadingGrade> grade_readings(const SurveyCorrection& result) {
     const bool corrects_rate =
         std::any_of(result.rows.begin(), result.rows.end(),
                     [](const CorrectedRow& row) { return row.rate_correction != MilliGal(0.0); });
+    const bool is_day = result.model == "day";
     std::vector<ReadingGrade> readings;
     for (const CorrectedRow& row : result.rows) {
         ReadingGrade& reading = readings.emplace_back();
@@ -127,9 +154,9 @@ std::vector<ReadingGrade> grade_readings(const SurveyCorrection& result) {
                     (row.is_used ? ", in the fit all the same" : ""));
         }
         add_temperature(reading, row, corrects_rate);
-        add_residual(reading, row, result.model == "day");
-        add_trends(reading, row.row);
-        for (const std::string& note : row.row.notes) add_note(reading, note);
+        add_residual(reading, row, is_day);
+        if (!is_day) add_trends(reading, row.row);
+        for (const std::string& note : row.row.notes) add_note(reading, note, is_day);
     }
     add_repeats(readings, result);
     return readings;

@@ -80,6 +80,16 @@ double spread(const std::vector<double>& values, double centre, double share) {
 /// flatten the rest; not zero.
 double half_range(double spread_of_98) { return std::max(1.2 * spread_of_98, 1e-3); }
 
+/// What of the record stands for the reading.
+std::string averaged_text(const SurveyCorrection& result, const SurveyRow& row, double mean_mgal) {
+    const auto averaged_s = row.detail("averaged_s");
+    if (result.model != "day" || !averaged_s)
+        return "mean over the interval " + fixed(mean_mgal, 3) + " mGal.";
+    return "the model day averages " + fixed(*averaged_s, 0) + " s of it to " +
+           fixed(row.acceleration.value(), 3) +
+           " mGal; trend and interval are what the other models take.";
+}
+
 Figure reading_figure(const SurveyCorrection& result, const ReadingRecord& record) {
     const RepresentativeValue& value = *record.value;
     const std::string name = figure_name(record.row);
@@ -113,8 +123,8 @@ Figure reading_figure(const SurveyCorrection& result, const ReadingRecord& recor
     const std::string reading = reading_name(result.rows, record.row);
     return Figure{
         name,
-        reading + ", from " + to_rfc3339(value.series.start()) + ": mean over the interval " +
-            fixed(mean_mgal, 3) + " mGal.",
+        reading + ", from " + to_rfc3339(value.series.start()) + ": " +
+            averaged_text(result, result.rows[record.row].row, mean_mgal),
         script_head(name, 480, 300) + "mean = " + fixed(mean_mgal, 3) + '\n' + "set title " +
             gnuplot_string(reading) + "\nset xlabel 'Minutes'\nset ylabel " +
             gnuplot_string("Acceleration - " + fixed(mean_mgal, 1) + " (mGal)") + "\nset yrange [" +
@@ -138,6 +148,13 @@ struct Panels {
     int label_decimals = 0;
 };
 
+/// Ticks from -half to half, none where the labels of panels above each other would touch.
+std::string inner_tics(double half) {
+    const double step = round_step(half / 1.3);
+    const double last = step * std::floor(0.85 * half / step);
+    return fixed(-last, 5) + ',' + fixed(step, 5) + ',' + fixed(last, 5);
+}
+
 std::string panels_script(const SurveyCorrection& result, const std::vector<ReadingRecord>& records,
                           const Panels& panels) {
     constexpr std::size_t kColumns = 5;
@@ -160,8 +177,7 @@ std::string panels_script(const SurveyCorrection& result, const std::vector<Read
         "," + std::to_string(kColumns) + " margins screen 0.07,0.99," + bottom + "," + top +
         " spacing screen 0.012," + gap + "\nset xrange [0:" + fixed(longest_min, 2) +
         "]\nset yrange [" + fixed(-panels.half, 5) + ":" + fixed(panels.half, 5) + "]\nset xtics " +
-        fixed(round_step(longest_min / 2.5), 4) + "\nset ytics " +
-        fixed(round_step(panels.half / 1.3), 5) +
+        fixed(round_step(longest_min / 2.5), 4) + "\nset ytics " + inner_tics(panels.half) +
         "\nunset key\nset label 1 'Minutes' at screen 0.53," + fixed(14.0 / height_px, 4) +
         " center\nset label 2 '" + panels.y_label + "' at screen 0.014,0.53 center rotate by 90\n";
     for (std::size_t k = 0; k < n; ++k) {
@@ -188,7 +204,8 @@ std::vector<ReadingRecord> find_records(const SurveyCorrection& result,
         const SurveyRow& row = result.rows[i].row;
         const auto found =
             std::find_if(values.begin(), values.end(), [&row](const RepresentativeValue& value) {
-                return row.start == value.interval_start && row.end == value.interval_end;
+                return row.start && row.end && *row.start < value.interval_end &&
+                       value.interval_start < *row.end;
             });
         if (found != values.end()) records.push_back({i, &*found});
     }
@@ -206,8 +223,8 @@ std::vector<Figure> panel_figures(const SurveyCorrection& result,
                                   const std::vector<ReadingRecord>& records) {
     if (records.empty()) return {};
     Panels acceleration{"records-acceleration",
-                        "Acceleration of every reading, samples of 2 s less their mean over the "
-                        "interval; one scale for all, knocks are cut off.",
+                        "Acceleration of every reading, samples of 2 s less the mean that stands "
+                        "for it; one scale for all, knocks are cut off.",
                         "Acceleration - mean (mGal)",
                         "2",
                         "lw 0.7 lc rgb " + kBlue,
@@ -215,8 +232,8 @@ std::vector<Figure> panel_figures(const SurveyCorrection& result,
                         {},
                         1};
     Panels temperature{"records-temperature",
-                       "Temperature of every reading, samples of 2 s less their mean over the "
-                       "interval; one scale for all.",
+                       "Temperature of every reading, samples of 2 s less the mean that stands "
+                       "for it; one scale for all.",
                        "Temperature - mean (°C)",
                        "4",
                        "lw 0.9 lc rgb " + kVermilion,
@@ -226,11 +243,11 @@ std::vector<Figure> panel_figures(const SurveyCorrection& result,
     for (const ReadingRecord& record : records) {
         const RepresentativeValue& value = *record.value;
         const SurveyRow& row = result.rows[record.row].row;
-        acceleration.means.push_back(value.acceleration.value());
+        acceleration.means.push_back(row.acceleration.value());
         temperature.means.push_back(row.temperature.value());
         acceleration.half =
             std::max(acceleration.half,
-                     half_range(spread(value.series.values(), value.acceleration.value(), 0.98)));
+                     half_range(spread(value.series.values(), row.acceleration.value(), 0.98)));
         temperature.half = std::max(
             temperature.half,
             half_range(spread(value.temperature_series.values(), row.temperature.value(), 0.98)));

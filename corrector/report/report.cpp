@@ -7,6 +7,7 @@
 #include "corrector/report/html.hpp"
 #include "corrector/report/inline_svg.hpp"
 #include "corrector/report/map_figure.hpp"
+#include "corrector/report/reading_table.hpp"
 #include "corrector/report/record_figures.hpp"
 #include "corrector/report/result_tables.hpp"
 #include "corrector/report/summary.hpp"

@@ -1,5 +1,6 @@
 #include "corrector/report/result_tables.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "corrector/report/closure.hpp"
@@ -28,45 +29,31 @@ std::string hexadecimal(std::uint32_t value) {
 }  // namespace
 
 std::string stations_html(const SurveyCorrection& result) {
-    std::vector<HtmlCells> rows;
-    for (const StationValue& station : result.stations) {
-        rows.push_back({station.site, std::to_string(station.row_count), number(station.gravity),
-                        cell(station.u_gravity, 2), cell(station.reference, 3),
-                        cell(station.residual, 3), cell(station.redundancy, 2),
-                        station.is_flagged_only ? "flagged readings only" : ""});
+    const auto& stations = result.stations;
+    const bool has_redundancy = std::any_of(stations.begin(), stations.end(),
+                                            [](const auto& s) { return s.redundancy.has_value(); });
+    std::string alignment = "nrrrrr";
+    HtmlCells header{"Station", "n", "Gravity mGal", "u mGal", "Reference mGal", "Residual mGal"};
+    if (has_redundancy) {
+        alignment += 'r';
+        header.emplace_back("Redundancy");
     }
-    return html_table("lrrrrrrl",
-                      {"Station", "n", "Gravity mGal", "u mGal", "Reference mGal", "Residual mGal",
-                       "Redundancy", ""},
-                      rows) +
-           html_paragraph(
-               "Residuals are in sample. u is a standard uncertainty: from the scatter in sample, "
-               "for the model day as if the station were unknown, for network a priori.");
-}
-
-std::string occupations_html(const SurveyCorrection& result) {
     std::vector<HtmlCells> rows;
-    for (std::size_t i = 0; i < result.rows.size(); ++i) {
-        const CorrectedRow& row = result.rows[i];
-        rows.push_back({reading_name(result.rows, i), to_rfc3339(row.row.time),
-                        row.is_used ? "yes" : "no", number(row.row.acceleration),
-                        fixed(row.row.temperature.value(), 3), fixed(row.row.rate_degc_per_h, 3),
-                        number(row.row.tide), number(row.temperature_correction),
-                        number(row.rate_correction), number(row.drift_correction),
-                        number(row.corrected), cell(row.row.reference, 3), cell(row.residual, 3),
-                        cell(row.u_corrected, 2), cell(row.studentised_residual, 2),
-                        flags_of(row, result.options)});
+    for (const StationValue& station : stations) {
+        HtmlCells& cells = rows.emplace_back(HtmlCells{
+            station.site + (station.is_flagged_only ? " *" : ""), std::to_string(station.row_count),
+            number(station.gravity), cell(station.u_gravity, 2), cell(station.reference, 3),
+            cell(station.residual, 3)});
+        if (has_redundancy) cells.push_back(cell(station.redundancy, 2));
     }
-    return html_table("lllrrrrrrrrrrrrl",
-                      {"Reading", "Time UTC", "In fit", "Acceleration", "T °C", "°C/h", "Tide",
-                       "T corr.", "Rate corr.", "Drift corr.", "Corrected", "Reference", "Residual",
-                       "u", "t", "Flags"},
-                      rows) +
-           html_paragraph(
-               "Accelerations, gravity, corrections, residuals and u in mGal. Corrected = "
-               "acceleration - tide + corrections; residual = reference - corrected (in sample "
-               "where the reading is in the fit); u as of a new station; t is the studentised "
-               "residual.");
+    const bool has_flagged = std::any_of(stations.begin(), stations.end(),
+                                         [](const auto& s) { return s.is_flagged_only; });
+    return html_table(alignment, header, rows) +
+           html_paragraph(std::string("Residuals are in sample. u is a standard uncertainty, ") +
+                          (result.model == "day" ? "as if the station were unknown."
+                           : result.network      ? "a priori."
+                                                 : "from the scatter in sample.") +
+                          (has_flagged ? " * Only readings that the fit left out." : ""));
 }
 
 std::string closures_html(const SurveyCorrection& result) {
@@ -88,7 +75,7 @@ std::string closures_html(const SurveyCorrection& result) {
     rows.push_back({"RMS of " + std::to_string(closures.size()), "", "", number(rms.before),
                     number(rms.after_tide), number(rms.after_temperature), number(rms.after_rate),
                     number(rms.after_all), ""});
-    return html_table("llrrrrrrr",
+    return html_table("nnrrrrrrr",
                       {"Earlier", "Later", "Hours", "As read", "After tide", "After temperature",
                        "After rate, tilt", "After drift (all)", "Drift mGal/h"},
                       rows) +
@@ -107,8 +94,8 @@ std::string models_html(const SurveyCorrection& result) {
         }
     }
     std::string html =
-        html_table("llrrrrrrrl",
-                   {"Model", "Rows", "n", "p", "RMS mGal (in sample)", "s mGal (in sample)",
+        html_table("nlrrrrrrrrl",
+                   {"Model", "Rows", "n", "p", "dof", "RMS mGal (in sample)", "s mGal (in sample)",
                     "RMS mGal (cross-validated, leave-one-out)",
                     "RMS mGal (cross-validated, leave-one-station-out)", "AICc", ""},
                    rows);

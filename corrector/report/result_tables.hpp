@@ -12,7 +12,6 @@
 namespace a351::corrector {
 
 [[nodiscard]] std::string stations_html(const SurveyCorrection& result);
-[[nodiscard]] std::string occupations_html(const SurveyCorrection& result);
 
 /// Differences of repeated stations after every correction; a sentence when there are none.
 [[nodiscard]] std::string closures_html(const SurveyCorrection& result);

@@ -1,11 +1,12 @@
 #include "corrector/report/summary.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "corrector/report/html.hpp"
 #include "corrector/report/reading_name.hpp"
 #include "corrector/survey/aligned_text.hpp"
-#include "corrector/survey/table_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -28,63 +29,95 @@ std::string grade_text(Grade grade) {
     return {};
 }
 
+/// Of the value that u belongs to: for the model day the one without the reading's station.
+std::optional<double> error_of(const CorrectedRow& row, bool is_day) {
+    if (!row.residual) return std::nullopt;
+    const auto left_out_mgal = row.row.detail("left_out_mgal");
+    if (is_day && left_out_mgal) return row.row.reference->value() - *left_out_mgal;
+    return row.residual->value();
+}
+
+/// Occupations without a value, by time under each reason.
+std::vector<std::pair<std::string, std::vector<std::string>>> left_out_by_reason(
+    const SurveyCorrection& result) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
+    for (const LeftOut& stay : result.left_out) {
+        auto known = std::find_if(reasons.begin(), reasons.end(),
+                                  [&](const auto& entry) { return entry.first == stay.reason; });
+        if (known == reasons.end()) known = reasons.insert(known, {stay.reason, {}});
+        known->second.push_back(stay.site + " (" + std::to_string(stay.occupation) + ')');
+    }
+    return reasons;
+}
+
 /// Readings about which there is something to say, the doubtful first.
 std::string reading_table(const SurveyCorrection& result, const std::vector<ReadingGrade>& grades) {
+    const bool is_day = result.model == "day";
     std::vector<HtmlCells> rows;
     for (const Grade grade : {Grade::repeat, Grade::care, Grade::trust}) {
         for (std::size_t i = 0; i < grades.size(); ++i) {
             if (grades[i].grade != grade || grades[i].reasons.empty()) continue;
             rows.push_back({reading_name(result.rows, i), grade_text(grade),
-                            fixed_or(result.rows[i].residual, 2, "-"),
+                            fixed_or(error_of(result.rows[i], is_day), 2, "-"),
                             fixed_or(result.rows[i].u_corrected, 2, "-"),
                             joined(grades[i].reasons, "; ")});
         }
     }
     if (rows.empty()) return {};
-    return html_table("llrrl", {"Reading", "Verdict", "Residual mGal", "u mGal", "Why"}, rows);
+    return html_table("nnrrl",
+                      {"Reading", "Verdict",
+                       is_day ? "Error mGal (station left out)" : "Residual mGal", "u mGal", "Why"},
+                      rows);
 }
 
 std::string accuracy_table(const SurveyCorrection& result) {
     const ModelScore& score = result.score;
-    const std::string rms_error = fixed_or(standard_error_of_rms(score), 2, "-");
-    std::vector<HtmlCells> rows{
-        {"RMS of the residuals", fixed_or(score.rms_mgal, 3, "-"), rms_error, "in sample"},
-        {"s, the same with divisor n - p", fixed_or(score.s_mgal, 3, "-"), "", "in sample"},
-        {"RMS error of a reading left out", fixed_or(score.loo_mgal, 3, "-"), "",
-         "cross-validated (leave-one-out)"},
-        {"RMS error of a station left out", fixed_or(score.loso_mgal, 3, "-"), "",
-         "cross-validated (leave-one-station-out)"}};
-    if (result.choice_loso_mgal) {
-        rows.push_back({"the same, the model chosen anew each time",
-                        fixed(*result.choice_loso_mgal, 3), "",
-                        "cross-validated (leave-one-station-out)"});
-    }
+    std::vector<HtmlCells> rows;
+    const auto add = [&rows](const std::string& quantity, const std::optional<double>& value,
+                             const std::string& error, const std::string& kind) {
+        if (value) rows.push_back({quantity, fixed(*value, 3), error, kind});
+    };
+    add("RMS of the residuals", score.rms_mgal, fixed_or(standard_error_of_rms(score), 2, "-"),
+        "in sample");
+    add("s, with the degrees of freedom (" + std::to_string(score.dof) + ") for divisor",
+        score.s_mgal, "", "in sample");
+    add("RMS error of a reading left out", score.loo_mgal, "", "cross-validated (leave-one-out)");
+    add("RMS error of a station left out", score.loso_mgal, "",
+        "cross-validated (leave-one-station-out)");
+    add("the same, the model chosen anew each time", result.choice_loso_mgal, "",
+        "cross-validated (leave-one-station-out)");
     return html_table("lrrl", {"Quantity", "mGal", "its standard error", "Kind"}, rows);
+}
+
+std::string counted(std::size_t count, const std::string& what) {
+    return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
 }
 
 std::string headline(const SurveyCorrection& result) {
     const UtcTime first = result.rows.front().row.time;
     const UtcTime last = result.rows.back().row.time;
     std::string text = to_rfc3339(first) + " to " + to_rfc3339(last) + ": " +
-                       std::to_string(result.rows.size()) + " readings of " +
-                       std::to_string(result.stations.size()) + " stations, base " +
+                       counted(result.rows.size(), "reading") + " of " +
+                       counted(result.stations.size(), "station") + ", base " +
                        result.options.base + ". Model " + result.model;
     if (result.options.model == "auto") {
         text += result.model == "day" ? ", for there are records of the whole day"
                                       : ", chosen by its error of stations left out";
     }
-    return text + "; " + std::to_string(result.score.row_count) + " readings in the fit, " +
-           std::to_string(result.score.parameter_count) + " coefficients.";
+    text += "; " + counted(result.score.row_count, "reading") + " in the fit, " +
+            counted(result.score.parameter_count, result.network ? "unknown" : "coefficient");
+    if (result.network) {
+        text += ", of which " + counted(result.network->stations.size(), "station") + " (" +
+                std::to_string(result.network->datum_count) + " held)";
+    }
+    return text + ", " + std::to_string(result.score.dof) + " degrees of freedom.";
 }
 
 }  // namespace
 
 std::vector<std::string> actions(const SurveyCorrection& result,
                                  const std::vector<ReadingGrade>& grades) {
-    std::vector<std::string> urgent, optional, care, trusted, left_out;
-    for (const LeftOut& stay : result.left_out)
-        left_out.push_back(stay.site + " (" + std::to_string(stay.occupation) + ") " +
-                           flag_of(stay));
+    std::vector<std::string> urgent, optional, care, trusted;
     for (std::size_t i = 0; i < grades.size(); ++i) {
         const std::string name = reading_name(result.rows, i);
         if (grades[i].grade == Grade::trust) {
@@ -101,7 +134,8 @@ std::vector<std::string> actions(const SurveyCorrection& result,
     const auto add = [&list](const std::string& what, const std::vector<std::string>& names) {
         if (!names.empty()) list.push_back(what + ": " + joined(names, ", ") + ".");
     };
-    add("Repeat, left without a value", left_out);
+    for (const auto& [reason, names] : left_out_by_reason(result))
+        add("Repeat, without a value (" + reason + ")", names);
     add("Repeat, the station has no other reading to trust", urgent);
     add("Repeat if there is time, the station has another reading to trust", optional);
     add("Use with care", care);
@@ -117,8 +151,9 @@ std::vector<std::string> limits_of(const SurveyCorrection& result) {
     }
     std::vector<std::string> limits;
     if (base_count < kFewestBaseReadings) {
-        limits.push_back("The base " + result.options.base + " has " + std::to_string(base_count) +
-                         " readings in the fit; three spread over the day tell drift from a bad "
+        limits.push_back("The base " + result.options.base + " has " +
+                         counted(base_count, "reading") +
+                         " in the fit; three spread over the day tell drift from a bad "
                          "reading.");
     }
     std::size_t single_count = 0;
@@ -142,9 +177,8 @@ std::vector<std::string> limits_of(const SurveyCorrection& result) {
 }
 
 std::optional<double> standard_error_of_rms(const ModelScore& score) {
-    if (!score.rms_mgal || score.row_count <= score.parameter_count) return std::nullopt;
-    const auto dof = static_cast<double>(score.row_count - score.parameter_count);
-    return *score.rms_mgal / std::sqrt(2.0 * dof);
+    if (!score.rms_mgal || score.dof == 0) return std::nullopt;
+    return *score.rms_mgal / std::sqrt(2.0 * static_cast<double>(score.dof));
 }
 
 std::string honest_sentence(const ModelScore& score) {
@@ -158,14 +192,15 @@ std::string honest_sentence(const ModelScore& score) {
                            "these readings do not have."));
     if (!error) {
         return n +
-               ": there are no more readings in the fit than coefficients, so the residuals say "
-               "nothing about accuracy." +
+               ": no degree of freedom is left in the fit, so the residuals say nothing about "
+               "accuracy." +
                quote;
     }
     return n + ": the scatter of " + fixed(*score.rms_mgal, 2) +
            " mGal (in sample) has itself a standard error of about " + fixed(*error, 2) +
-           " mGal, RMS / sqrt(2 (n - p)) with p = " + std::to_string(score.parameter_count) +
-           ". Differences between models smaller than that are not findings." + quote;
+           " mGal, RMS / sqrt(2 dof) with " + std::to_string(score.dof) +
+           " degrees of freedom. Differences between models smaller than that are not findings." +
+           quote;
 }
 
 std::string summary_html(const SurveyCorrection& result, const std::vector<std::string>& warnings,

@@ -19,8 +19,8 @@ namespace a351::corrector {
 /// checks.
 [[nodiscard]] std::vector<std::string> limits_of(const SurveyCorrection& result);
 
-/// Standard error of an RMS of n rows and p coefficients, RMS / sqrt(2 (n - p)).
-/// @return std::nullopt when n <= p.
+/// Standard error of an RMS, RMS / sqrt(2 dof).
+/// @return std::nullopt without a degree of freedom.
 [[nodiscard]] std::optional<double> standard_error_of_rms(const ModelScore& score);
 
 /// What the scatter found is worth, as a sentence.

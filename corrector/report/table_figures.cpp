@@ -211,14 +211,19 @@ std::optional<Figure> residual_figure(const SurveyCorrection& result) {
         clauses.push_back(source + " with points " + mark.style + " title '" + mark.title + "'");
     }
     if (data.text().empty()) return std::nullopt;
-    return Figure{kName,
-                  "Residuals (reference less corrected) in time, in sample; bars: standard "
-                  "uncertainty as of a new station, from the scatter in sample.",
-                  script_head(kName, 900, 430) + time_axis(result.rows) +
-                      "set ylabel 'Residual (mGal)'\n"
-                      "set offsets graph 0.02, graph 0.02, graph 0.03, graph 0.03\n" +
-                      plot_command(clauses) + script_tail(),
-                  data.text()};
+    return Figure{
+        kName,
+        "Residuals (reference less corrected) in time, in sample; bars: standard "
+        "uncertainty " +
+            std::string(result.model == "day" ? "of the prediction without the reading's station."
+                        : result.network      ? "of a single reading, a priori."
+                                              : "as of a new station, from the scatter in "
+                                                "sample."),
+        script_head(kName, 900, 430) + time_axis(result.rows) +
+            "set ylabel 'Residual (mGal)'\n"
+            "set offsets graph 0.02, graph 0.02, graph 0.03, graph 0.03\n" +
+            plot_command(clauses) + script_tail(),
+        data.text()};
 }
 
 }  // namespace a351::corrector

@@ -143,11 +143,35 @@ void set_left_out(CorrectedRow& out, MilliGal predicted, MilliGal uncertainty) {
     out.studentised_residual = (*out.row.reference - predicted).value() / uncertainty.value();
 }
 
-void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits) {
+/// The samples that the bins of a set-up average.
+struct Averaged {
+    std::vector<UtcTime> times;
+
+    [[nodiscard]] double seconds() const {
+        double spacing_s = seconds_between(times[0], times[1]);
+        for (std::size_t i = 2; i < times.size(); ++i)
+            spacing_s = std::min(spacing_s, seconds_between(times[i - 1], times[i]));
+        return spacing_s * static_cast<double>(times.size());
+    }
+};
+
+/// One for every row.
+std::vector<Averaged> averaged_samples(std::size_t row_count, const DayRecord& day) {
+    std::vector<Averaged> averaged(row_count);
+    for (const DayBin& bin : day.bins) {
+        auto& times = averaged[bin.set_up].times;
+        times.insert(times.end(), bin.times.begin(), bin.times.end());
+    }
+    return averaged;
+}
+
+void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits, const Averaged& averaged) {
     const DaySetUp& set_up = fits.fit.set_ups[i];
     const auto effect = [&](DayTerm term) {
         return MilliGal(set_up.effect_mgal.at(static_cast<std::size_t>(term)));
     };
+    out.row.start = averaged.times.front();
+    out.row.end = averaged.times.back();
     out.row.acceleration = set_up.reading;
     out.row.temperature = set_up.temperature;
     out.temperature_correction =
@@ -156,6 +180,7 @@ void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits) {
     out.drift_correction = -(effect(DayTerm::drift) + effect(DayTerm::warm_up));
     out.tilt_correction = -(effect(DayTerm::x) + effect(DayTerm::y));
     out.corrected = set_up.corrected;
+    out.row.details.push_back({"averaged_s", averaged.seconds()});
     out.row.details.push_back({"fast_rate_degc_per_h", set_up.rate_degc_per_h});
     out.row.details.push_back({"tilt_correction_mgal", out.tilt_correction.value()});
     out.row.details.push_back({"flicker_correction_mgal", -set_up.flicker.value()});
@@ -257,7 +282,8 @@ void correct_by_day(SurveyCorrection& result, const DayRowSets& sets, const DayR
             set.scores.push_back(
                 score_of(rows, others, fit_with_and_without(rows, {others, is_used}, day)));
     }
-    for (std::size_t i = 0; i < rows.size(); ++i) correct_row(result.rows[i], i, fits);
+    const std::vector<Averaged> averaged = averaged_samples(rows.size(), day);
+    for (std::size_t i = 0; i < rows.size(); ++i) correct_row(result.rows[i], i, fits, averaged[i]);
     result.coefficients = coefficients_of(fits.fit);
     result.stations = station_values(result.rows, fits, {in_use, use_flags});
     const double lead_s = seconds_between(day.temperature.series.start(), day.bins.front().time);

@@ -23,11 +23,11 @@ struct DayRowSets {
     std::vector<bool> used;  ///< Not flagged.
 };
 
-/// Fills in what the model gives.  Acceleration and temperature of a row become means of its
-/// bins.  A row's uncertainty is that of its station when
-/// its reference is not known, and its studentised residual the error of that prediction over it:
-/// found by fitting anew without each station.  Flagged rows, which the fit leaves out, stand for
-/// stations of their own.
+/// Fills in what the model gives.  Acceleration and temperature of a row become means of its bins,
+/// start and end those of their samples; its time stays, for its tide is of that instant.  A row's
+/// uncertainty is that of its station when its reference is not known, and its studentised residual
+/// the error of that prediction over it: found by fitting anew without each station.  Flagged rows,
+/// which the fit leaves out, stand for stations of their own.
 /// @param result  with options, rows, row sets and `model`; day_refusal() found nothing.
 void correct_by_day(SurveyCorrection& result, const DayRowSets& sets, const DayRecord& day);
 

@@ -57,7 +57,7 @@ std::string stations_text(const SurveyCorrection& result) {
 }
 
 std::string models_text(const SurveyCorrection& result) {
-    std::vector<Cells> rows{{"model", "rows", "n", "p", "RMS (in sample)", "s (in sample)",
+    std::vector<Cells> rows{{"model", "rows", "n", "p", "dof", "RMS (in sample)", "s (in sample)",
                              "RMS (leave-one-out)", "RMS (leave-one-station-out)", "AICc", ""}};
     for (const ScoredRowSet& set : result.row_sets) {
         for (const ModelScore& score : set.scores) {
@@ -158,6 +158,7 @@ std::vector<std::string> score_cells(const ScoredRowSet& set, const ModelScore& 
             set.rows,
             std::to_string(score.row_count),
             std::to_string(score.parameter_count),
+            std::to_string(score.dof),
             cell(score.rms_mgal, 3),
             cell(score.s_mgal, 3),
             cell(score.loo_mgal, 3),

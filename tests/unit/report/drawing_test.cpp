@@ -44,6 +44,10 @@ TEST_CASE("a program that is not there, is killed or takes too long is told apar
           "[report][program]") {
     const ScratchFolder folder;
     CHECK_FALSE(run_program("a351-no-such-program", {}, folder.path(), 60s).is_found);
+    {
+        const PathVariable path(folder.write("no-folder", ""));
+        CHECK_FALSE(run_program("gnuplot", {}, folder.path(), 60s).is_found);
+    }
     CHECK(run_program("sh", {"-c", "kill -9 $$"}, folder.path(), 60s).status == 128 + 9);
     const ProgramRun run = run_program("sleep", {"1000"}, folder.path(), 1ms);
     CHECK(run.is_timed_out);

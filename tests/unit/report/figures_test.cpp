@@ -140,6 +140,38 @@ TEST_CASE("a record belongs to the row whose interval it has", "[report][figures
     CHECK(records.front().value == &values[1]);
 }
 
+TEST_CASE("a record belongs to the row that averages more of it", "[report][figures]") {
+    const std::vector<RepresentativeValue> values{
+        record_at(made_up::kMorning), record_at(made_up::kMorning + std::chrono::hours(1))};
+    SurveyCorrection result;
+    result.model = "day";
+    result.rows.resize(1);
+    SurveyRow& row = result.rows[0].row;
+    row = row_behind(values[1], "B");
+    row.start = made_up::kMorning + std::chrono::hours(1);
+    row.end = *row.start + std::chrono::minutes(5);
+    row.acceleration = MilliGal(981702.125);
+    row.details = {{"averaged_s", 280.0}};
+    const auto records = find_records(result, values);
+    REQUIRE(records.size() == 1);
+    CHECK(records.front().value == &values[1]);
+    CHECK_THAT(reading_figures(result, records).at(0).caption,
+               Catch::Contains("the model day averages 280 s of it to 981702.125 mGal"));
+    CHECK_THAT(panel_figures(result, records).at(0).script, Catch::Contains("mean 981702.1"));
+}
+
+TEST_CASE("labels of panels above each other do not touch", "[report][figures]") {
+    std::vector<RepresentativeValue> values{record_at(made_up::kMorning)};
+    SurveyCorrection result;
+    result.rows.resize(1);
+    result.rows[0].row = row_behind(values[0], "B");
+    result.rows[0].row.acceleration = MilliGal(981700.5 - 4.5);  // half a range of 6
+    const auto records = find_records(result, values);
+    const std::string script = panel_figures(result, records).at(0).script;
+    CHECK_THAT(script, Catch::Contains("set yrange [-6.00000:6.00000]") &&
+                           Catch::Contains("set ytics -4.00000,2.00000,4.00000"));
+}
+
 TEST_CASE("a reading's figure has its series, trend, extrema and interval", "[report][figures]") {
     const std::vector<RepresentativeValue> values{record_at(made_up::kMorning)};
     SurveyCorrection result;
@@ -232,6 +264,7 @@ TEST_CASE("a station without coordinates is on no map", "[report][figures]") {
     const auto figure = map_figure(result, sites);
     CHECK_THAT(figure.value().script,
                Catch::Contains("'A, 100 m'") && !Catch::Contains("'B, 100 m'"));
+    CHECK_THAT(figure.value().caption, Catch::EndsWith("Without a position, and not on it: B."));
     sites[0].is_placed = false;
     CHECK_FALSE(map_figure(result, sites));
 }

@@ -78,6 +78,37 @@ TEST_CASE("the whole-day model is graded by what it says without the station", "
     CHECK(first_grade(result) == Grade::trust);
     result.rows[0].studentised_residual = -3.1;
     CHECK(first_grade(result) == Grade::repeat);
+    CHECK(
+        first_reasons(result) ==
+        "off its reference by -6.2 mGal when its station is left out, 3.1 times its uncertainty|");
+}
+
+TEST_CASE("set-ups of one station count against the placement of the whole-day model",
+          "[report][grade]") {
+    SurveyCorrection result = quiet(2);
+    result.model = "day";
+    result.score.s_mgal.reset();
+    result.coefficients = {{"flicker_mgal", 9.0, {}}, {"placement_mgal", 1.5, {}}};
+    result.rows[1].row.site = "A";
+    result.stations.pop_back();
+    result.rows[1].corrected = MilliGal(4.2);  // 2 sqrt(2) 1.5 = 4.24
+    CHECK(first_grade(result) == Grade::trust);
+    result.rows[1].corrected = MilliGal(4.3);
+    CHECK(first_grade(result) == Grade::care);
+    CHECK(first_reasons(result) == "4.3 mGal from A (1b), 2.0 times what placement lets expect|");
+}
+
+TEST_CASE("what befell the trend is no doubt of the whole-day model", "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    result.rows[0].row.notes = {"fallback", "disturbed_end"};
+    result.rows[0].row.details = {{"smoother_minus_eemd_mgal", 3.0}};
+    CHECK(first_grade(result) == Grade::care);
+    result.model = "day";
+    CHECK(first_grade(result) == Grade::trust);
+    CHECK(first_reasons(result).empty());
+    result.rows[0].row.notes = {"pulse"};
+    CHECK(first_grade(result) == Grade::care);
+    CHECK(first_reasons(result) == "a knock: the samples around it were left out|");
 }
 
 TEST_CASE("an excluded reading is not for use, an amended one is", "[report][grade]") {

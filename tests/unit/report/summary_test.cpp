@@ -1,7 +1,6 @@
 #include "corrector/report/summary.hpp"
 
 #include <catch2/catch.hpp>
-#include "corrector/survey/table_text.hpp"
 
 #include "tests/unit/survey/survey_rows.hpp"
 
@@ -37,13 +36,15 @@ TEST_CASE("readings are sorted by what to do about them", "[report][summary]") {
     stay.site = "S9";
     stay.occupation = 2;
     stay.reason = "no samples";
-    result.left_out = {stay};
+    result.left_out = {stay, stay};
+    result.left_out[1].site = "S8";
+    result.left_out[1].occupation = 1;
     std::vector<ReadingGrade> grades(rows.size());
     grades[1].grade = grades[2].grade = Grade::repeat;
     grades[5].grade = Grade::care;
     const std::vector<std::string> list = actions(result, grades);
     REQUIRE(list.size() == 5);
-    CHECK(list[0] == "Repeat, left without a value: S9 (2) " + flag_of(stay) + '.');
+    CHECK(list[0] == "Repeat, without a value (no samples): S9 (2), S8 (1).");
     CHECK(list[1] == "Repeat, the station has no other reading to trust: S1 (1).");
     CHECK(list[2] == "Repeat if there is time, the station has another reading to trust: S2 (1).");
     CHECK(list[3] == "Use with care: S4 (1).");
@@ -66,6 +67,7 @@ TEST_CASE("the scatter is given with its own standard error", "[report][summary]
     ModelScore score;
     score.row_count = 16;
     score.parameter_count = 2;
+    score.dof = 14;
     score.rms_mgal = 2.0084;
     score.loso_mgal = 2.276;
     CHECK(standard_error_of_rms(score).value() == Approx(2.0084 / std::sqrt(28.0)));
@@ -73,7 +75,7 @@ TEST_CASE("the scatter is given with its own standard error", "[report][summary]
                Catch::StartsWith("n = 16: the scatter of 2.01 mGal (in sample) has itself a "
                                  "standard error of about 0.38 mGal") &&
                    Catch::EndsWith("2.28 mGal (cross-validated, leave-one-station-out)."));
-    score.parameter_count = 16;
+    score.dof = 0;
     CHECK_FALSE(standard_error_of_rms(score).has_value());
     CHECK_THAT(honest_sentence(score), Catch::Contains("say nothing about accuracy"));
 }
@@ -85,4 +87,26 @@ TEST_CASE("the summary names the kind of every figure of accuracy", "[report][su
                          Catch::Contains("<td>cross-validated (leave-one-station-out)</td>") &&
                          Catch::Contains("Warnings about the input: 1,") &&
                          Catch::Contains("figures &lt;missing&gt;"));
+}
+
+TEST_CASE("a network's stations are no coefficients of its readings", "[report][summary]") {
+    SurveyOptions options;
+    options.model = "network";
+    const SurveyCorrection result = correct_survey(scattered_day(), options);
+    // 12 readings and 8 datum for 8 stations, constant, drift and temperature.
+    CHECK(result.score.dof == 9);
+    CHECK(standard_error_of_rms(result.score).value() ==
+          Approx(*result.score.rms_mgal / std::sqrt(18.0)));
+    CHECK_THAT(honest_sentence(result.score), Catch::Contains("with 9 degrees of freedom"));
+    CHECK_THAT(summary_html(result, {}, {}),
+               Catch::Contains("12 readings in the fit, 11 unknowns, of which 8 stations (8 held), "
+                               "9 degrees of freedom."));
+}
+
+TEST_CASE("a prior counts as a degree of freedom", "[report][summary]") {
+    SurveyOptions options;
+    options.model = "t-rate-drift";
+    set_prior(options.priors, "test", "rate_mgal_per_degc_per_h", {10.0, 6.0});
+    const SurveyCorrection result = correct_survey(scattered_day(), options);
+    CHECK(result.score.dof == 12 + 1 - 4);
 }

@@ -115,6 +115,11 @@ TEST_CASE("a network of one datum says how far it is off the references it does 
     CHECK(json["network"]["dof"] == 2);
     CHECK(json["network"]["references_not_held"]["stations"] == 12);
     CHECK(json["network"]["rows"].size() == 18);
+    CHECK(json["models"].back()["dof"] == 4);  // 19 readings, a datum and a prior; 14 + 3 unknowns
+    CHECK_THAT(
+        text::read_text_file(folder.path() / "a/report.html"),
+        Catch::Contains("16 readings in the fit, 16 unknowns, of which 13 stations (1 held), "
+                        "2 degrees of freedom"));
     CHECK(run(folder, arguments + "--out b").status == 0);
     CHECK(text::read_text_file(folder.path() / "a/result.json") ==
           text::read_text_file(folder.path() / "b/result.json"));

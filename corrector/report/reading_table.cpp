@@ -1,0 +1,153 @@
+#include "corrector/report/reading_table.hpp"
+
+#include <functional>
+
+#include "corrector/report/html.hpp"
+#include "corrector/report/reading_name.hpp"
+#include "corrector/survey/aligned_text.hpp"
+#include "corrector/survey/table_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+struct Column {
+    std::string title;
+    char alignment = 'r';
+    std::function<std::string(const CorrectedRow&)> cell;
+};
+
+/// Date and hour of the first instant, hour of the last.
+std::string between(UtcTime start, UtcTime end) {
+    const std::string text = to_rfc3339(start);
+    return text.substr(0, 10) + ' ' + text.substr(11, 8) + "\u2013" + to_rfc3339(end).substr(11, 8);
+}
+
+std::string averaged_between(const CorrectedRow& row) {
+    if (!row.row.start || !row.row.end) return "-";
+    return between(*row.row.start, *row.row.end);
+}
+
+std::string averaged_s(const CorrectedRow& row) {
+    if (const auto seconds = row.row.detail("averaged_s")) return fixed(*seconds, 0);
+    if (!row.row.start || !row.row.end) return "-";
+    return fixed(seconds_between(*row.row.start, *row.row.end), 0);
+}
+
+Column number(const std::string& title, MilliGal CorrectedRow::*value) {
+    return {title, 'r',
+            [value](const CorrectedRow& row) { return fixed((row.*value).value(), 3); }};
+}
+
+Column number(const std::string& title, std::optional<MilliGal> CorrectedRow::*value,
+              int decimals) {
+    return {title, 'r', [value, decimals](const CorrectedRow& row) {
+                return fixed_or(row.*value, decimals, "-");
+            }};
+}
+
+Column detail(const std::string& title, const std::string& name) {
+    return {title, 'r',
+            [name](const CorrectedRow& row) { return fixed_or(row.row.detail(name), 3, "-"); }};
+}
+
+std::vector<Column> columns_of(const SurveyCorrection& result) {
+    const bool is_day = result.model == "day";
+    std::vector<Column> columns;
+    if (result.rows.front().row.start) {
+        columns.push_back({"Averaged UTC", 'n', averaged_between});
+        columns.push_back({"s", 'r', averaged_s});
+    } else {
+        columns.push_back(
+            {"Time UTC", 'n', [](const CorrectedRow& row) { return to_rfc3339(row.row.time); }});
+    }
+    columns.push_back({"In fit", 'l', [](const CorrectedRow& row) {
+                           return std::string(row.is_used ? "yes" : "no");
+                       }});
+    columns.push_back({"Acceleration", 'r', [](const CorrectedRow& row) {
+                           return fixed(row.row.acceleration.value(), 3);
+                       }});
+    columns.push_back({"T °C", 'r', [](const CorrectedRow& row) {
+                           return fixed(row.row.temperature.value(), 3);
+                       }});
+    if (is_day) {
+        columns.push_back(detail("°C/h", "fast_rate_degc_per_h"));
+    } else {
+        columns.push_back({"°C/h", 'r', [](const CorrectedRow& row) {
+                               return fixed(row.row.rate_degc_per_h, 3);
+                           }});
+    }
+    columns.push_back(
+        {"Tide", 'r', [](const CorrectedRow& row) { return fixed(row.row.tide.value(), 3); }});
+    columns.push_back(number("T corr.", &CorrectedRow::temperature_correction));
+    columns.push_back(number("Rate corr.", &CorrectedRow::rate_correction));
+    columns.push_back(number("Drift corr.", &CorrectedRow::drift_correction));
+    if (is_day) {
+        columns.push_back(number("Tilt corr.", &CorrectedRow::tilt_correction));
+        columns.push_back(detail("Flicker corr.", "flicker_correction_mgal"));
+    }
+    columns.push_back(number("Corrected", &CorrectedRow::corrected));
+    columns.push_back({"Reference", 'r', [](const CorrectedRow& row) {
+                           return fixed_or(row.row.reference, 3, "-");
+                       }});
+    columns.push_back(number("Residual", &CorrectedRow::residual, 3));
+    if (is_day) columns.push_back(detail("Left out", "left_out_mgal"));
+    columns.push_back(number("u", &CorrectedRow::u_corrected, 2));
+    columns.push_back({"t", 'r', [](const CorrectedRow& row) {
+                           return fixed_or(row.studentised_residual, 2, "-");
+                       }});
+    columns.push_back({"Flags", 'l', [&result](const CorrectedRow& row) {
+                           return flags_of(row, result.options);
+                       }});
+    return columns;
+}
+
+std::string explanation(const SurveyCorrection& result) {
+    std::string text =
+        "Accelerations, gravity, corrections, residuals and u in mGal. Corrected = acceleration - "
+        "tide + corrections; residual = reference - corrected (in sample where the reading is in "
+        "the fit). ";
+    if (result.model != "day")
+        return text + "u " +
+               (result.network ? "of a single reading, a priori"
+                               : "as of a new "
+                                 "station") +
+               "; t is the studentised residual.";
+    return text +
+           "The model day averages all undisturbed samples between the two instants, s seconds of "
+           "them; °C/h is what its fast term takes for the rate. What is left in a residual is "
+           "placement, one value for every set-up. Left out: the value that the reading has when "
+           "its station's reference is hidden; u is the uncertainty of that, t = (reference - "
+           "left out) / u.";
+}
+
+}  // namespace
+
+std::string occupations_html(const SurveyCorrection& result) {
+    const std::vector<Column> columns = columns_of(result);
+    std::string alignment = "n";
+    HtmlCells header{"Reading"};
+    for (const Column& column : columns) {
+        alignment += column.alignment;
+        header.push_back(column.title);
+    }
+    std::vector<HtmlCells> lines;
+    auto left_out = result.left_out.begin();
+    const auto add_left_out_before = [&](UtcTime time) {
+        for (; left_out != result.left_out.end() && left_out->start < time; ++left_out) {
+            HtmlCells& cells = lines.emplace_back(header.size(), "-");
+            cells.front() = left_out->site + " (" + std::to_string(left_out->occupation) + ')';
+            cells[1] = result.rows.front().row.start ? between(left_out->start, left_out->end)
+                                                     : to_rfc3339(left_out->start);
+            cells.back() = left_out->reason;
+        }
+    };
+    for (std::size_t i = 0; i < result.rows.size(); ++i) {
+        add_left_out_before(result.rows[i].row.time);
+        HtmlCells& cells = lines.emplace_back(1, reading_name(result.rows, i));
+        for (const Column& column : columns) cells.push_back(column.cell(result.rows[i]));
+    }
+    add_left_out_before(UtcTime::max());
+    return html_table(alignment, header, lines) + html_paragraph(explanation(result));
+}
+
+}  // namespace a351::corrector

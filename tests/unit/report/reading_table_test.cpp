@@ -1,0 +1,103 @@
+#include "corrector/report/reading_table.hpp"
+
+#include <catch2/catch.hpp>
+#include <map>
+#include <pugixml.hpp>
+
+#include "tests/unit/day/made_up_day.hpp"
+#include "tests/unit/survey/survey_rows.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+/// Cells by the title of their column, line by line.
+std::vector<std::map<std::string, std::string>> lines_of(const std::string& html) {
+    pugi::xml_document document;
+    REQUIRE(document.load_string(("<body>" + html + "</body>").c_str()));
+    const auto table = document.select_node("//table").node();
+    std::vector<std::string> titles;
+    for (const auto& cell : table.select_nodes("thead//th"))
+        titles.emplace_back(cell.node().child_value());
+    std::vector<std::map<std::string, std::string>> lines;
+    for (const auto& row : table.select_nodes("tbody/tr")) {
+        auto title = titles.begin();
+        auto& line = lines.emplace_back();
+        for (const auto& cell : row.node().children("td")) line[*title++] = cell.child_value();
+        CHECK(title == titles.end());
+    }
+    return lines;
+}
+
+SurveyCorrection corrected_by_day(const DayRecord& day) {
+    std::vector<SurveyRow> rows;
+    for (std::size_t s = 0; s < MadeUpDay::kSetUps; ++s) {
+        SurveyRow row;
+        row.site = "S" + std::to_string(s % 11);
+        row.occupation = s < 11 ? 1 : 2;
+        row.time = day.bins[s * MadeUpDay::kBins + 3].time;
+        row.start = row.time - std::chrono::minutes(1);  // the trend's interval
+        row.end = row.time + std::chrono::minutes(1);
+        row.reference = MilliGal(MadeUpDay::gravity_mgal(s));
+        rows.push_back(row);
+    }
+    SurveyOptions options;
+    options.model = "day";
+    return correct_survey(rows, options, &day);
+}
+
+}  // namespace
+
+TEST_CASE("the whole-day model's table has every correction it makes", "[report][readings]") {
+    const MadeUpDay made{.placement_mgal = 1.2, .white_mgal = 0.2};
+    const auto lines = lines_of(occupations_html(corrected_by_day(made.record())));
+    REQUIRE(lines.size() == MadeUpDay::kSetUps);
+    for (auto line : lines) {
+        const auto value = [&line](const char* title) { return std::stod(line.at(title)); };
+        const double sum = value("Acceleration") - value("Tide") + value("T corr.") +
+                           value("Rate corr.") + value("Drift corr.") + value("Tilt corr.") +
+                           value("Flicker corr.");
+        CHECK(sum == Approx(value("Corrected")).epsilon(0).margin(0.004));  // eight roundings
+        // Both are rounded to 0.01, t to three digits at least.
+        CHECK((value("Reference") - value("Left out")) / value("u") ==
+              Approx(value("t")).epsilon(0.01).margin(0.02));
+    }
+}
+
+TEST_CASE("the whole-day model's table says what it averages", "[report][readings]") {
+    const MadeUpDay made{.placement_mgal = 1.2, .white_mgal = 0.2};
+    DayRecord day = made.record();
+    std::erase_if(day.bins, [](const DayBin& bin) {
+        return bin.set_up == 2 && bin.time < MadeUpDay::start() + std::chrono::minutes(183);
+    });
+    const auto lines = lines_of(occupations_html(corrected_by_day(day)));
+    // 14 bins of 25 samples, 2 s apart, from 02:00 on every half hour.
+    CHECK(lines[0].at("Averaged UTC") == "2026-05-01 02:00:00\u201302:11:38");
+    CHECK(lines[0].at("s") == "700");
+    CHECK(lines[2].at("Averaged UTC") == "2026-05-01 03:03:20\u201303:11:38");
+    CHECK(lines[2].at("s") == "500");
+}
+
+TEST_CASE("a table of averages has no columns of records", "[report][readings]") {
+    SurveyOptions options;
+    options.model = "t";
+    const auto lines = lines_of(occupations_html(correct_survey(made_up::day(), options)));
+    REQUIRE(lines.size() == 12);
+    for (const char* const title : {"Averaged UTC", "s", "Tilt corr.", "Left out"})
+        CHECK_FALSE(lines[0].contains(title));
+}
+
+TEST_CASE("an occupation without a value stands in its place", "[report][readings]") {
+    SurveyOptions options;
+    options.model = "t";
+    SurveyCorrection result = correct_survey(made_up::day(), options);
+    const UtcTime start = result.rows[2].row.time - std::chrono::minutes(9);
+    add_left_out(result, {{"S9", 2, start, start, "no samples"}});
+    const auto lines = lines_of(occupations_html(result));
+    REQUIRE(lines.size() == 13);
+    CHECK(lines[2].at("Reading") == "S9 (2)");
+    CHECK(lines[2].at("Time UTC") == to_rfc3339(start));
+    CHECK(lines[2].at("Corrected") == "-");
+    CHECK(lines[2].at("Flags") == "no samples");
+}
