@@ -9,9 +9,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <stdexcept>
 
 #include "corrector/command/figures_option.hpp"
 #include "corrector/command/progress_bar.hpp"
+#include "corrector/report/joint_page.hpp"
 #include "corrector/report/report.hpp"
 #include "corrector/survey/export_files.hpp"
 #include "corrector/survey/joint_table.hpp"
@@ -92,7 +94,7 @@ SurveyCorrection corrected(const SurveyFile& survey, OccupationRows& read) {
     try {
         SurveyCorrection result = correct_survey(read.rows, with_sites_of(read, survey.survey),
                                                  read.day ? &*read.day : nullptr);
-        result.left_out = read.left_out;
+        add_left_out(result, read.left_out);
         return result;
     } catch (const InputError& error) {
         std::string message = survey.path.string() + ": " + error.what();
@@ -141,12 +143,21 @@ void correct_days(const SurveyCommandOptions& options) {
     const std::filesystem::path out = options.out.empty()
                                           ? surveys.front().path.parent_path() / "result"
                                           : std::filesystem::path(options.out);
+    const bool is_joint = surveys.size() > 1;
     std::vector<Day> days;
+    std::vector<JointDay> joint_days;
+    std::string troubles;
     for (const SurveyFile& survey : surveys) {
-        days.push_back(correct_day(survey, options.figures));
+        joint_days.push_back({survey.name, folder_name(survey.name)});
+        try {
+            days.push_back(correct_day(survey, options.figures));
+        } catch (const InputError& error) {
+            joint_days.back().trouble = error.what();
+            troubles += (troubles.empty() ? "" : "; ") + survey.name + ": " + error.what();
+        }
     }
+    if (days.empty()) throw InputError(is_joint ? troubles : joint_days.front().trouble);
 
-    const bool is_joint = days.size() > 1;
     std::vector<SurveyCorrection> results;
     for (const Day& day : days) {
         write_together(is_joint ? out / folder_name(day.name) : out, day.files);
@@ -157,10 +168,19 @@ void correct_days(const SurveyCommandOptions& options) {
     }
     if (is_joint) {
         const std::vector<JointStation> joint = join_days(results);
-        write_together(out, {{"joint.csv", joint_csv(joint)}});
-        std::cout << "all days\n" << joint_text(joint) << '\n';
+        auto result = days.begin();
+        for (JointDay& day : joint_days)
+            if (day.trouble.empty()) day.result = &(result++)->result;
+        write_together(out,
+                       {{"joint.csv", joint_csv(joint)}, {"joint.html", joint_html(joint_days)}});
+        std::cout << (troubles.empty() ? "all days\n" : "all days but those not corrected\n")
+                  << joint_text(joint) << '\n';
     }
     std::cout << "written to " << out.string() << '\n';
+    if (!troubles.empty())
+        throw std::runtime_error(std::to_string(surveys.size() - days.size()) + " of " +
+                                 std::to_string(surveys.size()) +
+                                 " days not corrected, the others are written: " + troubles);
 }
 
 }  // namespace

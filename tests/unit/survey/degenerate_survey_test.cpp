@@ -1,7 +1,9 @@
 // Survey days with something missing or wrong, corrected by the program: what is good is computed,
 // what is not is said.
 #include <algorithm>
+#include <boost/crc.hpp>
 #include <catch2/catch.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "protocol/text/csv.hpp"
@@ -106,6 +108,65 @@ TEST_CASE("a base and a datum station that were lost are named, and others stand
     const Outcome paper = correct(morning, "base='B'\nmodel='paper'\n");
     CHECK(paper.status == 2);
     CHECK_THAT(paper.errors, Catch::Contains("base = B: no occupation of it"));
+}
+
+TEST_CASE("the temperature of the day before is among the inputs, with its checksum",
+          "[degenerate]") {
+    const Morning morning;  // a file for either side of midnight
+    morning.folder().write("occupations.csv",
+                           kHeader + "S2,1,2020-05-02T00:01:05Z,2020-05-02T00:01:58Z,,\n" + kB2);
+    REQUIRE(correct(morning, "model='t'\n").status == 0);
+    std::map<std::string, std::uint32_t> checksums;
+    const auto inputs = json_of(morning)["inputs"];
+    for (const auto& input : inputs)
+        if (input["role"] == "archive") checksums[input["name"]] = input["crc32"];
+    std::size_t count = 0;
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(morning.folder().path() / "data/archive")) {
+        if (!entry.is_regular_file()) continue;
+        const std::string name = entry.path().filename().string();
+        CAPTURE(name);
+        const bool is_read = name.ends_with(".123") || name == "XX.A351.00.BK1.D.2020.122";
+        CHECK(checksums.contains(name) == is_read);
+        if (!is_read) continue;
+        ++count;
+        boost::crc_32_type crc;
+        const std::string content = text::read_text_file(entry.path());
+        crc.process_bytes(content.data(), content.size());
+        CHECK(checksums[name] == crc.checksum());
+    }
+    CHECK(count == 5);
+}
+
+TEST_CASE("a bad day of three is said, the others and the joint table are written",
+          "[degenerate]") {
+    const Morning morning;
+    const auto& folder = morning.folder();
+    folder.write("late.csv", kHeader + "B,1,2021-05-01T23:50:20Z,2021-05-01T23:52:50Z,,\n");
+    folder.write("a.toml", "[survey]\noccupations='occupations.csv'\n");
+    folder.write("b.toml", "[survey]\nname='bad'\noccupations='late.csv'\n");
+    folder.write("c.toml", "[survey]\noccupations='occupations.csv'\nflags='ignore'\n");
+    const Outcome outcome = run(folder, "survey a.toml b.toml c.toml");
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.errors, Catch::Contains("1 of 3 days not corrected, the others are written: "
+                                               "bad: b.toml: root = ") &&
+                                   Catch::Contains("no occupation has samples"));
+    CHECK_THAT(outcome.output, Catch::Contains("survey a\n") && Catch::Contains("survey c\n") &&
+                                   Catch::Contains("all days but those not corrected"));
+    const auto result = folder.path() / "result";
+    for (const std::string name : {"a", "c"})
+        CHECK(std::filesystem::exists(result / name / "report.html"));
+    CHECK_FALSE(std::filesystem::exists(result / "bad"));
+    const auto joint = text::read_csv(result / "joint.csv");
+    REQUIRE(joint.row_count() == 3);
+    CHECK(joint.cell(0, "days") == "2");
+    CHECK_THAT(
+        text::read_text_file(result / "joint.html"),
+        Catch::Contains("Gravity survey of 3 days") && Catch::Contains("<li>bad: b.toml: ") &&
+            Catch::Contains("href=\"a/report.html\"") && Catch::Contains("href=\"c/report.html\""));
+    const Outcome none = run(folder, "survey b.toml --out none");
+    CHECK(none.status == 2);
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "none"));
 }
 
 TEST_CASE("swapped times and overlaps cost only those occupations", "[degenerate]") {

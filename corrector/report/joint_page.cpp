@@ -1,0 +1,167 @@
+#include "corrector/report/joint_page.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "corrector/report/escaping.hpp"
+#include "corrector/report/html.hpp"
+#include "corrector/survey/aligned_text.hpp"
+#include "corrector/survey/joint_table.hpp"
+
+namespace a351::corrector {
+namespace {
+
+/// As a part of a relative address (RFC 3986, unreserved characters as they are).
+std::string address_part(const std::string& name) {
+    constexpr std::string_view kDigits = "0123456789ABCDEF";
+    constexpr std::string_view kUnreserved =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~";
+    std::string text;
+    for (const char c : name) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (kUnreserved.find(c) != std::string_view::npos) {
+            text += c;
+        } else {
+            text += '%';
+            text += kDigits[byte >> 4U];
+            text += kDigits[byte & 0xFU];
+        }
+    }
+    return text;
+}
+
+const StationValue* find_station(const SurveyCorrection& day, const std::string& site) {
+    const auto found = std::find_if(day.stations.begin(), day.stations.end(),
+                                    [&site](const auto& s) { return s.site == site; });
+    return found == day.stations.end() ? nullptr : &*found;
+}
+
+std::string days_table(const std::vector<JointDay>& days) {
+    std::vector<HtmlCells> rows;
+    for (const JointDay& day : days) {
+        HtmlCells& cells = rows.emplace_back(7, "-");
+        cells[0] = day.name;
+        if (day.result == nullptr) {
+            cells[1] = "not corrected";
+            continue;
+        }
+        const SurveyCorrection& result = *day.result;
+        cells[1] = to_rfc3339(result.rows.front().row.time);
+        cells[2] = to_rfc3339(result.rows.back().row.time);
+        cells[3] = result.model;
+        cells[4] =
+            std::to_string(result.score.row_count) + " of " + std::to_string(result.rows.size());
+        cells[5] = fixed_or(result.score.rms_mgal, 3, "-");
+        cells[6] = fixed_or(result.score.loso_mgal, 3, "-");
+    }
+    return html_table("nnnlrrr",
+                      {"Day", "First reading UTC", "Last reading UTC", "Model", "In the fit",
+                       "RMS mGal (in sample)", "RMS mGal (cross-validated, leave-one-station-out)"},
+                      rows);
+}
+
+std::string links(const std::vector<JointDay>& days) {
+    std::string html;
+    for (const JointDay& day : days) {
+        if (day.result == nullptr) continue;
+        html += (html.empty() ? "<p>Reports: " : ", ");
+        html += "<a href=\"" + address_part(day.folder) + "/report.html\">" + html_text(day.name) +
+                "</a>";
+    }
+    return html.empty() ? html : html + ".</p>\n";
+}
+
+std::string stations_table(const std::vector<JointDay>& days,
+                           const std::vector<SurveyCorrection>& results) {
+    std::string alignment = "nrrrrrr";
+    HtmlCells header{"Station",        "Days",         "n", "Gravity mGal", "u mGal",
+                     "Reference mGal", "Residual mGal"};
+    for (const JointDay& day : days) {
+        if (day.result == nullptr) continue;
+        alignment += 'r';
+        header.push_back(day.name + " - joint");
+    }
+    std::vector<HtmlCells> rows;
+    for (const JointStation& station : join_days(results)) {
+        HtmlCells& cells = rows.emplace_back(HtmlCells{
+            station.site, std::to_string(station.day_count), std::to_string(station.row_count),
+            fixed(station.gravity.value(), 3), fixed_or(station.u_gravity, 2, "-"),
+            fixed_or(station.reference, 3, "-"), fixed_or(station.residual, 3, "-")});
+        for (const SurveyCorrection& result : results) {
+            const StationValue* const value = find_station(result, station.site);
+            cells.push_back(value == nullptr
+                                ? "-"
+                                : fixed((value->gravity - station.gravity).value(), 3) +
+                                      (value->is_flagged_only ? " *" : ""));
+        }
+    }
+    return html_table(alignment, header, rows);
+}
+
+std::string scatter_sentence(const std::vector<SurveyCorrection>& results) {
+    const auto scatter = scatter_of_days(results);
+    if (!scatter) return "No station was seen on two days: nothing compares them.";
+    std::string text = "Stations seen on several days differ by " + fixed(scatter->rms_mgal, 2) +
+                       " mGal rms from day to day (" + std::to_string(scatter->dof) +
+                       " degrees of freedom)";
+    if (scatter->expected_mgal)
+        text += "; their u let expect " + fixed(*scatter->expected_mgal, 2) +
+                ", less where a day's fit holds their references";
+    return text + '.';
+}
+
+}  // namespace
+
+std::optional<DayScatter> scatter_of_days(const std::vector<SurveyCorrection>& days) {
+    DayScatter scatter;
+    double squares = 0.0, expected = 0.0;
+    std::size_t count = 0;
+    bool has_all_u = true;
+    for (const JointStation& station : join_days(days)) {
+        if (station.day_count < 2) continue;
+        std::vector<double> values;
+        for (const SurveyCorrection& day : days) {
+            const StationValue* const value = find_station(day, station.site);
+            if (value == nullptr) continue;
+            values.push_back((value->gravity - station.gravity).value());
+            has_all_u = has_all_u && value->u_gravity;
+            if (value->u_gravity) expected += std::pow(value->u_gravity->value(), 2);
+        }
+        double mean = 0.0;
+        for (const double value : values) mean += value / static_cast<double>(values.size());
+        for (const double value : values) squares += std::pow(value - mean, 2);
+        count += values.size();
+        scatter.dof += values.size() - 1;
+    }
+    if (scatter.dof == 0) return std::nullopt;
+    scatter.rms_mgal = std::sqrt(squares / static_cast<double>(scatter.dof));
+    if (has_all_u) scatter.expected_mgal = std::sqrt(expected / static_cast<double>(count));
+    return scatter;
+}
+
+std::string joint_html(const std::vector<JointDay>& days) {
+    std::vector<SurveyCorrection> results;
+    std::vector<std::string> troubles;
+    for (const JointDay& day : days) {
+        if (day.result != nullptr) {
+            results.push_back(*day.result);
+        } else {
+            troubles.push_back(day.name + ": " + day.trouble);
+        }
+    }
+    const std::string title = "Gravity survey of " + std::to_string(days.size()) + " days";
+    std::string body = "<h1>" + html_text(title) + "</h1>\n";
+    if (!troubles.empty())
+        body += html_paragraph("Not corrected, and not in what follows:") + html_list(troubles);
+    body += "<h2>Days</h2>\n" + days_table(days) + links(days);
+    body += "<h2>Stations</h2>\n" + stations_table(days, results) +
+            html_paragraph(
+                "Gravity: mean of the days, each weighted by 1/u^2 (plain where a day has no u); u "
+                "takes the days for independent, though they share instrument and references. NAME "
+                "- joint: the day's value less the mean; * only readings that the "
+                "day's fit left out.") +
+            html_paragraph(scatter_sentence(results));
+    return html_page(title, body);
+}
+
+}  // namespace a351::corrector

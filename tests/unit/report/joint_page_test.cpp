@@ -1,0 +1,70 @@
+#include "corrector/report/joint_page.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <pugixml.hpp>
+
+#include "tests/unit/survey/survey_rows.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+/// The made-up day with one station's readings off.
+SurveyCorrection day_with(const std::string& site, double off_mgal) {
+    auto rows = made_up::day();
+    for (SurveyRow& row : rows)
+        if (row.site == site) row.reference.reset();
+    SurveyOptions options;
+    options.model = "t-rate-drift";
+    SurveyCorrection day = correct_survey(rows, options);
+    for (StationValue& station : day.stations) {
+        station.u_gravity = MilliGal(1.5);
+        if (station.site == site) station.gravity = station.gravity + MilliGal(off_mgal);
+    }
+    return day;
+}
+
+}  // namespace
+
+TEST_CASE("the scatter from day to day stands beside what u lets expect", "[report][joint]") {
+    const auto scatter = scatter_of_days({day_with("S4", 0.0), day_with("S4", 4.0)}).value();
+    CHECK(scatter.dof == 8);                                  // eight stations, twice
+    CHECK(scatter.rms_mgal == Approx(std::sqrt(8.0 / 8.0)));  // -2 and 2 of one of them
+    CHECK(scatter.expected_mgal.value() == Approx(1.5));
+    CHECK_FALSE(scatter_of_days({day_with("S4", 0.0)}).has_value());
+}
+
+TEST_CASE("the joint page has every day, what it differs by, and why one is missing",
+          "[report][joint]") {
+    const SurveyCorrection first = day_with("S4", 0.0);
+    const SurveyCorrection second = day_with("S4", 4.0);
+    const std::string html = joint_html({{"mon <1>/a", "mon <1>-a", &first},
+                                         {"tue", "tue", nullptr, "day.toml: no <occupation>"},
+                                         {"wed", "wed", &second}});
+    pugi::xml_document document;
+    const pugi::xml_parse_result parsed = document.load_string(html.c_str());
+    INFO(parsed.description());
+    REQUIRE(parsed);
+    CHECK(document.select_nodes("//a").size() == 2);
+    CHECK(document.select_node("//a").node().attribute("href").value() ==
+          std::string("mon%20%3C1%3E-a/report.html"));
+    CHECK_THAT(html, Catch::Contains("<li>tue: day.toml: no &lt;occupation&gt;</li>") &&
+                         Catch::Contains("<td class=\"n\">not corrected</td>") &&
+                         Catch::Contains("mon &lt;1&gt;/a - joint") &&
+                         Catch::Contains("differ by 1.00 mGal rms from day to day (8 degrees"));
+    bool is_found = false;
+    for (const auto& row : document.select_nodes("//tr")) {
+        const auto cells = row.node().children("td");
+        if (std::string(row.node().child_value("td")) != "S4") continue;
+        std::vector<std::string> texts;
+        for (const auto& cell : cells) texts.emplace_back(cell.child_value());
+        REQUIRE(texts.size() == 9);
+        CHECK(texts[1] == "2");
+        CHECK(texts[7] == "-2.000");
+        CHECK(texts[8] == "2.000");
+        is_found = true;
+    }
+    CHECK(is_found);
+}
