@@ -6,6 +6,7 @@
 #include <exception>
 #include <iostream>
 
+#include "corrector/command/calibrate_command.hpp"
 #include "corrector/command/decimate_command.hpp"
 #include "corrector/command/emd_command.hpp"
 #include "corrector/command/record_command.hpp"
@@ -35,6 +36,7 @@ int main(int argc, char** argv) {
                      "a351-correct");
     program.set_version_flag("--version", "a351-correct " A351_VERSION);
     program.require_subcommand(1);
+    a351::corrector::add_calibrate_command(program);
     a351::corrector::add_decimate_command(program);
     a351::corrector::add_emd_command(program);
     a351::corrector::add_record_command(program);

@@ -15,6 +15,7 @@
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/report/joint_page.hpp"
 #include "corrector/report/report.hpp"
+#include "corrector/survey/calibration_use.hpp"
 #include "corrector/survey/export_files.hpp"
 #include "corrector/survey/joint_table.hpp"
 #include "corrector/survey/occupation_rows.hpp"
@@ -36,6 +37,7 @@ struct SurveyCommandOptions {
     std::string tide;
     std::string trend;
     std::string curve;
+    std::string calibration;
     std::vector<std::string> figures;
 };
 
@@ -49,6 +51,7 @@ SurveyFile with_overrides(SurveyFile survey, const SurveyCommandOptions& options
     if (!options.curve.empty()) {
         survey.curve = options.curve == "paper" ? TrendCurve::paper : TrendCurve::slow;
     }
+    if (!options.calibration.empty()) use_calibration(survey, options.calibration);
     return survey;
 }
 
@@ -67,7 +70,7 @@ nlohmann::ordered_json settings_of(const SurveyFile& survey, const SurveyCorrect
     settings["curve"] = trend_curve_of(survey) == TrendCurve::paper ? "paper" : "slow";
     settings["norm"] = survey.norm == NormOrder::decimate_first ? "decimate-first" : "as-published";
     settings["rate"] = "interval";
-    settings["calibration"] = "";
+    settings["calibration"] = survey.calibration.filename().string();
     settings["seed"] = survey.seed;
     settings["amendments"] = amendments_json(read.amendments);
     settings["warnings"] = read.warnings;
@@ -92,8 +95,8 @@ std::string folder_name(std::string name) {
 /// @throws InputError  as correct_survey(), naming the survey file and all that was left out.
 SurveyCorrection corrected(const SurveyFile& survey, OccupationRows& read) {
     try {
-        SurveyCorrection result = correct_survey(read.rows, with_sites_of(read, survey.survey),
-                                                 read.day ? &*read.day : nullptr);
+        SurveyCorrection result = correct_with_calibration(
+            read.rows, with_sites_of(read, survey.survey), read.day ? &*read.day : nullptr);
         add_left_out(result, read.left_out);
         return result;
     } catch (const InputError& error) {
@@ -210,6 +213,8 @@ void add_survey_command(CLI::App& program) {
         .add_option("--curve", options->curve,
                     "Which components make the EEMD trend; the model paper always has its own")
         ->check(CLI::IsMember({"paper", "slow"}));
+    command.add_option("--calibration", options->calibration,
+                       "What a351-correct calibrate found of the unit");
     add_figures_option(command, options->figures);
     command.callback([options] { correct_days(*options); });
 }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "corrector/day/day_model.hpp"
+#include "corrector/survey/calibration_use.hpp"
 #include "corrector/survey/on_all_cores.hpp"
 
 namespace a351::corrector {
@@ -68,7 +69,7 @@ struct DayFits {
 };
 
 DayFits fit_with_and_without(const std::vector<CorrectedRow>& rows, const RowSet& set,
-                             const DayRecord& day) {
+                             const DayRecord& day, const DayPriors& priors) {
     DayFits fits;
     fits.stations = stations_of(rows, set, "");
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -78,9 +79,9 @@ DayFits fit_with_and_without(const std::vector<CorrectedRow>& rows, const RowSet
     for (const std::string& site : fits.left_out)
         fits.others.push_back(stations_of(rows, set, site));
     fits.without.resize(fits.left_out.size());
-    fits.fit = fit_day(day, fits.stations).value();
+    fits.fit = fit_day(day, fits.stations, nullptr, priors).value();
     on_all_cores(fits.left_out.size(), [&](std::size_t k) {
-        fits.without[k] = fit_day(day, fits.others[k], &fits.fit).value();
+        fits.without[k] = fit_day(day, fits.others[k], &fits.fit, priors).value();
     });
     return fits;
 }
@@ -247,11 +248,13 @@ std::vector<StationValue> station_values(const std::vector<CorrectedRow>& rows, 
 }  // namespace
 
 std::optional<std::string> day_refusal(const std::vector<SurveyRow>& rows,
-                                       const std::vector<bool>& in_use, const DayRecord* day) {
+                                       const std::vector<bool>& in_use, const DayRecord* day,
+                                       bool is_calibrated) {
     if (day == nullptr) return "needs the record of the day's temperature";
     const std::size_t used = count_of(in_use);
-    if (used < kFewestRows)
-        return "needs at least " + std::to_string(kFewestRows) + " rows with a reference, has " +
+    const std::size_t fewest = is_calibrated ? 1 : kFewestRows;
+    if (used < fewest)
+        return "needs at least " + std::to_string(fewest) + " rows with a reference, has " +
                std::to_string(used);
     if (day->temperature.longest_gap_s > kLongestGap_s)
         return "the temperature is missing for " +
@@ -271,7 +274,8 @@ void correct_by_day(SurveyCorrection& result, const DayRowSets& sets, const DayR
     std::vector<CorrectedRow> rows = result.rows;
     const bool use_flags = result.options.use_flags;
     const std::vector<bool>& in_use = use_flags ? sets.used : sets.all;
-    const DayFits fits = fit_with_and_without(rows, {in_use, use_flags}, day);
+    const DayPriors priors = day_priors_of(result.options.calibration);
+    const DayFits fits = fit_with_and_without(rows, {in_use, use_flags}, day, priors);
     result.score = score_of(rows, in_use, fits);
     for (ScoredRowSet& set : result.row_sets) {
         const bool is_used = set.rows == "used";
@@ -280,12 +284,13 @@ void correct_by_day(SurveyCorrection& result, const DayRowSets& sets, const DayR
             set.scores.push_back(result.score);
         else if (count_of(others) >= kFewestRows)
             set.scores.push_back(
-                score_of(rows, others, fit_with_and_without(rows, {others, is_used}, day)));
+                score_of(rows, others, fit_with_and_without(rows, {others, is_used}, day, priors)));
     }
     const std::vector<Averaged> averaged = averaged_samples(rows.size(), day);
     for (std::size_t i = 0; i < rows.size(); ++i) correct_row(result.rows[i], i, fits, averaged[i]);
     result.coefficients = coefficients_of(fits.fit);
     result.stations = station_values(result.rows, fits, {in_use, use_flags});
+    if (result.options.calibration) tell_prior_use(result, day, fits.stations, fits.fit);
     const double lead_s = seconds_between(day.temperature.series.start(), day.bins.front().time);
     if (lead_s < kWantedLead_s)
         result.remarks.push_back(

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "corrector/survey/calibration_use.hpp"
 #include "corrector/survey/occupation_window.hpp"
 #include "corrector/survey/on_all_cores.hpp"
 #include "protocol/core/input_error.hpp"
@@ -78,9 +79,10 @@ void add_damage(std::vector<std::string>& warnings, const record::ChannelData& c
 std::vector<InputFile> inputs_of(const SurveyFile& survey, const std::filesystem::path& metadata,
                                  const record::StationCodes& codes, const SurveyChannels& channels,
                                  const std::vector<OccupationWindow>& windows) {
-    std::vector<InputFile> inputs{describe_input("survey", survey.path),
-                                  describe_input("sites", survey.sites),
-                                  describe_input("metadata", metadata)};
+    std::vector<InputFile> inputs;
+    if (!survey.path.empty()) inputs.push_back(describe_input("survey", survey.path));
+    inputs.push_back(describe_input("sites", survey.sites));
+    inputs.push_back(describe_input("metadata", metadata));
     if (!survey.occupations.empty()) {
         inputs.push_back(describe_input("occupations", survey.occupations));
     } else {
@@ -94,6 +96,8 @@ std::vector<InputFile> inputs_of(const SurveyFile& survey, const std::filesystem
     if (!survey.amendments.empty()) {
         inputs.push_back(describe_input("amendments", survey.amendments));
     }
+    if (!survey.calibration.empty())
+        inputs.push_back(describe_input("calibration", survey.calibration));
     if (!survey.tide.series.empty()) inputs.push_back(describe_input("tide", survey.tide.series));
     const auto archive = archive_files(survey, codes, channels, windows);
     inputs.insert(inputs.end(), archive.begin(), archive.end());
@@ -206,6 +210,10 @@ OccupationRows average_occupations(const SurveyFile& survey, const Progress& pro
     const record::StationMetadata station =
         record::read_station_xml(metadata, list.windows.front().start);
     const SurveyChannels channels = find_channels(station, metadata);
+    OccupationRows result;
+    result.serial_number = station.serial_number;
+    if (survey.survey.calibration)
+        result.warnings = check_calibration(survey, station.serial_number, list.windows);
     const RepresentativeOptions options = options_of(survey);
     const SurveySamples samples = read_samples(survey, station.codes, channels, list.windows);
 
@@ -231,11 +239,10 @@ OccupationRows average_occupations(const SurveyFile& survey, const Progress& pro
     };
     on_all_cores(list.windows.size(), average, progress);
 
-    OccupationRows result;
     if (auto temperature = temperature_of_day(samples, channels, list.windows))
         result.day = DayRecord{std::move(*temperature), {}};
     result.left_out = list.left_out;
-    result.warnings = list.warnings;
+    result.warnings.insert(result.warnings.end(), list.warnings.begin(), list.warnings.end());
     result.amendments = occupations.second;
     result.sites = sites;
     for (const record::ChannelData& axis : samples.axes) add_damage(result.warnings, axis);

@@ -18,7 +18,7 @@
 namespace a351::corrector {
 
 struct OccupationRows {
-    std::vector<SurveyRow> rows;        ///< With tide and the rate within the interval; by time.
+    std::vector<SurveyRow> rows;  ///< With tide and the rate within the interval; by time.
     std::vector<RepresentativeValue> records;           ///< Behind the rows, one each.
     std::vector<MinuteTemperature> temperature_course;  ///< Over the whole survey.
     std::optional<DayRecord> day;       ///< Set-ups numbered as the rows; absent: no temperature.
@@ -27,6 +27,7 @@ struct OccupationRows {
     std::vector<Amendment> amendments;
     std::vector<text::Site> sites;
     std::vector<InputFile> inputs;  ///< Every file read.
+    std::string serial_number;      ///< Of the sensor; empty: the metadata do not tell.
 };
 
 /// The representative value of a record as a row of the survey, reference and tide left open.
@@ -40,7 +41,8 @@ struct OccupationRows {
 
 /// Reads the record of a survey and averages every occupation, on all cores.  The result does not
 /// depend on their number.
-/// @throws InputError  metadata or occupations cannot be read; no occupation has a value.
+/// @throws InputError  metadata or occupations cannot be read; no occupation has a value; the
+///                     calibration is of another unit.
 [[nodiscard]] OccupationRows average_occupations(const SurveyFile& survey,
                                                  const Progress& progress);
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corrector/survey/aligned_text.hpp"
+#include "corrector/survey/calibration_use.hpp"
 #include "corrector/survey/network_report.hpp"
 #include "corrector/survey/table_text.hpp"
 #include "protocol/text/text_file.hpp"
@@ -137,7 +138,7 @@ InputFile describe_input(std::string role, const std::filesystem::path& file) {
     const std::string content = text::read_text_file(file);
     boost::crc_32_type crc;
     crc.process_bytes(content.data(), content.size());
-    return {std::move(role), file.filename().string(), content.size(), crc.checksum()};
+    return {std::move(role), file.filename().string(), content.size(), crc.checksum(), file};
 }
 
 std::string occupations_csv(const SurveyCorrection& result) {
@@ -253,6 +254,7 @@ std::string result_json(const SurveyCorrection& result, const Json& settings,
                                {"bootstrap_seed", result.options.seed}};
     json["choice_limit_mgal"] = result.choice ? Json(result.choice->limit_mgal) : Json(nullptr);
     json["network"] = network_json(result);
+    json["calibration"] = calibration_json(result);
     json["remarks"] = result.remarks;
     json["models"] = Json::array();
     for (const ScoredRowSet& set : result.row_sets) {

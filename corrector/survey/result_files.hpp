@@ -20,6 +20,7 @@ struct InputFile {
     std::string name;
     std::uint64_t byte_count = 0;
     std::uint32_t crc32 = 0;
+    std::filesystem::path path = {};  ///< Where it was read.
 };
 
 /// @throws InputError  it cannot be read.

@@ -295,7 +295,7 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
 
     const std::vector<SurveyRow> used = chosen_rows(rows, in_use);
     result.model = options.model;
-    auto refusal = day_refusal(rows, in_use, day);
+    auto refusal = day_refusal(rows, in_use, day, options.calibration.has_value());
     if (!refusal && has_any(priors)) refusal = "has priors of its own, `prior` would be lost";
     if (options.model == "day" && refusal) {
         throw InputError("model = day: " + *refusal + "; allowed: another model");

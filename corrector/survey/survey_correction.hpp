@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "corrector/calibration/calibration.hpp"
 #include "corrector/day/day_record.hpp"
 #include "corrector/survey/bootstrap.hpp"
 #include "corrector/survey/model_fit.hpp"
@@ -28,6 +29,7 @@ struct SurveyOptions {
     std::string robust_terms = "t-rate";  ///< Linear model that `robust` fits.
     std::uint64_t seed = 1;               ///< Of the resampled stations.
     ModelPriors priors;  ///< Of the linear models and the network; `paper` has none.
+    std::optional<Calibration> calibration;  ///< Of the unit.
 };
 
 /// One row and what became of it.  corrected = acceleration - tide + the corrections, of which
@@ -39,7 +41,7 @@ struct CorrectedRow {
     MilliGal temperature_correction;
     MilliGal rate_correction;
     MilliGal drift_correction;
-    MilliGal tilt_correction;  ///< `day` only.
+    MilliGal tilt_correction;  ///< `day`, or with a calibration.
     MilliGal corrected;
     std::optional<MilliGal> residual;     ///< reference - corrected.
     std::optional<double> leverage;       ///< Of an unused row: as at its place.  Not for `day`.
@@ -76,6 +78,20 @@ struct ScoredRowSet {
     std::vector<ModelScore> scores;
 };
 
+/// Whether estimate and calibration differ by more than both are uncertain.
+struct Disagreement {
+    double chi_square = 0.0;
+    std::size_t dof = 0;  ///< Directions in which the readings say anything.
+    double p = 1.0;       ///< Of so large a difference by chance.
+};
+
+/// What became of the calibration.
+struct CalibrationUse {
+    bool is_prior = false;  ///< Else the axis biases were held, and the thermal part left alone.
+    std::optional<Disagreement> axis_bias, thermal;  ///< As priors only.
+    double effect_rms_mgal = 0.0;                    ///< On the corrected values.
+};
+
 struct SurveyCorrection {
     SurveyOptions options;  ///< As applied: `base` is filled in.
     std::string model;      ///< Applied; with `auto` the chosen one.
@@ -89,6 +105,7 @@ struct SurveyCorrection {
     std::optional<double> choice_loso_mgal;     ///< `auto` only: LOSO of choosing and fitting.
     std::optional<Interval> loo_interval_mgal;  ///< 95 % of `score`'s LOO; least squares only.
     std::optional<NetworkAdjustment> network;   ///< `network` only.
+    std::optional<CalibrationUse> calibration;  ///< Where the options have one.
     std::vector<std::string> remarks;           ///< What else has to be known, in sentences.
 };
 

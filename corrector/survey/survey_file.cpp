@@ -65,8 +65,11 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
                       : NormOrder::as_published;
     survey.seed = static_cast<std::uint64_t>(
         table.integer_or("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
-    if (!table.string_or("calibration", "").empty()) {
-        table.refuse("calibration", "no model of this version uses one", "empty");
+    if (const auto calibration = table.path_or_empty("calibration"); !calibration.empty()) {
+        if (!std::filesystem::exists(calibration))
+            table.refuse("calibration", "no such file: " + calibration.string(),
+                         "a file of a351-correct calibrate, or empty");
+        use_calibration(survey, calibration);
     }
     survey.survey.priors.reading_sd_mgal = table.number_or(
         "reading_sd_mgal", survey.survey.priors.reading_sd_mgal, kLeastSd_mgal, kGreatestSd_mgal);
@@ -90,6 +93,11 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     if (!survey.survey.base.empty()) require_site(table, "base", sites, survey.survey.base);
     for (const std::string& name : survey.survey.datum) require_site(table, "datum", sites, name);
     return survey;
+}
+
+void use_calibration(SurveyFile& survey, const std::filesystem::path& file) {
+    survey.calibration = file;
+    survey.survey.calibration = read_calibration(file);
 }
 
 TrendMethod trend_method_of(const SurveyFile& survey) noexcept {

@@ -14,12 +14,13 @@ namespace a351::corrector {
 
 /// One survey day as written in its TOML file, table [survey].  Paths are relative to that file.
 struct SurveyFile {
-    std::filesystem::path path;
+    std::filesystem::path path;         ///< Empty: there is none.
     std::string name;                   ///< Of the day; default: the file's stem.
     std::filesystem::path root;         ///< Data root: archive/, metadata/, events/.
     std::filesystem::path sites;        ///< CSV of the benchmarks.
     std::filesystem::path occupations;  ///< CSV; empty: the event log of the root.
     std::filesystem::path amendments;   ///< TOML for amend(); empty: none.
+    std::filesystem::path calibration;  ///< What survey.calibration was read from; empty: none.
     SurveyOptions survey;
     TideChoice tide;
     std::optional<TrendCurve> curve;  ///< Absent: the signal's default.  `paper` has its own.
@@ -32,6 +33,9 @@ struct SurveyFile {
 /// @throws InputError  unknown key or value, a root that is no directory, a base or datum that is
 ///                     not in the table of sites.
 [[nodiscard]] SurveyFile read_survey_file(const std::filesystem::path& file);
+
+/// Reads a calibration for the survey.
+void use_calibration(SurveyFile& survey, const std::filesystem::path& file);
 
 /// The trend that applies: the publication's decomposition for model `paper`, else as asked for.
 [[nodiscard]] TrendMethod trend_method_of(const SurveyFile& survey) noexcept;

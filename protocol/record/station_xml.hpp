@@ -55,6 +55,7 @@ struct ChannelScale {
 struct StationMetadata {
     StationCodes codes;
     std::vector<ChannelScale> channels;
+    std::string serial_number = {};  ///< Of the sensor; empty: not told.
 };
 
 /// @param at  of epochs that follow each other those in force then, else those that go on.

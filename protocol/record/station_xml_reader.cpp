@@ -74,6 +74,9 @@ StationMetadata channels_in_force(const std::filesystem::path& file,
                 metadata.codes.network = network.attribute("code").value();
                 metadata.codes.station = station.attribute("code").value();
                 metadata.codes.location = channel.attribute("locationCode").value();
+                if (metadata.serial_number.empty())
+                    metadata.serial_number =
+                        channel.child("Sensor").child("SerialNumber").text().get();
                 auto scale = read_scale(file, channel);
                 // Where a clock was set back, epochs may overlap: the later one counts.
                 const auto known =

@@ -9,7 +9,8 @@ PAGES = {
     "a351ctl": ("daemon/ctl/a351ctl.1",
                 ["status", "watch", "start", "stop", "setup", "discard", "rename", "note", "sites", "list"]),
     "a351-sim": ("sim/a351-sim.1", ["device", "replay", "survey", "plan"]),
-    "a351-correct": ("corrector/a351-correct.1", ["survey", "table", "decimate", "emd", "record", "retime", "smooth", "tide"]),
+    "a351-correct": ("corrector/a351-correct.1",
+                     ["survey", "table", "calibrate", "decimate", "emd", "record", "retime", "smooth", "tide"]),
 }
 
 for program, (page, commands) in PAGES.items():

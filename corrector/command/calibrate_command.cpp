@@ -1,0 +1,134 @@
+#include "corrector/command/calibrate_command.hpp"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "corrector/calibration/sha256.hpp"
+#include "corrector/command/option_values.hpp"
+#include "corrector/command/progress_bar.hpp"
+#include "corrector/survey/aligned_text.hpp"
+#include "corrector/survey/tilt_series.hpp"
+#include "protocol/core/input_error.hpp"
+
+namespace a351::corrector {
+namespace {
+
+struct CalibrateOptions {
+    std::vector<std::string> tilt;
+    std::string out, merge, valid_from, valid_to;
+};
+
+/// A survey file, or a data root with a sites.csv.
+SurveyFile series_file(const std::filesystem::path& path) {
+    if (!std::filesystem::is_directory(path)) return read_survey_file(path);
+    SurveyFile survey;
+    survey.name = path.filename().string();
+    survey.root = path;
+    survey.sites = path / "sites.csv";
+    return survey;
+}
+
+/// Notes where the numbers come from: unit, files, the time of the first reading.
+void note_origin(Calibration& calibration, const OccupationRows& read, const std::string& file) {
+    if (read.serial_number.empty())
+        throw InputError(file +
+                         ": the station metadata do not tell the sensor's serial number; "
+                         "allowed: a record of a known unit");
+    std::string& unit = calibration.serial_number;
+    if (!unit.empty() && unit != read.serial_number)
+        throw InputError(file + ": of unit " + read.serial_number + ", what came before is of " +
+                         unit + "; allowed: one unit");
+    unit = read.serial_number;
+    const UtcTime start = read.rows.front().start.value_or(read.rows.front().time);
+    calibration.valid_from =
+        calibration.data.empty() ? start : std::min(calibration.valid_from, start);
+    for (const InputFile& input : read.inputs)
+        calibration.data.push_back({input.name, sha256_of_file(input.path)});
+}
+
+std::string series_text(const TiltSeries& series, const std::string& name) {
+    std::string text = name + ": " + std::to_string(series.set_ups) +
+                       " set-ups, temperature within " + fixed(series.temperature_range_degc, 3) +
+                       " degC, set-ups scatter by " + fixed(series.placement_mgal, 2) + " mGal\n";
+    for (const std::size_t axis : {0U, 1U}) {
+        const auto k = static_cast<Eigen::Index>(axis);
+        text += std::string("  ") + (axis == 0 ? "x" : "y") + " tilted from " +
+                fixed(series.least_tilt_deg.at(axis), 2) + " to " +
+                fixed(series.greatest_tilt_deg.at(axis), 2) + " deg: bias " +
+                fixed(series.bias.values(k), 1) + " +- " +
+                fixed(std::sqrt(series.bias.covariance(k, k)), 1) + " mGal\n";
+    }
+    return text;
+}
+
+/// Parts that this run has not measured, with the data they come from.
+void take_over(Calibration& calibration, const std::string& file) {
+    const Calibration other = read_calibration(file);
+    if (other.serial_number != calibration.serial_number)
+        throw InputError(file + ": serial_number = " + other.serial_number +
+                         ": the record is of another unit; allowed: " + calibration.serial_number);
+    calibration.thermal = other.thermal;
+    calibration.warm_up = other.warm_up;
+    calibration.data.insert(calibration.data.end(), other.data.begin(), other.data.end());
+    calibration.valid_from = std::max(calibration.valid_from, other.valid_from);
+    calibration.valid_to = other.valid_to;
+}
+
+void calibrate(const CalibrateOptions& options) {
+    Calibration calibration;
+    calibration.program = "a351-correct " A351_VERSION;
+    std::vector<TiltSeries> all;
+    for (const std::string& file : options.tilt) {
+        const SurveyFile survey = series_file(file);
+        ProgressBar bar(std::cerr, ::isatty(STDERR_FILENO) == 1, survey.name);
+        const OccupationRows read = average_occupations(
+            survey, [&bar](std::size_t done, std::size_t total) { bar.show(done, total); });
+        for (const std::string& warning : read.warnings)
+            std::cerr << "a351-correct: " << survey.name << ": " << warning << '\n';
+        all.push_back(measure_axis_bias(read, file));
+        note_origin(calibration, read, file);
+        std::cout << series_text(all.back(), survey.name);
+    }
+    calibration.axis_bias = combine(all);
+    if (!options.merge.empty()) take_over(calibration, options.merge);
+    if (!options.valid_from.empty())
+        calibration.valid_from = instant_option("--valid-from", options.valid_from);
+    if (!options.valid_to.empty()) {
+        calibration.valid_to = instant_option("--valid-to", options.valid_to);
+        if (*calibration.valid_to <= calibration.valid_from)
+            throw InputError("--valid-to = " + options.valid_to + ": not after " +
+                             to_rfc3339(calibration.valid_from) + "; allowed: a later instant");
+    }
+    const std::filesystem::path out = std::filesystem::absolute(options.out);
+    write_together(out.parent_path(), {{out.filename().string(), to_toml(calibration)}});
+    std::cout << "unit " << calibration.serial_number << ": written to " << options.out << '\n';
+}
+
+}  // namespace
+
+void add_calibrate_command(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand(
+        "calibrate", "Measures what is to be known of a unit before a survey.");
+    const auto options = std::make_shared<CalibrateOptions>();
+    command
+        .add_option("--tilt", options->tilt,
+                    "Tilt series at one point, for the biases of the horizontal axes: survey files "
+                    "(TOML) or data roots with a sites.csv")
+        ->required();
+    command.add_option("--out", options->out, "Calibration to write (TOML)")->required();
+    command.add_option("--merge", options->merge,
+                       "Calibration of the same unit from which the thermal parts are taken over");
+    command.add_option("--valid-from", options->valid_from,
+                       "Instant (RFC 3339); default: the first reading");
+    command.add_option("--valid-to", options->valid_to,
+                       "Instant (RFC 3339); default: until a newer one");
+    command.callback([options] { calibrate(*options); });
+}
+
+}  // namespace a351::corrector

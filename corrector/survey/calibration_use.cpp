@@ -1,0 +1,209 @@
+#include "corrector/survey/calibration_use.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "corrector/survey/aligned_text.hpp"
+#include "protocol/core/input_error.hpp"
+
+namespace a351::corrector {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const std::vector<Eigen::Index> kAxisPlaces{DayPriors::place_of(DayTerm::x),
+                                            DayPriors::place_of(DayTerm::y)};
+// As kThermalNames: rA, rS, rF, then the lags, which DayPriors has first.
+const std::vector<Eigen::Index> kThermalPlaces{DayPriors::place_of(DayTerm::level),
+                                               DayPriors::place_of(DayTerm::slow),
+                                               DayPriors::place_of(DayTerm::fast), 0, 1};
+
+double detail_of(const SurveyRow& row, std::string_view name) {
+    const auto at = std::ranges::find(row.details, name, &SurveyRow::Detail::name);
+    return at == row.details.end() ? 0.0 : at->value.value_or(0.0);
+}
+
+MilliGal tilt_effect(const SurveyRow& row, const AxisBias& bias) {
+    return MilliGal(bias.values(0) * detail_of(row, "mean_x_g") +
+                    bias.values(1) * detail_of(row, "mean_y_g"));
+}
+
+bool is_contradicted(const std::optional<Disagreement>& test) {
+    return test && test->p < kContradictionP;
+}
+
+std::string name_of(const Calibration& calibration) {
+    return "calibration of unit " + calibration.serial_number + " (" + calibration.program +
+           ", from " + to_rfc3339(calibration.valid_from) + ")";
+}
+
+void remark_contradiction(SurveyCorrection& result, const std::string& part,
+                          const std::optional<Disagreement>& test) {
+    if (!is_contradicted(test)) return;
+    result.remarks.push_back("the readings contradict the calibration's " + part + ": chi-square " +
+                             fixed(test->chi_square, 1) + " for " + std::to_string(test->dof) +
+                             " degrees of freedom, by chance once in more than a hundred surveys; "
+                             "is it of this unit, and "
+                             "still true? Correct the survey without it too");
+}
+
+Json part_json(bool is_there, bool is_used, const char* use,
+               const std::optional<Disagreement>& test) {
+    if (!is_there) return nullptr;
+    Json json{{"use", is_used ? use : "none"},
+              {"chi_square", nullptr},
+              {"dof", nullptr},
+              {"p", nullptr},
+              {"contradicted", is_contradicted(test)}};
+    if (test) {
+        json["chi_square"] = test->chi_square;
+        json["dof"] = test->dof;
+        json["p"] = test->p;
+    }
+    return json;
+}
+
+}  // namespace
+
+DayPriors day_priors_of(const std::optional<Calibration>& calibration) {
+    DayPriors priors = usual_day_priors();
+    if (calibration && calibration->axis_bias) {
+        const AxisBias& bias = *calibration->axis_bias;
+        priors.observe(kAxisPlaces, bias.values, bias.covariance);
+    }
+    if (calibration && calibration->thermal) {
+        const ThermalResponse& thermal = *calibration->thermal;
+        priors.observe(kThermalPlaces, thermal.values,
+                       kThermalErrorFactor * kThermalErrorFactor * thermal.covariance);
+    }
+    return priors;
+}
+
+// What the day's data, alone, say of the shift has the covariance D + 1 about 0 when the prior is
+// true; the posterior mean is D of the way there, with D = 1 - posterior covariance, and its own
+// covariance is D.  Directions with D near 0 are those the day is silent about.
+std::optional<Disagreement> disagreement(const DayFit& fit,
+                                         const std::vector<Eigen::Index>& places) {
+    constexpr double kSilent = 1e-4;  // the day is a hundred times less certain than the prior
+    const auto count = static_cast<Eigen::Index>(places.size());
+    const Eigen::MatrixXd gained = Eigen::MatrixXd::Identity(count, count) -
+                                   Eigen::MatrixXd(fit.shift_covariance(places, places));
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(gained);
+    const Eigen::VectorXd along =
+        axes.eigenvectors().transpose() * Eigen::VectorXd(fit.shift(places));
+    Disagreement test;
+    for (Eigen::Index k = 0; k < count; ++k) {
+        if (axes.eigenvalues()(k) < kSilent) continue;
+        test.chi_square += along(k) * along(k) / axes.eigenvalues()(k);
+        ++test.dof;
+    }
+    if (test.dof == 0) return std::nullopt;
+    const boost::math::chi_squared distribution(static_cast<double>(test.dof));
+    test.p = boost::math::cdf(boost::math::complement(distribution, test.chi_square));
+    return test;
+}
+
+void tell_prior_use(SurveyCorrection& result, const DayRecord& day,
+                    const std::vector<DayStation>& stations, const DayFit& fit) {
+    const Calibration& calibration = result.options.calibration.value();
+    CalibrationUse use;
+    use.is_prior = true;
+    if (calibration.axis_bias) use.axis_bias = disagreement(fit, kAxisPlaces);
+    if (calibration.thermal) use.thermal = disagreement(fit, kThermalPlaces);
+    const DayFit without = fit_day(day, stations).value();
+    double squares = 0.0;
+    for (std::size_t i = 0; i < fit.set_ups.size(); ++i)
+        squares += std::pow((fit.set_ups[i].corrected - without.set_ups[i].corrected).value(), 2);
+    use.effect_rms_mgal = std::sqrt(squares / static_cast<double>(fit.set_ups.size()));
+    result.remarks.push_back(
+        name_of(calibration) +
+        " as prior: " + (calibration.axis_bias ? "axis biases" : "no axis biases") +
+        (calibration.thermal ? ", thermal response with twice its errors"
+                             : ", no thermal response") +
+        "; it changes corrected values by " + fixed(use.effect_rms_mgal, 2) + " mGal rms");
+    remark_contradiction(result, "axis biases", use.axis_bias);
+    remark_contradiction(result, "thermal response", use.thermal);
+    result.calibration = use;
+}
+
+SurveyCorrection correct_with_calibration(const std::vector<SurveyRow>& rows,
+                                          const SurveyOptions& options, const DayRecord* day) {
+    if (!options.calibration) return correct_survey(rows, options, day);
+    const Calibration& calibration = *options.calibration;
+    const AxisBias bias = calibration.axis_bias.value_or(AxisBias{});
+    std::vector<SurveyRow> freed = rows;
+    for (SurveyRow& row : freed) row.acceleration = row.acceleration - tilt_effect(row, bias);
+    SurveyCorrection result = correct_survey(freed, options, day);
+    if (result.model == "day") return result;
+
+    CalibrationUse use;
+    double sum = 0.0, squares = 0.0;
+    for (CorrectedRow& row : result.rows) {
+        const MilliGal effect = tilt_effect(row.row, bias);
+        row.row.acceleration = row.row.acceleration + effect;
+        if (row.difference) row.difference = *row.difference + effect;
+        row.tilt_correction = -effect;
+        row.row.details.push_back({"tilt_correction_mgal", row.tilt_correction.value()});
+        sum += effect.value();
+        squares += effect.value() * effect.value();
+    }
+    const auto n = static_cast<double>(result.rows.size());
+    use.effect_rms_mgal = std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)));
+    std::string text = name_of(calibration) + ": ";
+    text += calibration.axis_bias
+                ? "readings freed from axis bias x tilt, which scatters by " +
+                      fixed(use.effect_rms_mgal, 2) + " mGal rms; not compared with the readings"
+                : "no axis biases";
+    if (calibration.thermal)
+        text += "; its thermal response is of no use to the model " + result.model;
+    result.remarks.push_back(text);
+    result.calibration = use;
+    return result;
+}
+
+std::vector<std::string> check_calibration(const SurveyFile& survey,
+                                           const std::string& serial_number,
+                                           const std::vector<OccupationWindow>& windows) {
+    const Calibration& calibration = survey.survey.calibration.value();
+    std::vector<std::string> warnings;
+    if (serial_number.empty()) {
+        warnings.push_back(
+            "the station metadata do not tell the sensor's serial number: whether the "
+            "calibration of " +
+            calibration.serial_number + " is its own was not checked");
+    } else if (serial_number != calibration.serial_number) {
+        throw InputError(survey.path.string() + ": calibration = " + survey.calibration.string() +
+                         ": of unit " + calibration.serial_number + ", the record is of unit " +
+                         serial_number + "; allowed: a calibration of " + serial_number);
+    }
+    const UtcTime end = calibration.valid_to.value_or(UtcTime::max());
+    if (windows.front().start < calibration.valid_from || windows.back().end > end)
+        warnings.push_back(
+            "the survey is not within the time for which the calibration is valid, from " +
+            to_rfc3339(calibration.valid_from) +
+            (calibration.valid_to ? " to " + to_rfc3339(end) : std::string(" on")));
+    return warnings;
+}
+
+Json calibration_json(const SurveyCorrection& result) {
+    if (!result.calibration) return nullptr;
+    const Calibration& calibration = result.options.calibration.value();
+    const CalibrationUse& use = *result.calibration;
+    Json json;
+    json["serial_number"] = calibration.serial_number;
+    json["program"] = calibration.program;
+    json["valid_from_utc"] = to_rfc3339(calibration.valid_from, 3);
+    json["valid_to_utc"] =
+        calibration.valid_to ? Json(to_rfc3339(*calibration.valid_to, 3)) : Json(nullptr);
+    json["axis_bias"] = part_json(calibration.axis_bias.has_value(), true,
+                                  use.is_prior ? "prior" : "fixed", use.axis_bias);
+    json["thermal"] =
+        part_json(calibration.thermal.has_value(), use.is_prior, "prior", use.thermal);
+    json["effect_rms_mgal"] = use.effect_rms_mgal;
+    return json;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,54 @@
+#pragma once
+/// @file
+/// A survey corrected with what is known of its unit (corrector/methods.md, "Calibration").
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corrector/day/day_model.hpp"
+#include "corrector/survey/occupation_list.hpp"
+#include "corrector/survey/survey_correction.hpp"
+#include "corrector/survey/survey_file.hpp"
+
+namespace a351::corrector {
+
+/// Errors of a thermal response that were estimated from a record at one point come out too small
+/// by 1.4 to 2.3 on simulated records: they count as so many times as large.
+inline constexpr double kThermalErrorFactor = 2.0;
+
+/// Readings that differ so much from the calibration by chance once in a hundred contradict it.
+inline constexpr double kContradictionP = 0.01;
+
+/// The usual priors and what the calibration adds to them.
+[[nodiscard]] DayPriors day_priors_of(const std::optional<Calibration>& calibration);
+
+/// How far the day moved some of lags and terms from their priors, against how far it may have.
+/// @param places  in DayPriors; a block whose priors are independent of the others.
+/// @return std::nullopt when the day says nothing about them.
+[[nodiscard]] std::optional<Disagreement> disagreement(const DayFit& fit,
+                                                       const std::vector<Eigen::Index>& places);
+
+/// Says what the calibration did as prior of the whole-day model: SurveyCorrection::calibration.
+/// @param fit  with day_priors_of(); rows of `result` are corrected.
+void tell_prior_use(SurveyCorrection& result, const DayRecord& day,
+                    const std::vector<DayStation>& stations, const DayFit& fit);
+
+/// correct_survey(), and where it is by another model than the whole-day one, readings are first
+/// freed from what tilt makes of the calibration's axis biases.
+[[nodiscard]] SurveyCorrection correct_with_calibration(const std::vector<SurveyRow>& rows,
+                                                        const SurveyOptions& options,
+                                                        const DayRecord* day);
+
+/// What is doubtful about the survey's calibration, in sentences.
+/// @param serial_number  of the record; empty: not told.
+/// @throws InputError  it is of another unit.
+[[nodiscard]] std::vector<std::string> check_calibration(
+    const SurveyFile& survey, const std::string& serial_number,
+    const std::vector<OccupationWindow>& windows);
+
+/// null without a calibration.
+[[nodiscard]] nlohmann::ordered_json calibration_json(const SurveyCorrection& result);
+
+}  // namespace a351::corrector

@@ -1,0 +1,75 @@
+"""A unit's axis biases, measured on a simulated tilt series and used on a day of the same unit."""
+
+import math
+
+from programs import BIN, Scratch, demand, read_json, rows, run
+
+SEED = 4
+
+
+def correct(*arguments, check=True, cwd=None):
+    return run(BIN / "a351-correct", *arguments, check=check, cwd=cwd)
+
+
+def true_biases(series):
+    """From what tilting by 2 degrees did in truth.csv: a bias times the sine of the angle, odd in it."""
+    sine = math.sin(math.radians(2.0))
+    odd = {"x": 0.0, "y": 0.0}
+    for row in rows(series / "truth.csv"):
+        tilt_mgal = float(row["tilt_mgal"])
+        odd["x"] += tilt_mgal * float(row["about_y_deg"]) / 8.0
+        odd["y"] -= tilt_mgal * float(row["about_x_deg"]) / 8.0
+    return [odd["x"] / sine, odd["y"] / sine]
+
+
+def numbers(text, table, key):
+    part = text.split(f"[{table}]")[1].split(f"{key} = [")[1].split("]")[0]
+    return [float(number) for number in part.replace(",", " ").split()]
+
+
+with Scratch() as scratch:
+    for scenario in ("tilt-series", "tilted"):
+        run(BIN / "a351-sim", "survey", "--scenario", scenario, "--seed", SEED, "--out", scratch / scenario)
+    print(correct("calibrate", "--tilt", "tilt-series", "--out", "c.toml", cwd=scratch).stdout)
+    text = (scratch / "c.toml").read_text()
+    values, covariance = numbers(text, "axis_bias", "values"), numbers(text, "axis_bias", "covariance")
+    for k, (axis, truth) in enumerate(zip("xy", true_biases(scratch / "tilt-series"))):
+        error = math.sqrt(covariance[3 * k])
+        print(f"{axis}: {values[k]:.1f} +- {error:.1f} mGal/g, true {truth:.1f}")
+        demand(f"the bias of {axis} is within three of its errors", abs(values[k] - truth) < 3.0 * error)
+        demand(f"the bias of {axis} is known to 40 mGal/g", error < 40.0)
+    correct("calibrate", "--tilt", "tilt-series", "--out", "again.toml", cwd=scratch)
+    demand("a second run gives the same bytes", (scratch / "again.toml").read_text() == text)
+
+    survey = ("survey", "tilted/survey.toml", "--out", "result", "--calibration")
+    correct(*survey, "c.toml", cwd=scratch)
+    result = read_json(scratch / "result" / "result.json")
+    demand("the result names the calibration", result["settings"]["calibration"] == "c.toml" and
+           result["calibration"]["serial_number"] == "00000001" and
+           any(file["role"] == "calibration" for file in result["inputs"]))
+    demand("the biases were a prior and are not contradicted", result["calibration"]["axis_bias"]["use"] == "prior" and
+           not result["calibration"]["axis_bias"]["contradicted"] and result["calibration"]["thermal"] is None)
+    report = (scratch / "result" / "report.html").read_text()
+    demand("the report names it", "calibration of unit 00000001" in report)
+    demand("the day was not contradicted in the report", "contradict" not in report)
+    warnings = " ".join(result["settings"]["warnings"])
+    demand("a day after the calibration's begin is within its validity", "calibration is valid" not in warnings)
+
+    (scratch / "turned.toml").write_text(text.replace("values = [", "values = [-").replace("[--", "["))
+    correct(*survey, "turned.toml", cwd=scratch)
+    demand("biases of the other sign are contradicted, and the report says so",
+           "s axis biases: chi-square" in (scratch / "result" / "report.html").read_text())
+    (scratch / "late.toml").write_text(text.replace("valid_from_utc = \"2017", "valid_from_utc = \"2018"))
+    demand("a day before its validity is said",
+           "calibration is valid" in correct(*survey, "late.toml", cwd=scratch).stderr)
+
+    (scratch / "other.toml").write_text(text.replace("00000001", "00000002"))
+    refused = correct("survey", "tilted/survey.toml", "--out", "other", "--calibration", "other.toml", check=False, cwd=scratch)
+    print(refused.stderr.strip())
+    demand("another unit's calibration is refused in one line",
+           refused.returncode == 2 and refused.stderr.count("\n") == 1 and "unit 00000002" in refused.stderr)
+    demand("and nothing is written", not (scratch / "other").exists())
+    refused = correct("calibrate", "--tilt", "tilted/survey.toml", "--out", "no.toml", check=False, cwd=scratch)
+    print(refused.stderr.strip())
+    demand("a survey day is no tilt series", refused.returncode == 2 and "one point" in refused.stderr and
+           not (scratch / "no.toml").exists())
