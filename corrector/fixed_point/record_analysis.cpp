@@ -77,9 +77,13 @@ void remark_on_trend(RecordAnalysis& analysis, double record_s) {
         analysis.remarks.push_back("trend: " + fixed(record_s / 3600.0, 1) +
                                    " h are too short to tell a trend; 12 h or more would show it");
     }
-    analysis.remarks.push_back(
-        "trend: warm-up, drift and temperature change together in one record; only a record with "
-        "the temperature moved up and down over days tells them apart");
+    if (!analysis.two_paths[TwoPathTerm::warm_up].is_determined ||
+        !analysis.two_paths[TwoPathTerm::drift].is_determined) {
+        analysis.remarks.push_back(
+            "trend: this record does not part warm-up, drift and slow temperature; one from "
+            "power-on, "
+            "or with the temperature moved up and down over days, does");
+    }
 }
 
 }  // namespace
@@ -141,6 +145,7 @@ RecordAnalysis analyse_record(const RecordSegment& segment, double step_s,
     for (const Component& mode : analysis.temperature.modes)
         if (mode.extrema_count > 0) modes.push_back(mode.values);
     analysis.by_modes = response_by_modes(modes, temperature, acceleration, step_s, response);
+    analysis.two_paths = fit_two_paths(temperature, acceleration, step_s, options.cycle_s);
     remark_on_trend(analysis, static_cast<double>(segment.size()) * step_s);
     return analysis;
 }

@@ -11,6 +11,7 @@
 #include "corrector/fixed_point/pair_statistics.hpp"
 #include "corrector/fixed_point/record_segments.hpp"
 #include "corrector/fixed_point/response.hpp"
+#include "corrector/fixed_point/two_path_fit.hpp"
 
 namespace a351::corrector {
 
@@ -42,6 +43,7 @@ struct RecordAnalysis {
     std::optional<ChosenMode> temperature_mode, acceleration_mode;
     std::optional<PairStatistics> modes;  ///< Of these two.
     std::vector<ResponsePoint> by_spectrum, by_modes;
+    TwoPathFit two_paths;
     std::vector<std::string> remarks;  ///< What is doubtful, or cannot be shown, and why.
 };
 

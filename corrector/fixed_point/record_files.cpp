@@ -70,6 +70,29 @@ Json components_json(const EemdResult& result, double step_s) {
     return list;
 }
 
+Json two_paths_json(const TwoPathFit& fit) {
+    Json json;
+    for (const FittedParameter& parameter : fit.parameters) {
+        json["parameters"][parameter.key] = {
+            {"value", number(parameter.value)},
+            {"standard_error", number(parameter.standard_error)},
+            {"determined", parameter.is_determined},
+            {"needed", parameter.is_determined ? Json(nullptr) : Json(parameter.needed)}};
+    }
+    // Of the coefficients in their units, of the logarithms of lags and times.
+    for (Eigen::Index row = 0; row < fit.covariance.rows(); ++row) {
+        Json cells = Json::array();
+        for (Eigen::Index column = 0; column < fit.covariance.cols(); ++column)
+            cells.push_back(number(fit.covariance(row, column)));
+        json["covariance"].push_back(std::move(cells));
+    }
+    json["static_slope_mgal_per_degc"] = number(fit.static_slope);
+    json["static_slope_error_mgal_per_degc"] = number(fit.static_slope_error);
+    json["residual_rms_mgal"] = number(fit.residual_rms_mgal);
+    json["residual_follows_temperature"] = points_json(fit.unexplained);
+    return json;
+}
+
 Json segments_json(const RecordResult& result) {
     Json list = Json::array();
     for (std::size_t k = 0; k < result.parts.segments.size(); ++k) {
@@ -162,6 +185,7 @@ std::string record_json(const RecordResult& result, const Json& settings) {
     json["causal_reading"] = causal_reading(analysis.band);
     json["response_by_spectrum"] = points_json(analysis.by_spectrum);
     json["response_by_modes"] = points_json(analysis.by_modes);
+    json["two_paths"] = two_paths_json(analysis.two_paths);
     json["remarks"] = analysis.remarks;
     return json.dump(2) + '\n';
 }

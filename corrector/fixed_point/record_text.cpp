@@ -1,65 +1,15 @@
 #include <cmath>
 
 #include "corrector/fixed_point/record_result.hpp"
+#include "corrector/fixed_point/record_tables.hpp"
 #include "corrector/survey/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
 
-constexpr double kSecondsPerHour = 3600.0;
-
-std::string hours(std::size_t samples, double step_s) {
-    return fixed(static_cast<double>(samples) * step_s / kSecondsPerHour, 2);
-}
-
-std::string segments_text(const RecordResult& result) {
-    std::vector<std::vector<std::string>> rows{
-        {"segment", "start_utc", "h", "bridged", "knocks", "begins with"}};
-    for (std::size_t k = 0; k < result.parts.segments.size(); ++k) {
-        const RecordSegment& segment = result.parts.segments[k];
-        rows.push_back({std::to_string(k + 1) + (k == result.analysed ? " *" : ""),
-                        to_rfc3339(segment.start), hours(segment.size(), result.record.step_s),
-                        std::to_string(segment.bridged), std::to_string(segment.disturbed),
-                        segment.begins_with});
-    }
-    std::string text = aligned(rows) + "* analysed\n";
-    for (const RefusedPart& part : result.parts.refused) {
-        text += "refused " + to_rfc3339(part.start) + " to " + to_rfc3339(part.end) + ": " +
-                part.reason + '\n';
-    }
-    return text;
-}
-
-std::string limits(const Limits& value, int decimals) {
-    return fixed(value.low, decimals) + " to " + fixed(value.high, decimals);
-}
-
-void add_points(std::vector<std::vector<std::string>>& rows, const std::string& way,
-                const std::vector<ResponsePoint>& points) {
-    for (const ResponsePoint& point : points) {
-        if (!point.refusal.empty()) continue;
-        rows.push_back({way, fixed(point.period_s, 0), fixed(point.gain.value, 0),
-                        limits(point.gain, 0), fixed(point.phase_deg.value, 0),
-                        limits(point.phase_deg, 0), fixed(point.coherence, 2)});
-    }
-}
-
-/// Neighbouring bands that are refused for the same reason share a line.
-std::string refusals_text(const std::string& way, const std::vector<ResponsePoint>& points) {
+std::string lines_of(const std::vector<std::string>& lines) {
     std::string text;
-    for (std::size_t first = 0; first < points.size();) {
-        std::size_t last = first;
-        while (last + 1 < points.size() && points[last + 1].refusal == points[first].refusal)
-            ++last;
-        if (!points[first].refusal.empty()) {
-            text += way + ", " + fixed(points[first].shortest_s, 0) + " to " +
-                    fixed(points[last].longest_s, 0) + " s: " + points[first].refusal +
-                    "; needed: " + points[first].needed;
-            if (last > first) text += " ... " + points[last].needed;
-            text += '\n';
-        }
-        first = last + 1;
-    }
+    for (const std::string& line : lines) text += line + '\n';
     return text;
 }
 
@@ -113,32 +63,14 @@ std::vector<RecordStatistic> record_statistics(const RecordResult& result) {
 }
 
 std::string record_text(const RecordResult& result) {
-    std::string text = segments_text(result) + '\n';
-    std::vector<std::vector<std::string>> rows{{"statistic", "value", "unit", "published"}};
-    for (const RecordStatistic& statistic : record_statistics(result)) {
-        rows.push_back({statistic.name, fixed(statistic.value, statistic.decimals), statistic.unit,
-                        statistic.published});
-    }
-    text += aligned(rows);
     const RecordAnalysis& analysis = result.analysis;
-    if (analysis.temperature_mode && analysis.acceleration_mode) {
-        const ChosenMode &t = *analysis.temperature_mode, &a = *analysis.acceleration_mode;
-        text += "modes: temperature " + std::to_string(t.number) + " of " +
-                std::to_string(analysis.temperature.modes.size()) + " (" + fixed(t.period_s, 0) +
-                " s), acceleration " + std::to_string(a.number) + " of " +
-                std::to_string(analysis.acceleration.modes.size()) + " (" + fixed(a.period_s, 0) +
-                " s)\n";
-    }
-    text += '\n' + causal_reading(analysis.band) + "\n\n";
-
-    rows = {
-        {"response", "period_s", "gain_mgal_per_degc", "95 %", "phase_deg", "95 %", "coherence"}};
-    add_points(rows, "by spectrum", analysis.by_spectrum);
-    add_points(rows, "by modes", analysis.by_modes);
-    text += aligned(rows) + refusals_text("by spectrum", analysis.by_spectrum) +
-            refusals_text("by modes", analysis.by_modes) + '\n';
-    for (const std::string& remark : analysis.remarks) text += remark + '\n';
-    return text;
+    std::string text = aligned(segments_table(result)) + "* analysed\n" +
+                       lines_of(refused_parts(result)) + '\n' + aligned(statistics_table(result));
+    if (const std::string modes = chosen_modes(result); !modes.empty()) text += modes + '\n';
+    text += '\n' + causal_reading(analysis.band) + "\n\n" + aligned(response_table(result)) +
+            lines_of(refused_bands(result)) + '\n' + aligned(two_paths_table(result)) +
+            two_paths_reading(result) + "\n\n";
+    return text + lines_of(analysis.remarks);
 }
 
 }  // namespace a351::corrector

@@ -45,6 +45,15 @@ struct ResponseOptions {
     std::span<const double> temperature_degc, std::span<const double> acceleration_mgal,
     double step_s, const ResponseOptions& options = {});
 
+/// Power of the temperature, and what of it is the thermometer's white noise.
+struct ThermometerSpectrum {
+    std::vector<double> power;  ///< At k / (n step), n of fast_length(); seven sine tapers.
+    double noise = 0.0;         ///< Mean of the power between 70 and 110 s, which no oven moves.
+};
+/// @param temperature_degc  (n), n of fast_length().
+[[nodiscard]] ThermometerSpectrum thermometer_spectrum(std::span<const double> temperature_degc,
+                                                       double step_s);
+
 /// By modes: each mode of the temperature as the instrument on which temperature and acceleration
 /// are projected, H = sum a z* / sum T z* with their analytic signals, so that no mode of the
 /// acceleration has to be matched.  The limits are the wider of two: blocks left out in turn

@@ -153,6 +153,19 @@ ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, doub
 
 }  // namespace
 
+ThermometerSpectrum thermometer_spectrum(std::span<const double> temperature_degc, double step_s) {
+    constexpr std::size_t kTapers = 7;
+    const TaperedSpectra spectrum = tapered_spectra(temperature_degc, temperature_degc, step_s);
+    ThermometerSpectrum result;
+    result.noise = thermometer_noise(spectrum);
+    result.power.resize(spectrum.size());
+    for (std::size_t taper = 0; taper < kTapers; ++taper)
+        for (std::size_t k = 0; k < spectrum.size(); ++k)
+            result.power[k] +=
+                std::norm(spectrum.temperature[taper][k]) / static_cast<double>(kTapers);
+    return result;
+}
+
 std::vector<ResponsePoint> response_by_spectrum(std::span<const double> temperature_degc,
                                                 std::span<const double> acceleration_mgal,
                                                 double step_s, const ResponseOptions& options) {

@@ -94,8 +94,7 @@ TEST_CASE("what no record can be is named with its line", "[fixed_point][reading
         const auto file = folder.write("r.csv", text);
         CHECK_THROWS_WITH(read_csv_record(file, {}, kSilent), Catch::Contains(message));
     };
-    refused(kHeader + rows(3.0, 0, 50),
-            "a row every 3 s; allowed: every 0.02, 0.2, 2 or 20 s");
+    refused(kHeader + rows(3.0, 0, 50), "a row every 3 s; allowed: every 0.02, 0.2, 2 or 20 s");
     refused(kHeader + rows(20.0, 0, 5) + rows(20.0, 2, 9), "r.csv:7: time_utc");
     refused(kHeader + rows(20.0, 0, 5) + "2026-03-01T01:00:00Z,abc,42\n",
             "r.csv:7: acceleration_mgal");
