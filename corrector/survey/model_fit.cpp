@@ -6,6 +6,7 @@
 #include <set>
 
 #include "corrector/survey/paper_correction.hpp"
+#include "protocol/core/input_error.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -94,6 +95,15 @@ std::optional<double> left_out_paper_error_mgal(std::vector<SurveyRow> rows,
     return errors_mgal({row}, drift_corrected_mgal({row}, corrected1, *step.drift)).front();
 }
 
+double axis_mean_g(const SurveyRow& row, std::string_view name) {
+    for (const SurveyRow::Detail& detail : row.details) {
+        if (detail.name == name && detail.value) return *detail.value;
+    }
+    throw InputError("model = " + std::string(kAxesModel.name) + ": " + row.site + " (" +
+                     std::to_string(row.occupation) + ") has no " + std::string(name) +
+                     "; allowed: rows from records, or another model");
+}
+
 bool takes_part(const LinearModel& model, const std::vector<SurveyRow>& rows,
                 std::string_view base) {
     constexpr std::size_t kFewestBaseStays = 3;
@@ -112,7 +122,7 @@ const LinearModel* find_linear_model(std::string_view name) {
     for (const LinearModel& model : kLinearModels) {
         if (model.name == name) return &model;
     }
-    return nullptr;
+    return name == kAxesModel.name ? &kAxesModel : nullptr;
 }
 
 Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<SurveyRow>& rows,
@@ -126,7 +136,12 @@ Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<Survey
         columns(i, k++) = (row.temperature - kReferenceTemperature).value();
         if (model.has_rate) columns(i, k++) = row.rate_degc_per_h;
         if (model.has_time) {
-            columns(i, k) = seconds_between(origin, row.time) / kSecondsPerHour - kReferenceTime_h;
+            columns(i, k++) =
+                seconds_between(origin, row.time) / kSecondsPerHour - kReferenceTime_h;
+        }
+        if (model.has_axes) {
+            columns(i, k++) = axis_mean_g(row, "mean_x_g");
+            columns(i, k) = axis_mean_g(row, "mean_y_g");
         }
     }
     return columns;
@@ -136,6 +151,7 @@ std::vector<std::string> coefficient_names(const LinearModel& model) {
     std::vector<std::string> names{"constant_mgal", "temperature_mgal_per_degc"};
     if (model.has_rate) names.emplace_back("rate_mgal_per_degc_per_h");
     if (model.has_time) names.emplace_back("time_mgal_per_h");
+    if (model.has_axes) names.insert(names.end(), {"x_mgal_per_g", "y_mgal_per_g"});
     return names;
 }
 

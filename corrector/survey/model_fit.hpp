@@ -2,7 +2,8 @@
 /// @file
 /// Linear models of what the sensor reads beyond gravity, fitted to known stations:
 ///
-///     D_i = b0 + bT (T_i - T0) [+ bR R_i] [+ b1 (t_i - t0)] + noise,   D = acceleration - g - tide
+///     D_i = b0 + bT (T_i - T0) [+ bR R_i] [+ b1 (t_i - t0)] [+ bx x_i + by y_i] + noise,
+///     D = acceleration - g - tide
 ///
 /// T0 and t0 only shift the constant; they keep the numbers small.
 
@@ -26,9 +27,10 @@ struct LinearModel {
     std::string_view name;
     bool has_rate = false;
     bool has_time = false;
+    bool has_axes = false;  ///< x, y: means of the horizontal axes, which a tilt brings in.
 
     [[nodiscard]] std::size_t parameter_count() const {
-        return 2U + (has_rate ? 1U : 0U) + (has_time ? 1U : 0U);
+        return 2U + (has_rate ? 1U : 0U) + (has_time ? 1U : 0U) + (has_axes ? 2U : 0U);
     }
 };
 
@@ -40,11 +42,15 @@ inline constexpr std::array<LinearModel, 4> kLinearModels{{
     {"t-rate-drift", true, true},
 }};
 
-/// Null when the name is none of kLinearModels.
+/// For rows from records: the whole-day model's regressors as far as means of occupations have them.
+inline constexpr LinearModel kAxesModel{"t-rate-drift-axes", true, true, true};
+
+/// Null when the name is neither of kLinearModels nor kAxesModel's.
 [[nodiscard]] const LinearModel* find_linear_model(std::string_view name);
 
-/// Columns of the model (T - T0, R, t - t0 as present), one row per survey row.
+/// Columns of the model (T - T0, R, t - t0, x, y as present), one row per survey row.
 /// @param origin  instant from which t counts.
+/// @throws InputError  the model has axes and a row has no means of them.
 [[nodiscard]] Eigen::MatrixXd model_columns(const LinearModel& model,
                                             const std::vector<SurveyRow>& rows, UtcTime origin);
 

@@ -97,7 +97,11 @@ void correct_linear(SurveyCorrection& result, const LinearModel& model, const Ap
         Eigen::Index k = 0;
         out.temperature_correction = -(MilliGal(fit.coefficients(0)) + effect(k++));
         if (model.has_rate) out.rate_correction = -effect(k++);
-        if (model.has_time) out.drift_correction = -effect(k);
+        if (model.has_time) out.drift_correction = -effect(k++);
+        if (model.has_axes) {
+            out.tilt_correction = -(effect(k) + effect(k + 1));
+            out.row.details.push_back({"tilt_correction_mgal", out.tilt_correction.value()});
+        }
         out.corrected = out.row.acceleration - out.row.tide - MilliGal(fit.at(x));
         if (out.row.reference) out.residual = *out.row.reference - out.corrected;
         set_uncertainty(out, fit, s, x);
@@ -235,6 +239,7 @@ const std::vector<std::string>& model_names() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> list{"auto", "paper", "day"};
         for (const LinearModel& model : kLinearModels) list.emplace_back(model.name);
+        list.emplace_back(kAxesModel.name);
         list.emplace_back("network");
         list.emplace_back("robust");
         return list;
@@ -326,6 +331,12 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
         result.score = result.row_sets[options.use_flags ? 0 : 1].scores.back();
         correct_robust(result, *model, applied, used, origin);
     } else if (model != nullptr) {
+        if (model->has_axes) {
+            for (std::size_t k = 0; k < 2; ++k) {
+                result.row_sets[k].scores.push_back(score_linear_model(
+                    *model, chosen_rows(rows, k == 0 ? unflagged_usable : usable), origin, priors));
+            }
+        }
         result.score = score_linear_model(*model, used, origin, priors);
         correct_linear(result, *model, applied);
         result.loo_interval_mgal = loo_interval(result);

@@ -16,7 +16,8 @@
 
 namespace a351::corrector {
 
-/// Names for SurveyOptions::model: auto, paper, day, those of kLinearModels, network, robust.
+/// Names for SurveyOptions::model: auto, paper, day, those of kLinearModels, kAxesModel's,
+/// network, robust.
 [[nodiscard]] const std::vector<std::string>& model_names();
 
 struct SurveyOptions {
@@ -41,7 +42,7 @@ struct CorrectedRow {
     MilliGal temperature_correction;
     MilliGal rate_correction;
     MilliGal drift_correction;
-    MilliGal tilt_correction;  ///< `day`, or with a calibration.
+    MilliGal tilt_correction;  ///< `day`, `t-rate-drift-axes`, or with a calibration.
     MilliGal corrected;
     std::optional<MilliGal> residual;     ///< reference - corrected.
     std::optional<double> leverage;       ///< Of an unused row: as at its place.  Not for `day`.
