@@ -145,8 +145,8 @@ SurveyCorrection correct_with_calibration(const std::vector<SurveyRow>& rows,
         const MilliGal effect = tilt_effect(row.row, bias);
         row.row.acceleration = row.row.acceleration + effect;
         if (row.difference) row.difference = *row.difference + effect;
-        row.tilt_correction = -effect;
-        row.row.details.push_back({"tilt_correction_mgal", row.tilt_correction.value()});
+        row.tilt_correction = row.tilt_correction - effect;
+        row.row.set_detail("tilt_correction_mgal", row.tilt_correction.value());
         sum += effect.value();
         squares += effect.value() * effect.value();
     }

@@ -58,6 +58,15 @@ int whole_number(const text::CsvTable& table, std::size_t row, std::string_view 
 
 }  // namespace
 
+void SurveyRow::set_detail(std::string_view name, std::optional<double> value) {
+    for (Detail& one : details) {
+        if (one.name != name) continue;
+        one.value = value;
+        return;
+    }
+    details.push_back({std::string(name), value});
+}
+
 std::optional<double> SurveyRow::detail(std::string_view name) const {
     for (const Detail& known : details) {
         if (known.name == name) return known.value;

@@ -39,6 +39,9 @@ struct SurveyRow {
 
     /// Value of a detail; absent where the row has none of that name.
     [[nodiscard]] std::optional<double> detail(std::string_view name) const;
+
+    /// In the place of the one that has this name, if there is one.
+    void set_detail(std::string_view name, std::optional<double> value);
 };
 
 /// An occupation that has no row.

@@ -1,5 +1,6 @@
 #include "corrector/survey/calibration_use.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -146,6 +147,21 @@ TEST_CASE("other models read what tilt has not changed", "[survey][calibration]"
     CHECK(calibration_json(result)["axis_bias"]["use"] == "fixed");
     CHECK(calibration_json(result)["thermal"].is_null());
     CHECK(calibration_json(correct_survey(rows, {.model = "t"})).is_null());
+}
+
+TEST_CASE("fitted axes and calibrated ones are one correction of tilt", "[survey][calibration]") {
+    const auto rows = rows_of(kDay.record());
+    const auto result =
+        correct_with_calibration(rows, with(calibration(), "t-rate-drift-axes"), nullptr);
+    for (const CorrectedRow& row : result.rows) {
+        CHECK(row.row.detail("tilt_correction_mgal") == row.tilt_correction.value());
+        CHECK(std::count_if(row.row.details.begin(), row.row.details.end(), [](const auto& one) {
+                  return one.name == "tilt_correction_mgal";
+              }) == 1);
+        const MilliGal sum = row.row.acceleration - row.row.tide + row.temperature_correction +
+                             row.rate_correction + row.drift_correction + row.tilt_correction;
+        CHECK(sum.value() == Approx(row.corrected.value()).epsilon(1e-12));
+    }
 }
 
 TEST_CASE("a calibration of another unit is refused, an old one remarked upon",
