@@ -110,3 +110,15 @@ TEST_CASE("a prior counts as a degree of freedom", "[report][summary]") {
     const SurveyCorrection result = correct_survey(scattered_day(), options);
     CHECK(result.score.dof == 12 + 1 - 4);
 }
+
+TEST_CASE("the whole-day model's error is that of its prediction without the station",
+          "[report][summary]") {
+    SurveyCorrection result = corrected(scattered_day());
+    CorrectedRow& row = result.rows[0];
+    row.row.notes = {"gap"};
+    row.row.details = {{"left_out_mgal", row.row.reference->value() - 7.77}};
+    CHECK_THAT(summary_html(result, {}, {}), !Catch::Contains("7.77"));
+    result.model = "day";
+    CHECK_THAT(summary_html(result, {}, {}), Catch::Contains("Error mGal (station left out)") &&
+                                                 Catch::Contains("<td class=\"r\">7.77</td>"));
+}
