@@ -10,11 +10,13 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "corrector/command/figures_option.hpp"
 #include "corrector/command/option_values.hpp"
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/fixed_point/archive_record.hpp"
 #include "corrector/fixed_point/csv_record.hpp"
 #include "corrector/fixed_point/record_result.hpp"
+#include "corrector/report/long_record_page.hpp"
 #include "corrector/survey/aligned_text.hpp"
 #include "protocol/core/input_error.hpp"
 
@@ -29,6 +31,7 @@ struct RecordCommandOptions {
     double shift_s = RecordAnalysisOptions{}.shift_s;
     int ensemble = RecordAnalysisOptions{}.ensemble_size;
     std::uint64_t seed = RecordAnalysisOptions{}.seed;
+    std::vector<std::string> figures;
 };
 
 /// The data root of a folder, or of a day file within its archive; empty for any other file.
@@ -138,7 +141,12 @@ void analyse(const RecordCommandOptions& options) {
     settings["ensemble"] = options.ensemble;
     settings["noise_ratio"] = EemdOptions{}.noise_ratio;
     settings["seed"] = options.seed;
-    write_together(options.out, record_files(result, settings));
+    std::vector<NamedText> files = record_files(result, settings);
+    Report page = make_long_record_page(result, settings, options.figures);
+    std::move(page.files.begin(), page.files.end(), std::back_inserter(files));
+    for (const std::string& warning : page.warnings)
+        std::cerr << "a351-correct: " << warning << '\n';
+    write_together(options.out, files);
     std::cout << record_text(result) << "\nwritten to " << options.out << '\n';
 }
 
@@ -166,6 +174,7 @@ void add_record_command(CLI::App& program) {
     command.add_option("--ensemble", options->ensemble, "Noise realisations averaged")
         ->capture_default_str();
     command.add_option("--seed", options->seed, "Of the noise")->capture_default_str();
+    add_figures_option(command, options->figures);
     command.callback([options] { analyse(*options); });
 }
 

@@ -72,9 +72,9 @@ TextTable response_table(const RecordResult& result) {
 TextTable two_paths_table(const RecordResult& result) {
     TextTable rows{{"two paths", "value", "standard error", "unit", "not determined; needed"}};
     for (const FittedParameter& parameter : result.analysis.two_paths.parameters) {
-        const bool is_time = parameter.unit == "s";
-        rows.push_back({parameter.name, fixed(parameter.value, is_time ? 0 : 2),
-                        fixed(parameter.standard_error, is_time ? 0 : 2), parameter.unit,
+        const int decimals = parameter.unit == "s" ? 0 : parameter.unit == "mGal/h" ? 4 : 2;
+        rows.push_back({parameter.name, fixed(parameter.value, decimals),
+                        fixed(parameter.standard_error, decimals), parameter.unit,
                         parameter.is_determined ? "" : parameter.needed});
     }
     return rows;

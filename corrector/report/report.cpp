@@ -5,8 +5,8 @@
 #include "corrector/report/drawing.hpp"
 #include "corrector/report/escaping.hpp"
 #include "corrector/report/html.hpp"
-#include "corrector/report/inline_svg.hpp"
 #include "corrector/report/map_figure.hpp"
+#include "corrector/report/page_parts.hpp"
 #include "corrector/report/reading_table.hpp"
 #include "corrector/report/record_figures.hpp"
 #include "corrector/report/result_tables.hpp"
@@ -48,41 +48,6 @@ Figures make_figures(const SurveyCorrection& result, const ReportSources& source
     return figures;
 }
 
-const std::string* find_picture(const Drawing& drawing, const std::string& file) {
-    for (const NamedText& picture : drawing.pictures) {
-        if (picture.first == file) return &picture.second;
-    }
-    return nullptr;
-}
-
-std::string figure_html(const Figure& figure, const Drawing& drawing) {
-    const std::string* const picture = find_picture(drawing, figure.name + ".svg");
-    const auto svg = picture != nullptr ? inline_svg(*picture, figure.name + "-") : std::nullopt;
-    return "<figure>\n" + svg.value_or("<p><em>This figure is missing.</em></p>") +
-           "\n<figcaption>" + html_text(figure.caption) + " <code>" + figure.name +
-           ".gp</code></figcaption>\n</figure>\n";
-}
-
-std::string figures_html(const std::vector<Figure>& figures, const Drawing& drawing) {
-    std::string large, small;
-    for (const Figure& figure : figures) {
-        (figure.is_small ? small : large) += figure_html(figure, drawing);
-    }
-    return large + (small.empty() ? "" : "<div class=\"small\">\n" + small + "</div>\n");
-}
-
-/// One line however many figures have the same trouble.
-std::vector<std::string> missing_lines(const std::vector<std::string>& troubles) {
-    if (troubles.empty()) return {};
-    const std::size_t others = troubles.size() - 1;
-    return {"figures are missing: " + clean_utf8(troubles.front()) +
-            (others == 0 ? std::string() : "; " + std::to_string(others) + " more such")};
-}
-
-std::string section(const std::string& title, const std::string& html) {
-    return "<section>\n<h2>" + html_text(title) + "</h2>\n" + html + "</section>\n";
-}
-
 }  // namespace
 
 Report make_report(const SurveyCorrection& result, const nlohmann::ordered_json& settings,
@@ -106,15 +71,7 @@ Report make_report(const SurveyCorrection& result, const nlohmann::ordered_json&
     body += section("Settings, inputs, warnings",
                     provenance_html(settings, sources.inputs, sources.warnings));
     report.files.emplace_back("report.html", html_page(title, body));
-    for (const Figure& figure : figures.all()) {
-        report.files.emplace_back("figures/" + figure.name + ".gp", figure.script);
-        if (!figure.data.empty()) {
-            report.files.emplace_back("figures/" + figure.name + ".dat", figure.data);
-        }
-    }
-    for (NamedText& picture : drawing.pictures) {
-        report.files.emplace_back("figures/" + picture.first, std::move(picture.second));
-    }
+    add_figure_files(report.files, figures.all(), drawing);
     return report;
 }
 

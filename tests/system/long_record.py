@@ -24,7 +24,7 @@ with Scratch() as scratch:
     demand("the response at the cycle is known", any(
         p["refused"] is None and 800 < p["period_s"] < 1000 for p in result["response_by_spectrum"]))
     same = [(scratch / "a" / f).read_bytes() == (scratch / "b" / f).read_bytes()
-            for f in ("record.csv", "response.csv", "result.json")]
+            for f in ("record.csv", "response.csv", "result.json", "record.html", "figures/response.svg")]
     demand("a day file stands for its root, with the same bytes", all(same))
 
     record(scratch, "a/record.csv", "--out", "c")

@@ -1,0 +1,315 @@
+#include "corrector/report/long_record_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "corrector/survey/aligned_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr double kSecondsPerHour = 3600.0;
+constexpr std::size_t kMostSteps = 1500;   // of a curve: two to three per pixel
+constexpr std::size_t kMostPoints = 3000;  // of a scatter
+constexpr double kOverlay_h = 12.0;        // modes over each other: longer, and none is told apart
+
+std::string clause(const std::string& name, std::optional<int> block, const std::string& rest) {
+    return "'" + name + ".dat' index " + std::to_string(block.value()) + ' ' + rest;
+}
+
+/// Least and greatest of every step; once where a step is one sample.
+std::string curve_lines(const std::vector<double>& values, double first_h, double step_h,
+                        double offset, double factor) {
+    const std::size_t each = (values.size() + kMostSteps - 1) / kMostSteps;
+    std::string lines;
+    for (std::size_t first = 0; first < values.size(); first += each) {
+        const std::size_t behind = std::min(values.size(), first + each);
+        const auto [low, high] =
+            std::minmax_element(values.begin() + static_cast<std::ptrdiff_t>(first),
+                                values.begin() + static_cast<std::ptrdiff_t>(behind));
+        const std::string x =
+            datum(first_h + step_h * 0.5 * static_cast<double>(first + behind - 1), 5);
+        lines += x + datum(factor * (*low - offset), 5) + '\n';
+        if (each > 1) lines += x + datum(factor * (*high - offset), 5) + '\n';
+    }
+    return lines;
+}
+
+std::string scatter_lines(const std::vector<double>& x, const std::vector<double>& y,
+                          double offset) {
+    const std::size_t count = std::min(x.size(), y.size());
+    const std::size_t each = (count + kMostPoints - 1) / kMostPoints;
+    std::string lines;
+    for (std::size_t i = 0; i < count; i += each)
+        lines += datum(x[i], 6) + datum(y[i] - offset, 4) + '\n';
+    return lines;
+}
+
+std::string line_lines(const std::vector<double>& x, const LineFit& fit, double offset) {
+    const auto [low, high] = std::minmax_element(x.begin(), x.end());
+    std::string lines;
+    for (const double at : {*low, *high})
+        lines +=
+            datum(at, 6) + datum(fit.mean_y + fit.slope * (at - fit.mean_x) - offset, 4) + '\n';
+    return lines;
+}
+
+std::string formula(const LineFit& fit) {
+    return fixed(fit.slope, 2) + " mGal/°C, R² = " + fixed(fit.r2, 3);
+}
+
+/// To whole mGal, so that the axis is read easily.
+double reference_of(const RecordResult& result) {
+    return std::round(mean_of(result.segment().acceleration_mgal));
+}
+
+std::string above(double reference) {
+    return "set ylabel 'Acceleration - " + fixed(reference, 0) + " (mGal)'\n";
+}
+
+std::string hours_axis(UtcTime start) {
+    return "set xlabel 'Hours after " + to_rfc3339(start) + "'\n";
+}
+
+constexpr auto kTwoPanels = "set multiplot layout 2,1\nset lmargin 12\n";
+constexpr auto kTemperatureLabel = "set ylabel 'Temperature (°C)'\n";
+
+/// Ranges of the raw samples, in steps, of all stretches.
+Figure raw_figure(const RecordResult& result, double reference) {
+    const std::string kName = "record-raw";
+    const UtcTime start = result.record.stretches.front().times.front();
+    std::string acceleration, temperature;
+    std::size_t samples = 0;
+    for (const RecordStretch& stretch : result.record.stretches) samples += stretch.raw.size();
+    const std::size_t each = (samples + kMostSteps - 1) / kMostSteps;
+    for (const RecordStretch& stretch : result.record.stretches) {
+        for (std::size_t first = 0; first < stretch.raw.size(); first += each) {
+            RecordStretch::RawRange range = stretch.raw[first];
+            for (std::size_t i = first; i < std::min(stretch.raw.size(), first + each); ++i) {
+                const RecordStretch::RawRange& next = stretch.raw[i];
+                range.acceleration_low_mgal =
+                    std::fmin(range.acceleration_low_mgal, next.acceleration_low_mgal);
+                range.acceleration_high_mgal =
+                    std::fmax(range.acceleration_high_mgal, next.acceleration_high_mgal);
+                range.temperature_low_degc =
+                    std::fmin(range.temperature_low_degc, next.temperature_low_degc);
+                range.temperature_high_degc =
+                    std::fmax(range.temperature_high_degc, next.temperature_high_degc);
+            }
+            const std::string x =
+                datum(seconds_between(start, stretch.times[first]) / kSecondsPerHour, 5);
+            acceleration += x + datum(range.acceleration_low_mgal - reference, 3) +
+                            datum(range.acceleration_high_mgal - reference, 3) + '\n';
+            temperature += x + datum(range.temperature_low_degc, 4) +
+                           datum(range.temperature_high_degc, 4) + '\n';
+        }
+        acceleration += '\n';
+        temperature += '\n';
+    }
+    DataBlocks data;
+    const auto a = data.add("hours acceleration: least, greatest (mGal)", acceleration);
+    const auto t = data.add("hours temperature: least, greatest (degC)", temperature);
+    return {kName,
+            "Norm and temperature as sampled: from the least to the greatest sample of each step.",
+            script_head(kName, 900, 480) + kTwoPanels + above(reference) +
+                plot_command({clause(
+                    kName, a, "using 1:2:3 with filledcurves lc rgb " + kBlue + " notitle")}) +
+                kTemperatureLabel + hours_axis(start) +
+                plot_command({clause(
+                    kName, t, "using 1:2:3 with filledcurves lc rgb " + kVermilion + " notitle")}) +
+                "unset multiplot\n" + script_tail(),
+            data.text()};
+}
+
+Figure samples_figure(const RecordResult& result, double reference) {
+    const std::string kName = "record-20s";
+    const UtcTime start = result.record.stretches.front().times.front();
+    std::string acceleration, temperature;
+    for (const RecordSegment& segment : result.parts.segments) {
+        const double first_h = seconds_between(start, segment.start) / kSecondsPerHour;
+        const double step_h = result.record.step_s / kSecondsPerHour;
+        acceleration +=
+            curve_lines(segment.acceleration_mgal, first_h, step_h, reference, 1.0) + '\n';
+        temperature += curve_lines(segment.temperature_degc, first_h, step_h, 0.0, 1.0) + '\n';
+    }
+    DataBlocks data;
+    const auto a = data.add("hours acceleration_mgal", acceleration);
+    const auto t = data.add("hours temperature_degc", temperature);
+    return {
+        kName, "The same decimated to 20 s, in the segments that can be analysed.",
+        script_head(kName, 900, 480) + kTwoPanels + above(reference) +
+            plot_command({clause(kName, a, "using 1:2 with lines lc rgb " + kBlue + " notitle")}) +
+            kTemperatureLabel + hours_axis(start) +
+            plot_command(
+                {clause(kName, t, "using 1:2 with lines lc rgb " + kVermilion + " notitle")}) +
+            "unset multiplot\n" + script_tail(),
+        data.text()};
+}
+
+Figure scatter_figure(const std::string& name, const std::string& caption,
+                      const std::vector<double>& x, const std::vector<double>& y,
+                      const LineFit& fit, double offset, const std::string& ylabel) {
+    DataBlocks data;
+    const auto points = data.add("temperature_degc acceleration_mgal", scatter_lines(x, y, offset));
+    const auto line =
+        data.add("line: temperature_degc acceleration_mgal", line_lines(x, fit, offset));
+    Figure figure{
+        name, caption,
+        script_head(name, 480, 400) + "set xlabel 'Temperature (°C)'\n" + ylabel +
+            "set xtics rotate by -30\n" +
+            plot_command({clause(name, points,
+                                 "using 1:2 with points pt 7 ps 0.2 lc rgb " + kBlue + " notitle"),
+                          clause(name, line,
+                                 "using 1:2 with lines lw 1.5 lc rgb " + kVermilion + " title '" +
+                                     formula(fit) + "'")}) +
+            script_tail(),
+        data.text()};
+    figure.is_small = true;
+    return figure;
+}
+
+/// The acceleration turned and moved earlier, above the temperature, each with its residue.
+Figure trend_figure(const RecordResult& result) {
+    const std::string kName = "trend";
+    const RecordSegment& segment = result.segment();
+    const double step_h = result.record.step_s / kSecondsPerHour;
+    const double moved_h = -result.options.shift_s / kSecondsPerHour;
+    const double first = segment.acceleration_mgal.front();
+    const std::vector<double>& slow = result.analysis.acceleration.residue.values;
+    DataBlocks data;
+    const auto a = data.add("hours, moved; acceleration, turned (mGal)",
+                            curve_lines(segment.acceleration_mgal, moved_h, step_h, first, -1.0));
+    const auto a_slow = data.add("its residue", curve_lines(slow, moved_h, step_h, 0.0, -1.0));
+    const auto t = data.add("hours temperature_degc",
+                            curve_lines(segment.temperature_degc, 0.0, step_h, 0.0, 1.0));
+    const auto t_slow =
+        data.add("its residue",
+                 curve_lines(result.analysis.temperature.residue.values, 0.0, step_h, 0.0, 1.0));
+    const std::string line = "using 1:2 with lines lc rgb ",
+                      thick = "using 1:2 with lines lw 2.5 lc rgb ";
+    return {kName,
+            "Acceleration, sign turned and moved " + fixed(result.options.shift_s, 0) +
+                " s earlier, and temperature, each with the residue of its decomposition.",
+            script_head(kName, 900, 480) + kTwoPanels + "set xrange [" + fixed(moved_h, 3) + ":" +
+                fixed(step_h * static_cast<double>(segment.size()), 3) +
+                "]\nset ylabel '- Acceleration (mGal)'\n" +
+                plot_command({clause(kName, a, line + kBlue + " notitle"),
+                              clause(kName, a_slow, thick + "'black' title 'residue'")}) +
+                kTemperatureLabel + hours_axis(segment.start) +
+                plot_command({clause(kName, t, line + kVermilion + " notitle"),
+                              clause(kName, t_slow, thick + "'black' notitle")}) +
+                "unset multiplot\n" + script_tail(),
+            data.text()};
+}
+
+struct ModePair {
+    std::vector<double> temperature;
+    std::vector<double> turned;  ///< Acceleration, sign turned, moved earlier by the shift.
+};
+
+ModePair mode_pair(const RecordResult& result) {
+    const RecordAnalysis& analysis = result.analysis;
+    const std::vector<double>& a =
+        analysis.acceleration.modes[analysis.acceleration_mode->number - 1].values;
+    const auto earlier =
+        static_cast<std::size_t>(std::llround(result.options.shift_s / result.record.step_s));
+    ModePair pair;
+    pair.temperature = analysis.temperature.modes[analysis.temperature_mode->number - 1].values;
+    for (std::size_t i = earlier; i < a.size(); ++i) pair.turned.push_back(-a[i]);
+    pair.temperature.resize(pair.turned.size());
+    return pair;
+}
+
+Figure overlay_figure(const RecordResult& result, const ModePair& pair) {
+    const std::string kName = "modes";
+    const double step_h = result.record.step_s / kSecondsPerHour;
+    const std::size_t count =
+        std::min(pair.turned.size(), static_cast<std::size_t>(kOverlay_h / step_h));
+    const auto first = static_cast<std::ptrdiff_t>((pair.turned.size() - count) / 2);
+    const auto part = [&](const std::vector<double>& values) {
+        return std::vector<double>(values.begin() + first,
+                                   values.begin() + first + static_cast<std::ptrdiff_t>(count));
+    };
+    const double first_h = static_cast<double>(first) * step_h;
+    DataBlocks data;
+    const auto a = data.add("hours; acceleration, turned and moved (mGal)",
+                            curve_lines(part(pair.turned), first_h, step_h, 0.0, 1.0));
+    const auto t = data.add("hours temperature_degc",
+                            curve_lines(part(pair.temperature), first_h, step_h, 0.0, 1.0));
+    return {kName,
+            "Modes of the cycle: acceleration, sign turned and moved " +
+                fixed(result.options.shift_s, 0) + " s earlier, and temperature" +
+                (count < pair.turned.size() ? "; the middle of the record." : "."),
+            script_head(kName, 900, 360) + hours_axis(result.segment().start) +
+                "set ylabel '- Acceleration (mGal)'\nset y2label 'Temperature (°C)'\n"
+                "set ytics nomirror\nset y2tics\n" +
+                plot_command({clause(kName, a,
+                                     "using 1:2 with lines lc rgb " + kBlue +
+                                         " title 'acceleration, turned and moved'"),
+                              clause(kName, t,
+                                     "using 1:2 axes x1y2 with lines lc rgb " + kVermilion +
+                                         " title 'temperature'")}) +
+                script_tail(),
+            data.text()};
+}
+
+Figure correlation_figure(const RecordResult& result) {
+    const std::string kName = "correlation";
+    const auto lines = [](const CrossCorrelation& correlation) {
+        std::string text;
+        for (std::size_t i = 0; i < correlation.values.size(); ++i)
+            text += datum(correlation.delays_s[i], 1) + datum(correlation.values[i], 5) + '\n';
+        return text;
+    };
+    DataBlocks data;
+    const auto modes =
+        data.add("modes: delay_s correlation", lines(result.analysis.modes->correlation));
+    const auto band =
+        data.add("band: delay_s correlation", lines(result.analysis.band.correlation));
+    Figure figure{
+        kName,
+        "Cross-correlation of the two modes, and of the band, against the delay of the "
+        "acceleration.",
+        script_head(kName, 480, 400) +
+            "set xlabel 'Delay of the acceleration (s)'\nset ylabel 'Correlation'\n"
+            "set yrange [-1:1]\nset xzeroaxis\n" +
+            plot_command(
+                {clause(kName, modes,
+                        "using 1:2 with lines lw 1.5 lc rgb " + kBlue + " title 'modes'"),
+                 clause(kName, band,
+                        "using 1:2 with lines lw 1.5 lc rgb " + kGrey + " title 'band'")}) +
+            script_tail(),
+        data.text()};
+    figure.is_small = true;
+    return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> long_record_figures(const RecordResult& result) {
+    const double reference = reference_of(result);
+    const RecordSegment& segment = result.segment();
+    std::vector<Figure> figures;
+    const auto& stretches = result.record.stretches;
+    if (std::any_of(stretches.begin(), stretches.end(),
+                    [](const RecordStretch& stretch) { return !stretch.raw.empty(); })) {
+        figures.push_back(raw_figure(result, reference));
+    }
+    figures.push_back(samples_figure(result, reference));
+    figures.push_back(trend_figure(result));
+    if (result.analysis.modes) {
+        const ModePair pair = mode_pair(result);
+        figures.push_back(overlay_figure(result, pair));
+        figures.push_back(scatter_figure(
+            "scatter-modes", "The two modes, acceleration turned and moved, and their line.",
+            pair.temperature, pair.turned, result.analysis.modes->moved, 0.0,
+            "set ylabel '- Acceleration (mGal)'\n"));
+        figures.push_back(correlation_figure(result));
+    }
+    figures.push_back(scatter_figure("scatter", "All samples at 20 s and their line.",
+                                     segment.temperature_degc, segment.acceleration_mgal,
+                                     result.analysis.raw, reference, above(reference)));
+    return figures;
+}
+
+}  // namespace a351::corrector

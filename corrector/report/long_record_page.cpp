@@ -1,0 +1,67 @@
+#include "corrector/report/long_record_page.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "corrector/fixed_point/record_tables.hpp"
+#include "corrector/report/escaping.hpp"
+#include "corrector/report/html.hpp"
+#include "corrector/report/long_record_figures.hpp"
+#include "corrector/report/page_parts.hpp"
+#include "corrector/report/result_tables.hpp"
+#include "corrector/survey/aligned_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+std::string table_html(std::string_view alignment, const TextTable& table) {
+    return html_table(alignment, table.front(), {table.begin() + 1, table.end()});
+}
+
+std::string list_html(const std::vector<std::string>& lines) {
+    return lines.empty() ? std::string() : html_list(lines);
+}
+
+std::string head_html(const RecordResult& result) {
+    const RecordSegment& segment = result.segment();
+    const double hours = static_cast<double>(segment.size()) * result.record.step_s / 3600.0;
+    return "<h1>A long record at one point</h1>\n" +
+           html_paragraph("Analysed: " + fixed(hours, 1) + " h from " + to_rfc3339(segment.start) +
+                          ", a sample every " + fixed(result.record.step_s, 0) + " s" +
+                          (result.record.is_tide_removed ? ", earth tide removed." : ".")) +
+           html_paragraph(causal_reading(result.analysis.band)) +
+           html_paragraph("Two-path fit: " + two_paths_reading(result) + ".") +
+           list_html(result.analysis.remarks);
+}
+
+}  // namespace
+
+Report make_long_record_page(const RecordResult& result, const nlohmann::ordered_json& settings,
+                             const std::vector<std::string>& picture_formats) {
+    std::vector<Figure> figures = long_record_figures(result);
+    const std::vector<Figure> response{response_figure(result)};
+    std::vector<Figure> all = figures;
+    all.push_back(response.front());
+    Drawing drawing = draw(all, picture_formats);
+    Report page;
+    page.warnings = missing_lines(drawing.troubles);
+
+    std::string body = "<section class=\"first\">\n" + head_html(result) +
+                       list_html(page.warnings) + "</section>\n";
+    body += section("Response by period", table_html("lrrrrrr", response_table(result)) +
+                                              figures_html(response, drawing) +
+                                              list_html(refused_bands(result)));
+    body += section("Two paths", table_html("lrrll", two_paths_table(result)));
+    body += section("The publication's statistics", table_html("lrll", statistics_table(result)) +
+                                                        html_paragraph(chosen_modes(result)));
+    body += section("The publication's figures", figures_html(figures, drawing));
+    body +=
+        section("Segments", table_html("llrrrl", segments_table(result)) +
+                                html_paragraph("* analysed") + list_html(refused_parts(result)));
+    body += section("Settings, inputs, warnings",
+                    provenance_html(settings, result.record.inputs, result.record.warnings));
+    page.files.emplace_back("record.html", html_page("A long record at one point", body));
+    add_figure_files(page.files, all, drawing);
+    return page;
+}
+
+}  // namespace a351::corrector

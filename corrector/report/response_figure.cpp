@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "corrector/report/long_record_figures.hpp"
+#include "corrector/survey/aligned_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+
+std::string point_lines(const std::vector<ResponsePoint>& points) {
+    std::string lines;
+    for (const ResponsePoint& point : points) {
+        if (!point.refusal.empty()) continue;
+        lines += datum(point.period_s, 1) + datum(point.gain.value, 2) + datum(point.gain.low, 2) +
+                 datum(point.gain.high, 2) + datum(point.phase_deg.value, 2) +
+                 datum(point.phase_deg.low, 2) + datum(point.phase_deg.high, 2) + '\n';
+    }
+    return lines;
+}
+
+using Parameters = std::array<double, kTwoPathTerms>;
+
+double at(const Parameters& parameters, TwoPathTerm term) {
+    return parameters.at(static_cast<std::size_t>(term));
+}
+
+/// Logarithm of the fit's transfer function, the lags given by their logarithms.
+std::complex<double> log_response(const Parameters& parameters, double period_s) {
+    constexpr double kSecondsPerHour = 3600.0;
+    const std::complex<double> s(0.0, 2.0 * std::numbers::pi / period_s);
+    return std::log(at(parameters, TwoPathTerm::level) +
+                    at(parameters, TwoPathTerm::fast) * kSecondsPerHour * s /
+                        (1.0 + s * std::exp(at(parameters, TwoPathTerm::fast_lag))) +
+                    at(parameters, TwoPathTerm::slow) /
+                        (1.0 + s * std::exp(at(parameters, TwoPathTerm::slow_lag))));
+}
+
+/// Period, gain, its 95 % limits, phase, its 95 % limits; linearised.
+std::string fit_line(const TwoPathFit& fit, double period_s) {
+    Parameters parameters{};
+    for (std::size_t k = 0; k < kTwoPathTerms; ++k) parameters.at(k) = fit.parameters.at(k).value;
+    for (const TwoPathTerm lag :
+         {TwoPathTerm::fast_lag, TwoPathTerm::slow_lag, TwoPathTerm::warm_up_time}) {
+        double& value = parameters.at(static_cast<std::size_t>(lag));
+        value = std::log(value);
+    }
+    const std::complex<double> here = log_response(parameters, period_s);
+    Eigen::VectorXcd slope(static_cast<Eigen::Index>(kTwoPathTerms));
+    for (std::size_t k = 0; k < kTwoPathTerms; ++k) {
+        constexpr double kStep = 1e-4;
+        Parameters more = parameters;
+        more.at(k) += kStep;
+        slope(static_cast<Eigen::Index>(k)) = (log_response(more, period_s) - here) / kStep;
+    }
+    constexpr double kNormal95 = 1.96;
+    const auto half_width = [&](const Eigen::VectorXd& of) {
+        return kNormal95 * std::sqrt(of.dot(fit.covariance * of));
+    };
+    const double factor = std::exp(half_width(slope.real()));
+    const double gain = std::exp(here.real()), phase = here.imag() * kDegreesPerRadian;
+    const double width = std::min(half_width(slope.imag()) * kDegreesPerRadian, 180.0);
+    return datum(period_s, 1) + datum(gain, 3) + datum(gain / factor, 3) + datum(gain * factor, 3) +
+           datum(phase, 2) + datum(phase - width, 2) + datum(phase + width, 2) + '\n';
+}
+
+/// From the shortest period of the fit to the whole record.
+std::string fit_lines(const RecordResult& result) {
+    constexpr double kShortest_s = 240.0, kStep = 1.05;
+    const double longest_s = static_cast<double>(result.segment().size()) * result.record.step_s;
+    std::string lines;
+    for (double period_s = kShortest_s; period_s < longest_s; period_s *= kStep)
+        lines += fit_line(result.analysis.two_paths, period_s);
+    return lines;
+}
+
+}  // namespace
+
+Figure response_figure(const RecordResult& result) {
+    const std::string kName = "response";
+    DataBlocks data;
+    std::vector<std::string> gain, phase;
+    const auto add = [&](const std::vector<ResponsePoint>& points, const std::string& style,
+                         const std::string& title) {
+        const auto block =
+            data.add(title + ": period_s gain low high phase_deg low high", point_lines(points));
+        if (!block) return;
+        const std::string source = "'" + kName + ".dat' index " + std::to_string(*block);
+        gain.push_back(source + " using 1:2:3:4 with yerrorbars " + style + " title '" + title +
+                       "'");
+        phase.push_back(source + " using 1:5:6:7 with yerrorbars " + style + " notitle");
+    };
+    add(result.analysis.by_spectrum, "pt 7 ps 0.6 lc rgb " + kBlue, "by spectrum");
+    add(result.analysis.by_modes, "pt 6 ps 0.8 lw 1.2 lc rgb " + kVermilion, "by modes");
+    const auto block =
+        data.add("two-path fit: period_s gain low high phase_deg low high", fit_lines(result));
+    const std::string fit = "'" + kName + ".dat' index " + std::to_string(block.value());
+    gain.insert(gain.begin(),
+                {fit + " using 1:3:4 with filledcurves lc rgb '#e4e4e4' notitle",
+                 fit + " using 1:2 with lines lw 1.2 lc rgb " + kGrey + " title 'two-path fit'"});
+    phase.insert(phase.begin(),
+                 {fit + " using 1:6:7 with filledcurves lc rgb '#e4e4e4' notitle",
+                  fit + " using 1:5 with lines lw 1.2 lc rgb " + kGrey + " notitle"});
+    return {
+        kName,
+        "Gain and phase of the acceleration against the temperature by period, with 95 % limits.",
+        script_head(kName, 900, 560) +
+            "set multiplot layout 2,1\nset logscale x\nset lmargin 12\n"
+            "set xrange [100:*]\nset yrange [1:3000]\nset ylabel 'Gain (mGal/°C)'\nset logscale "
+            "y\n" +
+            plot_command(gain) +
+            "unset logscale y\nset yrange [-200:200]\nset ytics 90\n"
+            "set ylabel 'Phase (°)'\nset xlabel 'Period (s)'\n" +
+            plot_command(phase) + "unset multiplot\n" + script_tail(),
+        data.text()};
+}
+
+}  // namespace a351::corrector
