@@ -47,11 +47,11 @@ void require_both_axes(const Eigen::MatrixXd& tilts, const std::string& origin) 
                                 " deg or more to both sides, one at a time";
     for (const Eigen::Index axis : {0, 1}) {
         const double least = tilts.col(axis).minCoeff(), greatest = tilts.col(axis).maxCoeff();
-        if (least > -kLeastTilt_deg || greatest < kLeastTilt_deg)
-            refuse(origin,
-                   std::string(1, axis == 0 ? 'x' : 'y') + " is tilted from " + fixed(least, 2) +
-                       " to " + fixed(greatest, 2) + " deg",
-                   allowed);
+        if (least <= -kLeastTilt_deg && greatest >= kLeastTilt_deg) continue;
+        std::string trouble = axis == 0 ? "x" : "y";
+        trouble += " is tilted from ";
+        trouble += fixed(least, 2) + " to " + fixed(greatest, 2) + " deg";
+        refuse(origin, trouble, allowed);
     }
     const Eigen::MatrixXd centred = tilts.rowwise() - tilts.colwise().mean();
     const Eigen::Matrix2d scatter =
