@@ -146,11 +146,18 @@ TEST_CASE("other models read what tilt has not changed", "[survey][calibration]"
     CHECK_FALSE(result.calibration->is_prior);
     CHECK(calibration_json(result)["axis_bias"]["use"] == "fixed");
     CHECK(calibration_json(result)["thermal"].is_null());
-    CHECK(calibration_json(correct_survey(rows, {.model = "t"})).is_null());
+    SurveyOptions without;
+    without.model = "t";
+    CHECK(calibration_json(correct_survey(rows, without)).is_null());
 }
 
 TEST_CASE("fitted axes and calibrated ones are one correction of tilt", "[survey][calibration]") {
-    const auto rows = rows_of(kDay.record());
+    auto rows = rows_of(kDay.record());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const double y_g = 0.001 * static_cast<double>(i * i % 5);
+        rows[i].rate_degc_per_h = 0.01 * static_cast<double>(i * i % 3);
+        rows[i].set_detail("mean_y_g", y_g);
+    }
     const auto result =
         correct_with_calibration(rows, with(calibration(), "t-rate-drift-axes"), nullptr);
     for (const CorrectedRow& row : result.rows) {

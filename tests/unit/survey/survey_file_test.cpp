@@ -108,7 +108,8 @@ TEST_CASE("a bad survey file is refused with line, key and value", "[survey][sur
         {"[survey]\nbase='No.9'\n", "no such site; allowed: No.0, No.1"},
         {"[survey]\ndatum=['No.0','No.9']\n", "survey.datum"},
         {"[survey]\nmodel='kriging'\n",
-         "allowed: auto, paper, day, t, t-rate, t-drift, t-rate-drift, network, robust"},
+         "allowed: auto, paper, day, t, t-rate, t-drift, t-rate-drift, "
+         "t-rate-drift-axes, network, robust"},
         {"[survey]\ntide='moon'\n", ":2: survey.tide = 'moon': neither a source nor a file"},
         {"[survey]\nroot='nowhere'\n", "no such directory"},
         {"[survey]\ncalibration='unit.toml'\n", "survey.calibration"},
