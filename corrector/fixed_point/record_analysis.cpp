@@ -55,6 +55,20 @@ std::optional<ChosenMode> choose_mode(const EemdResult& result, double cycle_s, 
     return chosen;
 }
 
+/// A reading only where a part of the band shows a response above chance.
+std::string reading_of(const RecordAnalysis& analysis, double cycle_s) {
+    const ResponsePoint* at_cycle = nullptr;
+    for (const ResponsePoint& point : analysis.by_spectrum) {
+        const bool is_in_band = point.period_s > shortest_of_band_s(cycle_s) &&
+                                point.period_s < longest_of_band_s(cycle_s);
+        if (is_in_band && point.refusal.empty()) return causal_reading(analysis.band);
+        if (point.shortest_s <= cycle_s && cycle_s <= point.longest_s) at_cycle = &point;
+    }
+    std::string text = "In the band of " + fixed(cycle_s, 0) + " s this record shows no response";
+    if (at_cycle != nullptr) text += " (" + at_cycle->refusal + "); needed: " + at_cycle->needed;
+    return text + ". The statistics of band and modes mean nothing here.";
+}
+
 double change_of(const std::vector<double>& values) { return values.back() - values.front(); }
 
 void remark_on_mode(RecordAnalysis& analysis, const std::optional<ChosenMode>& mode,
@@ -141,6 +155,7 @@ RecordAnalysis analyse_record(const RecordSegment& segment, double step_s,
     ResponseOptions response;
     response.cycle_s = options.cycle_s;
     analysis.by_spectrum = response_by_spectrum(temperature, acceleration, step_s, response);
+    analysis.reading = reading_of(analysis, options.cycle_s);
     std::vector<std::vector<double>> modes;
     for (const Component& mode : analysis.temperature.modes)
         if (mode.extrema_count > 0) modes.push_back(mode.values);

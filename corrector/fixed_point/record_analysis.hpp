@@ -43,6 +43,8 @@ struct RecordAnalysis {
     std::optional<ChosenMode> temperature_mode, acceleration_mode;
     std::optional<PairStatistics> modes;  ///< Of these two.
     std::vector<ResponsePoint> by_spectrum, by_modes;
+    /// causal_reading() of the band, or why the record allows none and what record would.
+    std::string reading;
     TwoPathFit two_paths;
     std::vector<std::string> remarks;  ///< What is doubtful, or cannot be shown, and why.
 };

@@ -88,6 +88,7 @@ Json two_paths_json(const TwoPathFit& fit) {
     }
     json["static_slope_mgal_per_degc"] = number(fit.static_slope);
     json["static_slope_error_mgal_per_degc"] = number(fit.static_slope_error);
+    json["static_slope_determined"] = fit.is_static_slope_determined;
     json["residual_rms_mgal"] = number(fit.residual_rms_mgal);
     json["residual_follows_temperature"] = points_json(fit.unexplained);
     return json;
@@ -182,7 +183,7 @@ std::string record_json(const RecordResult& result, const Json& settings) {
     json["acceleration_mode"] = mode_json(analysis.acceleration_mode);
     json["temperature_components"] = components_json(analysis.temperature, analysis.step_s);
     json["acceleration_components"] = components_json(analysis.acceleration, analysis.step_s);
-    json["causal_reading"] = causal_reading(analysis.band);
+    json["causal_reading"] = analysis.reading;
     json["response_by_spectrum"] = points_json(analysis.by_spectrum);
     json["response_by_modes"] = points_json(analysis.by_modes);
     json["two_paths"] = two_paths_json(analysis.two_paths);

@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::size_t kBeside = 9;  // samples in a median beside a step: 3 min
 constexpr double kMadToDeviation = 1.4826;
+constexpr double kSame_degc = 1e-9,
+                 kSame_mgal = 1e-6;  // what three filters' rounding leaves of a constant
 
 double median_of(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -31,14 +33,11 @@ struct Valid {
     [[nodiscard]] std::size_t size() const noexcept { return places.size(); }
 };
 
-std::vector<bool> stuck_samples(const std::vector<double>& temperature, std::size_t most) {
-    std::vector<bool> is_stuck(temperature.size(), false);
-    constexpr double kSame_degc = 1e-9;  // what rounding leaves of a constant after three filters
-    for (std::size_t first = 0; first < temperature.size();) {
+std::vector<bool> stuck_samples(const std::vector<double>& values, double same, std::size_t most) {
+    std::vector<bool> is_stuck(values.size(), false);
+    for (std::size_t first = 0; first < values.size();) {
         std::size_t behind = first + 1;
-        while (behind < temperature.size() &&
-               std::abs(temperature[behind] - temperature[first]) < kSame_degc)
-            ++behind;
+        while (behind < values.size() && std::abs(values[behind] - values[first]) < same) ++behind;
         if (behind - first >= most)
             std::fill_n(is_stuck.begin() + static_cast<std::ptrdiff_t>(first), behind - first,
                         true);
@@ -102,8 +101,11 @@ public:
 
 private:
     void add_stretch(const RecordStretch& stretch) {
-        const std::vector<bool> is_stuck = stuck_samples(stretch.temperature_degc, options_.stuck);
-        refuse_stuck(stretch, is_stuck);
+        std::vector<bool> is_stuck =
+            refuse_stuck(stretch, stretch.temperature_degc, kSame_degc, "the temperature", " degC");
+        const std::vector<bool> is_still = refuse_stuck(stretch, stretch.acceleration_mgal,
+                                                        kSame_mgal, "the acceleration", " mGal");
+        for (std::size_t i = 0; i < is_stuck.size(); ++i) is_stuck[i] = is_stuck[i] || is_still[i];
         const Valid valid = valid_samples(stretch, is_stuck);
         if (valid.size() == 0) return;
         const std::vector<double> steps = find_steps(valid.acceleration_mgal, options_);
@@ -134,15 +136,17 @@ private:
             level(valid, valid.size() - std::min(valid.size(), kBeside), valid.size());
     }
 
-    void refuse_stuck(const RecordStretch& stretch, const std::vector<bool>& is_stuck) {
+    std::vector<bool> refuse_stuck(const RecordStretch& stretch, const std::vector<double>& values,
+                                   double same, const std::string& name, const std::string& unit) {
+        std::vector<bool> is_stuck = stuck_samples(values, same, options_.stuck);
         for (std::size_t i = 0; i < is_stuck.size(); ++i) {
             if (!is_stuck[i] || (i > 0 && is_stuck[i - 1])) continue;
             std::size_t last = i;
             while (last + 1 < is_stuck.size() && is_stuck[last + 1]) ++last;
-            result_.refused.push_back(
-                {stretch.times[i], stretch.times[last],
-                 "the temperature is stuck at " + fixed(stretch.temperature_degc[i], 4) + " degC"});
+            result_.refused.push_back({stretch.times[i], stretch.times[last],
+                                       name + " is stuck at " + fixed(values[i], 4) + unit});
         }
+        return is_stuck;
     }
 
     static double level(const Valid& valid, std::size_t first, std::size_t behind) {
@@ -168,7 +172,7 @@ private:
     std::string break_text(const RecordStretch& stretch, const std::vector<bool>& is_stuck,
                            const Valid& valid, std::size_t i, bool& is_restart) const {
         for (std::size_t k = valid.places[i - 1] + 1; k < valid.places[i]; ++k)
-            if (is_stuck[k]) return "the temperature moves again";
+            if (is_stuck[k]) return "the sensor goes on";
         const double change = level(valid, i, std::min(valid.size(), i + kBeside)) -
                               level(valid, i - std::min(i, kBeside), i);
         return gap_text(

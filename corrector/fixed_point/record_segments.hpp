@@ -14,8 +14,8 @@ struct SegmentOptions {
     std::size_t longest_bridge = 15;
     /// Shortest segment in samples: 3 h, twelve cycles of 15 min.
     std::size_t shortest = 540;
-    /// A temperature that is the same to the last digit for so many samples, 20 min, is stuck: the
-    /// sensor's thermometer has more noise than that.
+    /// A temperature or acceleration that is the same to the last digit for so many samples, 20 min, is
+    /// stuck: the sensor has more noise than that.
     std::size_t stuck = 60;
     /// A step between the medians of nine samples before and after, over 1.4826 MAD of all such
     /// differences, and at least in mGal: the box was moved.
@@ -53,8 +53,8 @@ struct RecordSegments {
     std::vector<RefusedPart> refused;
 };
 
-/// Divides a record at gaps, steps of the acceleration, restarts and where the temperature is stuck.
-/// Samples of a temperature that is stuck are missing ones.
+/// Divides a record at gaps, steps of the acceleration, restarts and where a channel is stuck.  Samples
+/// that are stuck are missing ones.
 [[nodiscard]] RecordSegments divide_record(const LongRecord& record,
                                            const SegmentOptions& options = {});
 

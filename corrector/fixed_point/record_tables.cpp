@@ -109,8 +109,11 @@ std::string chosen_modes(const RecordResult& result) {
 std::string two_paths_reading(const RecordResult& result) {
     const TwoPathFit& fit = result.analysis.two_paths;
     std::string text = "static slope, both paths: " + fixed(fit.static_slope, 1) + " +- " +
-                       fixed(fit.static_slope_error, 1) + " mGal/degC; residual " +
-                       fixed(fit.residual_rms_mgal, 2) + " mGal rms; ";
+                       fixed(fit.static_slope_error, 1) + " mGal/degC" +
+                       (fit.is_static_slope_determined
+                            ? ""
+                            : ", not determined (needed: " + fit[TwoPathTerm::slow].needed + ")") +
+                       "; residual " + fixed(fit.residual_rms_mgal, 2) + " mGal rms; ";
     if (fit.unexplained.empty()) return text + "it does not follow the temperature in any band";
     text += "it still follows the temperature at";
     for (const ResponsePoint& point : fit.unexplained)

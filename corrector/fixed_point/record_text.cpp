@@ -67,7 +67,7 @@ std::string record_text(const RecordResult& result) {
     std::string text = aligned(segments_table(result)) + "* analysed\n" +
                        lines_of(refused_parts(result)) + '\n' + aligned(statistics_table(result));
     if (const std::string modes = chosen_modes(result); !modes.empty()) text += modes + '\n';
-    text += '\n' + causal_reading(analysis.band) + "\n\n" + aligned(response_table(result)) +
+    text += '\n' + analysis.reading + "\n\n" + aligned(response_table(result)) +
             lines_of(refused_bands(result)) + '\n' + aligned(two_paths_table(result)) +
             two_paths_reading(result) + "\n\n";
     return text + lines_of(analysis.remarks);

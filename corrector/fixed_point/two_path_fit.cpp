@@ -305,6 +305,8 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
     fit.static_slope_error =
         std::sqrt(fit.covariance(kLevel, kLevel) + fit.covariance(kSlow, kSlow) +
                   2.0 * fit.covariance(kLevel, kSlow));
+    const double prior = std::hypot(units(kLevel), units(kSlow));
+    fit.is_static_slope_determined = fit.static_slope_error < kDetermined * prior;
 
     const TimeSeries<DegC> whole({}, Hertz(1.0 / step_s), temperature_degc);
     const auto columns = problem.columns(whole, u);

@@ -36,6 +36,7 @@ struct TwoPathFit {
     /// (kTwoPathTerms, kTwoPathTerms): of the coefficients in their units, of the logarithms of the lags.
     Eigen::MatrixXd covariance;
     double static_slope = 0.0, static_slope_error = 0.0;  ///< rA + rS, mGal/degC.
+    bool is_static_slope_determined = false;              ///< As of a parameter.
     double residual_rms_mgal = 0.0;
     std::vector<double> residual_mgal;  ///< (n) less its mean.
     /// Bands in which the residual still follows the temperature, at 5 % for all together.

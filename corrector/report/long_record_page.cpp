@@ -28,7 +28,7 @@ std::string head_html(const RecordResult& result) {
            html_paragraph("Analysed: " + fixed(hours, 1) + " h from " + to_rfc3339(segment.start) +
                           ", a sample every " + fixed(result.record.step_s, 0) + " s" +
                           (result.record.is_tide_removed ? ", earth tide removed." : ".")) +
-           html_paragraph(causal_reading(result.analysis.band)) +
+           html_paragraph(result.analysis.reading) +
            html_paragraph("Two-path fit: " + two_paths_reading(result) + ".") +
            list_html(result.analysis.remarks);
 }

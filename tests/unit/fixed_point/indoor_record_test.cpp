@@ -70,3 +70,16 @@ TEST_CASE("a record shorter than eight cycles is not analysed", "[fixed_point]")
     segment.temperature_degc.assign(359, 1.0);
     CHECK_THROWS_AS(analyse_record(segment, kRecordStep_s, {}), std::invalid_argument);
 }
+
+TEST_CASE("a record without a cycle is not read as if it had one", "[fixed_point]") {
+    RecordSegment segment;
+    for (int i = 0; i < 1200; ++i) {
+        segment.temperature_degc.push_back(42.5 + 1e-4 * i);
+        segment.acceleration_mgal.push_back(979763.0 + 0.01 * i + 0.1 * std::sin(0.7 * i * i));
+    }
+    RecordAnalysisOptions options;
+    options.ensemble_size = 4;
+    CHECK_THAT(analyse_record(segment, kRecordStep_s, options).reading,
+               Catch::StartsWith("In the band of 900 s this record shows no response") &&
+                   Catch::Contains("needed: "));
+}

@@ -87,12 +87,21 @@ TEST_CASE("a stuck temperature is refused with its value, and a rest too short t
     CHECK(parts.segments[0].size() == 1000);
     REQUIRE(parts.refused.size() == 2);
     CHECK(parts.refused[0].reason == "the temperature is stuck at 42.5000 degC");
-    CHECK_THAT(parts.refused[1].reason, Catch::StartsWith("too short: 0.89 h") &&
-                                            Catch::Contains("the temperature moves again"));
+    CHECK_THAT(parts.refused[1].reason,
+               Catch::StartsWith("too short: 0.89 h") && Catch::Contains("the sensor goes on"));
 }
 
 TEST_CASE("a record without a single sample is no segment", "[fixed_point][segments]") {
     LongRecord record = night();
     erase(record, 0, 2160);
     CHECK(divide_record(record).segments.empty());
+}
+
+TEST_CASE("a stuck acceleration is refused", "[fixed_point][segments]") {
+    LongRecord record = night();
+    record.stretches[0].acceleration_mgal.assign(2160, 979763.0);
+    const RecordSegments parts = divide_record(record);
+    CHECK(parts.segments.empty());
+    REQUIRE(parts.refused.size() == 1);
+    CHECK(parts.refused[0].reason == "the acceleration is stuck at 979763.0000 mGal");
 }
