@@ -45,7 +45,7 @@ with Scratch() as scratch:
         demand(f"{name}: 0 of {counted['truth']:.0f} samples missing, altered or duplicated",
                counted["missing"] == counted["altered"] == counted["duplicated"] == 0
                and counted["matched"] == counted["truth"] > 0)
-        demand(f"{name}: no record boundary steps by more than half a sample", counted["steps"] == 0)
+        demand(f"{name}: no record boundary steps by more than 15 ms", counted["steps"] == 0)
 
     report = read_json(out / "report.json")
     print("emulator:", report)
