@@ -18,8 +18,8 @@ struct LiveSample {
     UtcTime seen_at;  ///< Of the last raw sample that went into it: half a filter later.
     std::array<MilliGal, 3> axes{};
     DegC temperature;
-    /// Half the largest peak to peak of an axis of the raw samples of the last 2 s before `seen_at`:
-    /// a knock is over and seen before the decimated axes show it.
+    /// Half the largest peak to peak of an axis of the raw samples of the 2 s before `seen_at`: a
+    /// knock is seen there before the decimated axes show it.
     MilliGal shake;
 };
 

@@ -45,8 +45,8 @@ struct VerdictRecord {
     std::vector<Allowed> truth;     ///< Once a second.
 };
 
-/// @param switched_on_to  the oven's set point from the start of the record on, where it has been at
-///                        the scenario's before.
+/// @param switched_on_to  the oven's set point from the start of the record on; before, it was at
+///                        the scenario's.
 [[nodiscard]] VerdictRecord verdict_record(const Scenario& scenario, std::uint64_t seed,
                                            std::optional<DegC> switched_on_to = std::nullopt);
 

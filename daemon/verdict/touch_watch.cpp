@@ -1,0 +1,92 @@
+#include "daemon/verdict/touch_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace a351::daemon {
+namespace {
+
+constexpr double kStepSeconds = 2.0;
+constexpr std::size_t kMinute = 30;  ///< Samples.
+constexpr std::size_t kHour = 60;    ///< Minutes.
+constexpr std::size_t kUsualMinutes = 10;
+constexpr double kMilliGalPerGal = 1000.0;
+
+double rms_about_mean(const std::deque<double>& values) {
+    double mean = 0.0, square = 0.0;
+    for (const double value : values) mean += value;
+    mean /= static_cast<double>(values.size());
+    for (const double value : values) square += (value - mean) * (value - mean);
+    return std::sqrt(square / static_cast<double>(values.size()));
+}
+
+}  // namespace
+
+TouchWatch::TouchWatch(const VerdictOptions& options) : options_(options) {}
+
+void TouchWatch::take(const LiveSample& sample) {
+    follow_shake(sample);
+    const double x = sample.axes[0].value(), y = sample.axes[1].value(), z = sample.axes[2].value();
+    if (!std::isfinite(x + y + z) || !is_clean(sample)) return;
+    follow_tilt(sample);
+    follow_noise(sample);
+}
+
+bool TouchWatch::is_clean(const LiveSample& sample) const noexcept {
+    return !last_shaken_ || seconds_between(*last_shaken_, sample.time) > kReachSeconds;
+}
+
+void TouchWatch::follow_shake(const LiveSample& sample) {
+    if (!(sample.shake.value() > kMilliGalPerGal * options_.knock_gal)) {
+        knock_begun_.reset();
+        return;
+    }
+    if (!knock_begun_) knock_begun_ = sample.seen_at - from_seconds(kStepSeconds);
+    last_knock_ = last_shaken_ = sample.seen_at;
+    if (seconds_between(*knock_begun_, sample.seen_at) > options_.handled_s) {
+        last_handled_ = sample.seen_at;
+    }
+}
+
+/// The axes of a minute ago against those of now.
+void TouchWatch::follow_tilt(const LiveSample& sample) {
+    tilts_mgal_.push_back({sample.axes[0].value(), sample.axes[1].value()});
+    if (tilts_mgal_.size() <= kMinute) return;
+    const double x = tilts_mgal_.back()[0] - tilts_mgal_.front()[0];
+    const double y = tilts_mgal_.back()[1] - tilts_mgal_.front()[1];
+    tilts_mgal_.pop_front();
+    const double most_mgal =
+        kMilliGalPerStandardGravity * options_.tilt_deg * std::numbers::pi / 180.0;
+    if (std::hypot(x, y) > most_mgal) {
+        last_handled_ = last_knock_ = sample.seen_at;
+        tilts_mgal_.clear();
+        norms_mgal_.clear();
+    }
+}
+
+void TouchWatch::follow_noise(const LiveSample& sample) {
+    norms_mgal_.push_back(
+        std::hypot(sample.axes[0].value(), sample.axes[1].value(), sample.axes[2].value()));
+    if (norms_mgal_.size() > kMinute) norms_mgal_.pop_front();
+    if (norms_mgal_.size() < kMinute) {
+        noise_mgal_ = 0.0;
+        return;
+    }
+    noise_mgal_ = rms_about_mean(norms_mgal_);
+    if (++since_minute_ < static_cast<int>(kMinute)) return;
+    since_minute_ = 0;
+    minutes_mgal_.push_back(noise_mgal_);
+    if (minutes_mgal_.size() > kHour) minutes_mgal_.pop_front();
+}
+
+double TouchWatch::noise_ratio() const noexcept {
+    if (minutes_mgal_.size() < kUsualMinutes) return 1.0;
+    std::vector<double> sorted(minutes_mgal_.begin(), minutes_mgal_.end());
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    return noise_mgal_ / std::max(*middle, options_.noise_floor_mgal);
+}
+
+}  // namespace a351::daemon

@@ -1,0 +1,92 @@
+#include "daemon/verdict/running_value.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+namespace a351::daemon {
+namespace {
+
+const UtcTime kStart{std::chrono::hours(400000)};
+
+LiveSample sample(double at_s, double mgal) {
+    LiveSample sample;
+    sample.time = kStart + from_seconds(at_s);
+    sample.seen_at = sample.time + from_seconds(10.0);
+    sample.axes = {MilliGal(0.6 * mgal), MilliGal(0.0), MilliGal(0.8 * mgal)};
+    sample.temperature = DegC(42.5);
+    sample.shake = MilliGal(50.0);
+    return sample;
+}
+
+TEST_CASE("the running value is the mean of the norm", "[verdict][running]") {
+    RunningValue running({}, kStart);
+    CHECK_FALSE(running.reading(MilliGal(1.0), VerdictState::stable).value);
+    for (int i = 0; i < 405; ++i)
+        running.take(sample(2.0 * i, 980000.0 + (i % 2 == 0 ? 1.0 : -1.0)));
+    const RunningReading reading = running.reading(MilliGal(1.0), VerdictState::stable);
+    CHECK(reading.value->value() == Approx(980000.0).margin(1e-6));
+    CHECK(reading.used_s == 800.0);  // The first 10 s reach back before the start.
+    CHECK(reading.left_out_s == 0.0);
+    // No scatter: what is left is the cycle's, 6 / sqrt 8 x 900 / (800 pi).
+    CHECK(reading.standard_error->value() == Approx(0.7596).margin(1e-4));
+    CHECK(reading.is_good_enough);
+    CHECK(reading.needed_s == 0.0);
+}
+
+TEST_CASE("the time still needed is the time that it takes", "[verdict][running]") {
+    RunningValue running({}, kStart);
+    const auto value_at = [](int i) { return 980000.0 + 0.8 * ((i / 30) % 2 == 0 ? 1.0 : -1.0); };
+    int i = 5;
+    for (; i < 155; ++i) running.take(sample(2.0 * i, value_at(i)));
+    const RunningReading early = running.reading(MilliGal(0.9), VerdictState::stable);
+    REQUIRE(early.needed_s);
+    CHECK_FALSE(early.is_good_enough);
+    const double promised_s = early.used_s + *early.needed_s;
+    RunningReading reading = early;
+    for (; !reading.is_good_enough; ++i) {
+        running.take(sample(2.0 * i, value_at(i)));
+        reading = running.reading(MilliGal(0.9), VerdictState::stable);
+    }
+    CHECK(reading.used_s == Approx(promised_s).margin(20.0));
+}
+
+TEST_CASE("good enough needs a stable verdict and three minutes", "[verdict][running]") {
+    RunningValue running({}, kStart);
+    int i = 5;
+    for (; i < 94; ++i) running.take(sample(2.0 * i, 980000.0));
+    CHECK_FALSE(running.reading(MilliGal(5.0), VerdictState::stable).standard_error);
+    for (; i < 700; ++i) running.take(sample(2.0 * i, 980000.0));
+    CHECK(running.reading(MilliGal(1.0), VerdictState::stable).is_good_enough);
+    const RunningReading unsettled = running.reading(MilliGal(1.0), VerdictState::settling);
+    CHECK_FALSE(unsettled.is_good_enough);
+    CHECK_FALSE(unsettled.needed_s);
+    CHECK(unsettled.standard_error);
+}
+
+TEST_CASE("a knock and what it reaches stay out of the running value", "[verdict][running]") {
+    RunningValue running({}, kStart);
+    for (int i = 5; i < 300; ++i) {
+        // Shaken from 400 to 402 s; the filters spread it to 9 s on either side.
+        LiveSample one = sample(2.0 * i, std::abs(2.0 * i - 401.0) < 10.0 ? 985000.0 : 980000.0);
+        if (i == 196) one.shake = MilliGal(8000.0);  // Seen at 402 s.
+        running.take(one);
+    }
+    const RunningReading reading = running.reading(MilliGal(1.0), VerdictState::stable);
+    CHECK(reading.value->value() == Approx(980000.0).margin(1e-6));
+    CHECK(reading.left_out_s == 20.0);
+}
+
+TEST_CASE("a missing sample is left out", "[verdict][running]") {
+    RunningValue running({}, kStart);
+    for (int i = 5; i < 300; ++i) {
+        running.take(
+            sample(2.0 * i, i == 100 ? std::numeric_limits<double>::quiet_NaN() : 980000.0));
+    }
+    const RunningReading reading = running.reading(MilliGal(1.0), VerdictState::stable);
+    CHECK(reading.value->value() == Approx(980000.0).margin(1e-6));
+    CHECK(reading.left_out_s == 2.0);
+}
+
+}  // namespace
+}  // namespace a351::daemon

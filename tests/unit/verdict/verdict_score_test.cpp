@@ -1,0 +1,44 @@
+#include "tests/support/verdict_score.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+namespace a351::sim {
+namespace {
+
+using daemon::VerdictState;
+
+TEST_CASE("early, late and false verdicts are told apart", "[verdict][truth]") {
+    std::vector<Allowed> truth(1000, Allowed::no);
+    std::fill(truth.begin() + 500, truth.begin() + 900, Allowed::yes);
+    std::vector<VerdictState> told(1000, VerdictState::settling);
+
+    SECTION("a minute before the truth is not early") {
+        std::fill(told.begin() + 440, told.end(), VerdictState::stable);
+        const VerdictScore result = score(told, truth);
+        CHECK(result.early_s.empty());
+        CHECK(result.delays_s == std::vector<double>{0.0});
+        CHECK(result.false_s == 160.0);
+        CHECK(result.stable_s == 560.0);
+    }
+    SECTION("more is") {
+        std::fill(told.begin() + 439, told.end(), VerdictState::stable);
+        CHECK(score(told, truth).early_s == std::vector<double>{439.0});
+    }
+    SECTION("late is a delay") {
+        std::fill(told.begin() + 620, told.end(), VerdictState::stable);
+        CHECK(score(told, truth).delays_s == std::vector<double>{120.0});
+    }
+    SECTION("never is a delay without end") {
+        CHECK(std::isinf(score(told, truth).median_delay_s()));
+    }
+    SECTION("overtaken by a hand is false, not early") {
+        std::fill(told.begin() + 915, told.end(), VerdictState::stable);
+        const VerdictScore result = score(told, truth);
+        CHECK(result.early_s.empty());
+        CHECK(result.false_s == 85.0);
+    }
+}
+
+}  // namespace
+}  // namespace a351::sim

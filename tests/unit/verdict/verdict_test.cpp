@@ -1,0 +1,245 @@
+#include "daemon/verdict/verdict.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace a351::daemon {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+const UtcTime kStart{std::chrono::hours(400000)};
+
+/// A settled oven that stands still, and what a test does to it.
+class Series {
+public:
+    double degc = 42.6, slope_degc_per_h = 0.0;
+    double shake_mgal = 60.0, x_mgal = 0.0, noise_mgal = 0.5;
+
+    explicit Series(const VerdictOptions& options = {}) : judge(options) {}
+
+    const Verdict& run(double seconds) {
+        for (const double end_s = now_s_ + seconds; now_s_ < end_s; now_s_ += 2.0)
+            judge.take(next());
+        return judge.verdict();
+    }
+
+    LiveSample next() {
+        degc += slope_degc_per_h * 2.0 / 3600.0;
+        LiveSample sample;
+        sample.time = kStart + from_seconds(now_s_);
+        sample.seen_at = sample.time + from_seconds(10.0);
+        const bool is_odd = ++count_ % 2 != 0;
+        sample.axes = {MilliGal(x_mgal), MilliGal(0.0),
+                       MilliGal(980000.0 + (is_odd ? noise_mgal : -noise_mgal))};
+        // The oven's cycle, and the last digit of a sensor that is alive.
+        sample.temperature = DegC(degc + 0.008 * std::sin(2.0 * std::numbers::pi * now_s_ / 900.0) +
+                                  (is_odd ? 1e-4 : -1e-4));
+        sample.shake = MilliGal(shake_mgal);
+        return sample;
+    }
+
+    void skip(double seconds) { now_s_ += seconds; }
+    [[nodiscard]] UtcTime now() const { return kStart + from_seconds(now_s_ + 10.0); }
+
+    VerdictJudge judge;
+
+private:
+    double now_s_ = 0.0;
+    int count_ = 0;
+};
+
+const Reason* find(const Verdict& verdict, std::string_view quantity) {
+    const auto found = std::find_if(verdict.reasons.begin(), verdict.reasons.end(),
+                                    [&](const Reason& r) { return r.quantity == quantity; });
+    return found == verdict.reasons.end() ? nullptr : &*found;
+}
+
+TEST_CASE("without a sample there is no data, and it says so", "[verdict]") {
+    VerdictJudge judge;
+    const Verdict& verdict = judge.at(kStart);
+    CHECK(verdict.state == VerdictState::no_data);
+    CHECK(verdict.since == kStart);
+    REQUIRE(verdict.reasons.size() == 1);
+    CHECK(verdict.reasons[0].to_text() == "good samples so far 0, at least 1");
+}
+
+TEST_CASE("a settled oven is stable once its temperature is known, cycle and all", "[verdict]") {
+    Series series;
+    CHECK(series.run(600.0).state == VerdictState::settling);
+    const Verdict early = series.judge.verdict();
+    const Reason* known = find(early, "temperature known for");
+    REQUIRE(known != nullptr);
+    CHECK(known->value == Approx(10.0).margin(0.5));
+    CHECK_FALSE(known->is_met);
+
+    CHECK(series.run(900.0).state == VerdictState::stable);
+    const UtcTime since = series.judge.verdict().since;
+    CHECK(series.run(3600.0).state == VerdictState::stable);
+    CHECK(series.judge.verdict().since == since);
+    for (const Reason& reason : series.judge.verdict().reasons) CHECK(reason.is_met);
+}
+
+TEST_CASE("a temperature that moves is settling, with slope and change as numbers", "[verdict]") {
+    Series series;
+    series.run(3600.0);
+    series.slope_degc_per_h = 0.5;
+    const Verdict& verdict = series.run(1800.0);
+    CHECK(verdict.state == VerdictState::settling);
+    const Reason& first = verdict.reasons.front();
+    CHECK_FALSE(first.is_met);
+    CHECK(find(verdict, "temperature slope")->value == Approx(0.5).margin(0.02));
+    CHECK(find(verdict, "temperature slope")->to_text().find("degC/h, limit") != std::string::npos);
+    CHECK(find(verdict, "reading changes in 10 min by")->value > 2.0);
+
+    series.slope_degc_per_h = 0.0;
+    CHECK(series.run(2400.0).state == VerdictState::stable);
+}
+
+TEST_CASE("a limit is lower on the way to stable than on the way from it", "[verdict]") {
+    // 0.2 degC/h lies between 0.65 x 0.25 and 0.25.
+    Series settling;
+    settling.slope_degc_per_h = 0.2;
+    CHECK(settling.run(3600.0).state == VerdictState::settling);
+
+    Series stable;
+    stable.run(3600.0);
+    for (int i = 1; i <= 20; ++i) {
+        stable.slope_degc_per_h = 0.01 * i;
+        CHECK(stable.run(300.0).state == VerdictState::stable);
+    }
+    stable.slope_degc_per_h = 0.35;
+    CHECK(stable.run(1800.0).state == VerdictState::settling);
+}
+
+TEST_CASE("a sudden bend is seen before the slope is", "[verdict]") {
+    Series series;
+    series.run(3600.0);
+    series.slope_degc_per_h = 1.0;
+    double waited_s = 0.0;
+    for (; series.run(10.0).state == VerdictState::stable; waited_s += 10.0)
+        REQUIRE(waited_s < 600.0);
+    CHECK(series.judge.verdict().state == VerdictState::settling);
+    CHECK(waited_s < 150.0);
+}
+
+TEST_CASE("a knock disturbs for a minute, a hand for the time that a lid shows", "[verdict]") {
+    Series series;
+    series.run(3600.0);
+    series.shake_mgal = 5000.0;
+    const auto [length_s, quiet_s] = GENERATE(std::pair(4.0, 60.0), std::pair(20.0, 200.0));
+    CHECK(series.run(length_s).state == VerdictState::disturbed);
+    CHECK_FALSE(series.judge.verdict().reasons.front().is_met);
+    series.shake_mgal = 60.0;
+    CHECK(series.run(quiet_s - 4.0).state == VerdictState::disturbed);
+    CHECK(series.run(8.0).state == VerdictState::stable);
+}
+
+TEST_CASE("traffic below the threshold is no knock", "[verdict]") {
+    Series series;
+    series.run(3600.0);
+    series.shake_mgal = 1900.0;
+    CHECK(series.run(600.0).state == VerdictState::stable);
+}
+
+TEST_CASE("another tilt is another place", "[verdict]") {
+    Series series;
+    series.run(3600.0);
+    series.x_mgal = 300.0;  // 0.0175 degrees: within what stays.
+    CHECK(series.run(120.0).state == VerdictState::stable);
+    series.x_mgal = 1000.0;
+    CHECK(series.run(10.0).state == VerdictState::disturbed);
+    CHECK(find(series.judge.verdict(), "since a hand at the box") != nullptr);
+    CHECK(series.run(300.0).state == VerdictState::stable);
+}
+
+TEST_CASE("noise far above its usual level disturbs", "[verdict]") {
+    Series series;
+    series.run(3600.0);
+    series.noise_mgal = 10.0;
+    CHECK(series.run(120.0).state == VerdictState::disturbed);
+    CHECK(find(series.judge.verdict(), "noise to its usual level")->value ==
+          Approx(10.0).margin(0.5));
+    series.noise_mgal = 0.5;
+    CHECK(series.run(120.0).state == VerdictState::stable);
+}
+
+TEST_CASE("a cold box is warming up, and for hours after it is warm", "[verdict]") {
+    Series series;
+    series.degc = 40.0;
+    series.slope_degc_per_h = 5.0;
+    CHECK(series.run(1500.0).state == VerdictState::warming_up);
+    series.run(300.0);
+    series.slope_degc_per_h = 0.0;  // 42.5 degC from here on, half an hour after the first sample.
+    CHECK(series.run(1800.0).state == VerdictState::warming_up);
+    CHECK(find(series.judge.verdict(), "since power-on")->value == Approx(1.0).margin(0.01));
+    CHECK(series.run(10000.0).state == VerdictState::stable);
+}
+
+TEST_CASE("a power-on that is told counts", "[verdict]") {
+    Series series;
+    series.judge.switched_on(kStart);
+    CHECK(series.run(2400.0).state == VerdictState::warming_up);
+}
+
+TEST_CASE("a gap is no data after its limit, and steadiness is known again after it", "[verdict]") {
+    Series series;
+    series.run(3600.0);
+    const UtcTime last = series.judge.verdict().since;
+    CHECK(series.judge.at(series.now() + from_seconds(7.0)).state == VerdictState::stable);
+    const Verdict& verdict = series.judge.at(series.now() + from_seconds(9.0));
+    CHECK(verdict.state == VerdictState::no_data);
+    CHECK(verdict.since > last);
+    CHECK(verdict.reasons.front().to_text().rfind("last good sample", 0) == 0);
+
+    series.skip(60.0);
+    CHECK(series.run(30.0).state == VerdictState::stable);
+    series.skip(1200.0);
+    CHECK(series.run(30.0).state == VerdictState::settling);
+    CHECK(series.run(1500.0).state == VerdictState::stable);
+}
+
+TEST_CASE("values that are not numbers are no data", "[verdict]") {
+    Series series;
+    series.run(3600.0);
+    const bool is_axis = GENERATE(true, false);
+    for (int i = 0; i < 10; ++i) {
+        LiveSample sample = series.next();
+        if (is_axis) {
+            sample.axes[1] = MilliGal(kNan);
+        } else {
+            sample.temperature = DegC(kNan);
+        }
+        series.judge.take(sample);
+        series.skip(2.0);
+    }
+    CHECK(series.judge.verdict().state == VerdictState::no_data);
+    CHECK(series.run(60.0).state == VerdictState::stable);
+}
+
+TEST_CASE("a stuck temperature is no data", "[verdict]") {
+    Series series;
+    series.run(3600.0);
+    for (int i = 0; i < 40; ++i) {
+        LiveSample sample = series.next();
+        sample.temperature = DegC(42.6);
+        series.judge.take(sample);
+        series.skip(2.0);
+    }
+    CHECK(series.judge.verdict().state == VerdictState::no_data);
+    CHECK(find(series.judge.verdict(), "temperature the same for") != nullptr);
+    CHECK(series.run(30.0).state == VerdictState::stable);
+}
+
+TEST_CASE("time that goes backwards starts the history anew", "[verdict]") {
+    Series series;
+    series.run(3600.0);
+    series.skip(-1800.0);
+    CHECK(series.run(60.0).state == VerdictState::settling);
+    CHECK(series.run(1500.0).state == VerdictState::stable);
+}
+
+}  // namespace
+}  // namespace a351::daemon
