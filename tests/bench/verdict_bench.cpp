@@ -3,7 +3,8 @@
 ///
 ///     verdict_bench [FIRST LAST [DAYS]]     cases of these seeds; default 51 250 5
 ///
-/// Thresholds were chosen on seeds 1 to 50.
+/// Thresholds were chosen on seeds 1 to 50; 51 to 250 have been looked at once, with these: 5 of 1528
+/// early, median delay 198 s, false 1.46 %.  Who chooses anew takes others for the final figure.
 
 #include <array>
 #include <cmath>
