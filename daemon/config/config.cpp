@@ -4,6 +4,7 @@
 #include <charconv>
 #include <set>
 
+#include "daemon/config/verdict_config.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/strict_toml.hpp"
 
@@ -265,8 +266,7 @@ Config read_config(const std::filesystem::path& file) {
     config.storage = read_storage(root.table("storage"), config.sensor.settings.output_rate_hz);
     config.page = read_page(root.table("page"));
     config.survey = read_survey(root.table("survey"));
-    // No threshold exists yet: any key is refused.
-    root.table("verdict").require_all_read();
+    config.verdict = read_verdict(root.table("verdict"));
     root.require_all_read();
     return config;
 }

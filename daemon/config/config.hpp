@@ -11,6 +11,7 @@
 #include "daemon/config/listen_address.hpp"
 #include "daemon/source/oven_link.hpp"
 #include "daemon/source/port.hpp"
+#include "daemon/verdict/verdict_options.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/record/journal.hpp"
 #include "protocol/text/sites.hpp"
@@ -58,6 +59,7 @@ struct Config {
     StorageConfig storage;
     PageConfig page;
     SurveyConfig survey;
+    VerdictOptions verdict;
 };
 
 /// Reads the file; paths in it are relative to its directory.

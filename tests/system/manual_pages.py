@@ -29,7 +29,7 @@ for program, (page, commands) in PAGES.items():
 
 page_text = (TOP / "daemon" / "a351d.toml.5").read_text()
 position = "[station]\nlatitude = 36.2\nlongitude = 140.1\nelevation_m = 400.0\n"
-for table in ("station", "sensor", "oven", "storage", "page", "survey"):
+for table in ("station", "sensor", "oven", "storage", "page", "survey", "verdict"):
     with Scratch() as scratch:
         text = position + "[sensor]\nport = \"p\"\n[storage]\nroot = \"d\"\n"
         header = f"[{table}]\n"

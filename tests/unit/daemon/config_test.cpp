@@ -68,6 +68,7 @@ TEST_CASE("the annotated example is accepted", "[daemon][config]") {
     const Config config = read_config(example);
     CHECK(config.sensor.baud == 460800);
     CHECK(config.survey.sites.empty());
+    CHECK(config.verdict == VerdictOptions{});
 }
 
 TEST_CASE_METHOD(Fixture, "every key that is documented is accepted and read", "[daemon][config]") {
@@ -81,7 +82,8 @@ TEST_CASE_METHOD(Fixture, "every key that is documented is accepted and read", "
         "2\n"
         "[storage]\nroot=\"/var/lib/a351\"\ndeclared_rate_hz=100.0005\njournal_keep_days=0\n"
         "[page]\nlisten=\"127.0.0.1:0\"\nhosts=[\"box\"]\ntoken=\"sixteen-or-longer\"\n"
-        "[survey]\nsites=\"sites.csv\"\ncalibration=\"\"\n[verdict]\n");
+        "[survey]\nsites=\"sites.csv\"\ncalibration=\"\"\n"
+        "[verdict]\nslope_degc_per_h=0.4\nknock_gal=3\n");
     CHECK(config.station.codes == record::StationCodes{"JP", "TKB", "", {"Z", "1", "2"}});
     CHECK(config.sensor.address.usb == UsbAddress{0x0403, 0x6001, "A:5"});
     CHECK(config.sensor.settings.filter_code == 7);
@@ -95,6 +97,10 @@ TEST_CASE_METHOD(Fixture, "every key that is documented is accepted and read", "
     CHECK(config.storage.declared_rate_hz == 100.0005);
     CHECK(config.storage.root == "/var/lib/a351");
     REQUIRE(config.survey.sites.size() == 1);
+    VerdictOptions verdict;
+    verdict.slope_degc_per_h = 0.4;
+    verdict.knock_gal = 3.0;
+    CHECK(config.verdict == verdict);
 }
 
 TEST_CASE_METHOD(Fixture,
@@ -148,8 +154,11 @@ TEST_CASE_METHOD(Fixture,
     CHECK(refusal(kStation + kSensor + kStorage + "[survey]\nsites = \"no.csv\"\n") ==
           "a351d.toml:10: survey.sites = 'no.csv': no such file: no.csv; allowed: a CSV of sites, "
           "or \"\"");
-    CHECK(refusal(kStation + kSensor + kStorage + "[verdict]\nslope = 1\n") ==
-          "a351d.toml:10: verdict.slope = 1: unknown key; allowed: ");
+    CHECK_THAT(refusal(kStation + kSensor + kStorage + "[verdict]\nslope = 1\n"),
+               Catch::StartsWith("a351d.toml:10: verdict.slope = 1: unknown key; allowed: ") &&
+                   Catch::Contains("slope_degc_per_h"));
+    CHECK_THAT(refusal(kStation + kSensor + kStorage + "[verdict]\nenter_share = 1.5\n"),
+               Catch::StartsWith("a351d.toml:10: verdict.enter_share = 1.5: out of range"));
     CHECK(refusal(kStation + kSensor + "[storage]\n") ==
           "a351d.toml:7: storage.root: missing; allowed: the directory of the record");
 }
