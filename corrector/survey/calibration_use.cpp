@@ -40,8 +40,11 @@ std::string name_of(const Calibration& calibration) {
            ", from " + to_rfc3339(calibration.valid_from) + ")";
 }
 
-void remark_contradiction(SurveyCorrection& result, const std::string& part,
-                          const std::optional<Disagreement>& test) {
+void remark_test(SurveyCorrection& result, const std::string& part,
+                 const std::optional<Disagreement>& test) {
+    if (!test)
+        result.remarks.push_back("the calibration's " + part +
+                                 " not tested: the readings say nothing beside it");
     if (!is_contradicted(test)) return;
     result.remarks.push_back("the readings contradict the calibration's " + part + ": chi-square " +
                              fixed(test->chi_square, 1) + " for " + std::to_string(test->dof) +
@@ -57,8 +60,9 @@ Json part_json(bool is_there, bool is_used, const char* use,
               {"chi_square", nullptr},
               {"dof", nullptr},
               {"p", nullptr},
-              {"contradicted", is_contradicted(test)}};
+              {"contradicted", nullptr}};
     if (test) {
+        json["contradicted"] = is_contradicted(test);
         json["chi_square"] = test->chi_square;
         json["dof"] = test->dof;
         json["p"] = test->p;
@@ -84,19 +88,28 @@ DayPriors day_priors_of(const std::optional<Calibration>& calibration) {
 
 // What the day's data, alone, say of the shift has the covariance D + 1 about 0 when the prior is
 // true; the posterior mean is D of the way there, with D = 1 - posterior covariance, and its own
-// covariance is D.  Directions with D near 0 are those the day is silent about.
+// covariance is D.  Where D is 0 the day is silent.
 std::optional<Disagreement> disagreement(const DayFit& fit,
                                          const std::vector<Eigen::Index>& places) {
-    constexpr double kSilent = 1e-4;  // the day is a hundred times less certain than the prior
+    // What D must exceed for the shift to be one.  A prior that is tight and wrong makes D small,
+    // for the noise takes the disagreement: terms, which are solved for, have the floor of rounding,
+    // lags ten times the 1e-3 to which they are searched for.
+    constexpr double kLeastOfTerm = 1e-10, kLeastOfLag = 1e-4;
     const auto count = static_cast<Eigen::Index>(places.size());
+    Eigen::VectorXd scale(count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const bool is_lag = places[static_cast<std::size_t>(k)] < Eigen::Index{kDayLags};
+        scale(k) = 1.0 / std::sqrt(is_lag ? kLeastOfLag : kLeastOfTerm);
+    }
     const Eigen::MatrixXd gained = Eigen::MatrixXd::Identity(count, count) -
                                    Eigen::MatrixXd(fit.shift_covariance(places, places));
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(gained);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(scale.asDiagonal() * gained *
+                                                              scale.asDiagonal());
     const Eigen::VectorXd along =
-        axes.eigenvectors().transpose() * Eigen::VectorXd(fit.shift(places));
+        axes.eigenvectors().transpose() * scale.cwiseProduct(Eigen::VectorXd(fit.shift(places)));
     Disagreement test;
     for (Eigen::Index k = 0; k < count; ++k) {
-        if (axes.eigenvalues()(k) < kSilent) continue;
+        if (axes.eigenvalues()(k) < 1.0) continue;
         test.chi_square += along(k) * along(k) / axes.eigenvalues()(k);
         ++test.dof;
     }
@@ -124,8 +137,8 @@ void tell_prior_use(SurveyCorrection& result, const DayRecord& day,
         (calibration.thermal ? ", thermal response with twice its errors"
                              : ", no thermal response") +
         "; it changes corrected values by " + fixed(use.effect_rms_mgal, 2) + " mGal rms");
-    remark_contradiction(result, "axis biases", use.axis_bias);
-    remark_contradiction(result, "thermal response", use.thermal);
+    if (calibration.axis_bias) remark_test(result, "axis biases", use.axis_bias);
+    if (calibration.thermal) remark_test(result, "thermal response", use.thermal);
     result.calibration = use;
 }
 

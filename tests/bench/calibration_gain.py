@@ -106,7 +106,7 @@ def left_out_error(out):
 
 
 def is_contradicted(out, part):
-    return read_json(out / "result.json")["calibration"][part]["contradicted"]
+    return read_json(out / "result.json")["calibration"][part]["contradicted"] is True
 
 
 def hide_all_but_datum(day):

@@ -111,6 +111,34 @@ TEST_CASE("a day agrees with its unit's calibration and contradicts another's",
     CHECK(has_remark(other, "contradict the calibration's thermal response"));
 }
 
+TEST_CASE("the better a wrong calibration seems to be known, the more it is contradicted",
+          "[survey][calibration]") {
+    const DayRecord day = kDay.record();
+    const auto rows = rows_of(day);
+    for (const double variance : {221.0, 110.0, 1.0, 0.01}) {
+        CAPTURE(variance);
+        Calibration known = calibration(kDay.x + 5000.0);  // 10 mGal where the tilt is 0.1 deg
+        known.axis_bias->covariance = Eigen::Vector2d(variance, variance).asDiagonal();
+        const auto result = correct_with_calibration(rows, with(known, "day"), &day);
+        REQUIRE(result.calibration->axis_bias);
+        CHECK(result.calibration->axis_bias->p < kContradictionP);
+        CHECK(has_remark(result, "contradict the calibration's axis biases"));
+    }
+}
+
+TEST_CASE("a calibration about which the day says nothing is not tested", "[survey][calibration]") {
+    DayRecord day = kDay.record();
+    for (DayBin& bin : day.bins) bin.x = StandardGravity(0.0);
+    Calibration known = calibration();
+    known.thermal = thermal(kDay);
+    const auto result = correct_with_calibration(rows_of(day), with(known, "day"), &day);
+    CHECK_FALSE(result.calibration->axis_bias);
+    CHECK(calibration_json(result)["axis_bias"]["contradicted"].is_null());
+    CHECK(calibration_json(result)["thermal"]["contradicted"] == false);
+    CHECK(has_remark(result, "axis biases not tested"));
+    CHECK_FALSE(has_remark(result, "thermal response not tested"));
+}
+
 TEST_CASE("with a calibration one datum will do for the whole-day model", "[survey][calibration]") {
     const DayRecord day = kDay.record();
     auto rows = rows_of(day);
@@ -145,6 +173,7 @@ TEST_CASE("other models read what tilt has not changed", "[survey][calibration]"
     REQUIRE(result.calibration);
     CHECK_FALSE(result.calibration->is_prior);
     CHECK(calibration_json(result)["axis_bias"]["use"] == "fixed");
+    CHECK(calibration_json(result)["axis_bias"]["contradicted"].is_null());
     CHECK(calibration_json(result)["thermal"].is_null());
     SurveyOptions without;
     without.model = "t";
