@@ -72,6 +72,10 @@ Json part_json(bool is_there, bool is_used, const char* use,
 
 }  // namespace
 
+bool says_of_day(const std::optional<Calibration>& calibration) {
+    return calibration && (calibration->axis_bias || calibration->thermal);
+}
+
 DayPriors day_priors_of(const std::optional<Calibration>& calibration) {
     DayPriors priors = usual_day_priors();
     if (calibration && calibration->axis_bias) {

@@ -21,6 +21,9 @@ inline constexpr double kThermalErrorFactor = 2.0;
 /// Readings that differ so much from the calibration by chance once in a hundred contradict it.
 inline constexpr double kContradictionP = 0.01;
 
+/// Whether it has axis biases or a thermal response; a time to warm up is of no use to a day.
+[[nodiscard]] bool says_of_day(const std::optional<Calibration>& calibration);
+
 /// The usual priors and what the calibration adds to them.
 [[nodiscard]] DayPriors day_priors_of(const std::optional<Calibration>& calibration);
 

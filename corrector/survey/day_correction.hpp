@@ -13,7 +13,7 @@ namespace a351::corrector {
 
 /// Why the whole-day model cannot be fitted to these rows; std::nullopt when it can.
 /// @param in_use         one per row.
-/// @param is_calibrated  what few rows cannot say is known: one will do.
+/// @param is_calibrated  says_of_day(): what few rows cannot say is known: one will do.
 [[nodiscard]] std::optional<std::string> day_refusal(const std::vector<SurveyRow>& rows,
                                                      const std::vector<bool>& in_use,
                                                      const DayRecord* day, bool is_calibrated);

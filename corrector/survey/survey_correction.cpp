@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corrector/survey/calibration_use.hpp"
 #include "corrector/survey/day_correction.hpp"
 #include "corrector/survey/network_correction.hpp"
 #include "corrector/survey/outlier_tests.hpp"
@@ -300,7 +301,7 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
 
     const std::vector<SurveyRow> used = chosen_rows(rows, in_use);
     result.model = options.model;
-    auto refusal = day_refusal(rows, in_use, day, options.calibration.has_value());
+    auto refusal = day_refusal(rows, in_use, day, says_of_day(options.calibration));
     if (!refusal && has_any(priors)) refusal = "has priors of its own, `prior` would be lost";
     if (options.model == "day" && refusal) {
         throw InputError("model = day: " + *refusal + "; allowed: another model");

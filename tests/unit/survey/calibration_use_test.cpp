@@ -151,8 +151,12 @@ TEST_CASE("with a calibration one datum will do for the whole-day model", "[surv
         const int number = std::stoi(station.site.substr(1));
         CHECK(station.gravity.value() == Approx(979900.0 + 13.0 * number).margin(6.0));
     }
-    options.calibration.reset();
     options.model = "day";
+    options.calibration->axis_bias.reset();
+    options.calibration->warm_up.emplace();  // which says nothing of the day
+    CHECK_THROWS_WITH(correct_with_calibration(rows, options, &day),
+                      Catch::Contains("needs at least 6 rows"));
+    options.calibration.reset();
     CHECK_THROWS_WITH(correct_with_calibration(rows, options, &day),
                       Catch::Contains("needs at least 6 rows"));
 }
