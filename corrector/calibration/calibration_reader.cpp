@@ -1,16 +1,32 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
+#include <limits>
 
 #include "corrector/calibration/calibration.hpp"
+#include "protocol/text/csv.hpp"
 #include "protocol/text/strict_toml.hpp"
 #include "protocol/text/text_file.hpp"
 
 namespace a351::corrector {
 namespace {
 
-/// Of any value or covariance here; beyond, a product with temperatures means nothing.
-constexpr double kGreatestNumber = 1e12;
+/// Of any covariance here; beyond, it says nothing.
+constexpr double kGreatestCovariance = 1e12;
 constexpr double kLongestWarmUp_h = 1000.0;
+
+struct Range {
+    double low, high;
+};
+
+/// A tenth of g along the axis, fifty times what was seen.
+constexpr Range kBiasRange{-1e5, 1e5};
+constexpr std::array<Range, 2> kAxisBiasRanges{kBiasRange, kBiasRange};
+
+/// A thousand times what was seen; lags from 1 s to two days.
+constexpr Range kSlopeRange{-1e4, 1e4}, kLagRange{0.0, 12.0};
+constexpr std::array<Range, 5> kThermalRanges{kSlopeRange, kSlopeRange, kSlopeRange, kLagRange,
+                                              kLagRange};
 
 std::string required(text::TomlTable& table, std::string_view key) {
     std::string value = table.string_or(key, "");
@@ -32,10 +48,24 @@ double required_number(text::TomlTable& table, std::string_view key, double low,
     return *value;
 }
 
-template <int kCount, typename Names>
-std::optional<CalibratedCoefficients<kCount>> coefficients_of(text::TomlTable& document,
-                                                              std::string_view name,
-                                                              const Names& names) {
+template <std::size_t kSize>
+void require_in_range(const text::TomlTable& table, const std::vector<double>& values,
+                      const std::array<std::string_view, kSize>& names,
+                      const std::array<Range, kSize>& ranges) {
+    for (std::size_t k = 0; k < kSize; ++k) {
+        const auto [low, high] = ranges.at(k);
+        if (values[k] >= low && values[k] <= high) continue;
+        std::string trouble(names.at(k));
+        trouble += " = " + text::shortest(values[k]) + ": out of range";
+        table.refuse("values", trouble, text::shortest(low) + " to " + text::shortest(high));
+    }
+}
+
+template <int kCount, std::size_t kSize>
+std::optional<CalibratedCoefficients<kCount>> coefficients_of(
+    text::TomlTable& document, std::string_view name,
+    const std::array<std::string_view, kSize>& names, const std::array<Range, kSize>& ranges) {
+    static_assert(kSize == std::size_t{kCount});
     if (!document.has(name)) return std::nullopt;
     text::TomlTable table = document.table(name);
     const std::vector<std::string> found = table.strings("coefficients");
@@ -45,15 +75,17 @@ std::optional<CalibratedCoefficients<kCount>> coefficients_of(text::TomlTable& d
             allowed += (allowed.empty() ? "" : ", ") + std::string(one);
         table.refuse("coefficients", "not those of this table, in this order", allowed);
     }
-    const auto values = table.numbers("values", -kGreatestNumber, kGreatestNumber);
-    const auto covariance = table.numbers("covariance", -kGreatestNumber, kGreatestNumber);
+    constexpr double kAny = std::numeric_limits<double>::max();
+    const auto values = table.numbers("values", -kAny, kAny);
+    const auto covariance = table.numbers("covariance", -kGreatestCovariance, kGreatestCovariance);
     table.require_all_read();
     const auto require_count = [&table](std::string_view key, std::size_t has, std::size_t wants) {
         if (has != wants)
             table.refuse(key, std::to_string(has) + " numbers", std::to_string(wants) + " numbers");
     };
-    require_count("values", values.size(), kCount);
-    require_count("covariance", covariance.size(), std::size_t{kCount} * kCount);
+    require_count("values", values.size(), kSize);
+    require_count("covariance", covariance.size(), kSize * kSize);
+    require_in_range(table, values, names, ranges);
 
     CalibratedCoefficients<kCount> part;
     using Matrix = Eigen::Matrix<double, kCount, kCount, Eigen::RowMajor>;
@@ -95,8 +127,9 @@ Calibration parse_calibration(std::string text, std::filesystem::path origin) {
     if (calibration.valid_to && *calibration.valid_to <= *from)
         document.refuse("valid_to_utc", "not after valid_from_utc", "a later instant");
     calibration.data = data_of(document);
-    calibration.axis_bias = coefficients_of<2>(document, "axis_bias", kAxisBiasNames);
-    calibration.thermal = coefficients_of<5>(document, "thermal", kThermalNames);
+    calibration.axis_bias =
+        coefficients_of<2>(document, "axis_bias", kAxisBiasNames, kAxisBiasRanges);
+    calibration.thermal = coefficients_of<5>(document, "thermal", kThermalNames, kThermalRanges);
     if (document.has("warm_up")) {
         text::TomlTable table = document.table("warm_up");
         calibration.warm_up = {required_number(table, "within_mgal", 1e-3, 1e3),

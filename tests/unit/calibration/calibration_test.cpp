@@ -72,6 +72,11 @@ TEST_CASE("what a calibration must not say is refused by file, line and key", "[
         {"\"x_mgal_per_g\", \"y_mgal_per_g\"", "\"y_mgal_per_g\", \"x_mgal_per_g\"",
          "axis_bias.coefficients"},
         {"values = [-12,", "values = [", "]: 4 numbers; allowed: 5 numbers"},
+        {"3.76, 7.9", "43, 2700", "thermal.values"},  // seconds in the place of their logarithms
+        {"3.76, 7.9", "43, 2700", "fast_lag_ln_s = 43: out of range; allowed: 0 to 12"},
+        {"3.76, 7.9", "3.76, -0.1", "slow_lag_ln_s = -0.1: out of range"},
+        {"-12, -20.1", "-12, -20100", "slow_temperature_mgal_per_degc = -20100: out of range"},
+        {"[-1234.5", "[-1234567.5", "x_mgal_per_g = -1234567"},
         {"311.1", "-311.1", "axis_bias.covariance"},
         {"311.1, -1e-17", "311.1, 1e-17", "a symmetric, positive definite matrix"},
         {"within_mgal = 0.5", "within_mgal = nan", "warm_up.within_mgal"},
