@@ -12,7 +12,11 @@ void DayPriors::observe(const std::vector<Eigen::Index>& places, const Eigen::Ve
     const Eigen::MatrixXd gain =
         innovation.llt().solve(Eigen::MatrixXd(before(places, Eigen::all))).transpose();
     mean += gain * (values - Eigen::VectorXd(mean(places)));
-    const Matrix after = before - gain * before(places, Eigen::all);
+    // In Joseph's form, which stays a covariance however exact the measurement is.
+    Matrix left = Matrix::Identity();
+    for (std::size_t k = 0; k < places.size(); ++k)
+        left.col(places[k]) -= gain.col(static_cast<Eigen::Index>(k));
+    const Matrix after = left * before * left.transpose() + gain * covariance * gain.transpose();
     factor = Matrix(0.5 * (after + after.transpose())).llt().matrixL();
 }
 

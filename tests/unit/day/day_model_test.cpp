@@ -145,6 +145,18 @@ TEST_CASE("priors that are known better hold what the day cannot tell", "[day]")
           Approx(fit->coefficients.at(static_cast<std::size_t>(DayTerm::slow)).standard_error));
 }
 
+TEST_CASE("a measurement may be as exact as it likes", "[day]") {
+    const auto x = DayPriors::place_of(DayTerm::x);
+    for (const double variance : {1.0, 1e-10, 1e-20}) {
+        DayPriors priors = usual_day_priors();
+        priors.observe({x}, Eigen::VectorXd::Constant(1, 900.0),
+                       Eigen::MatrixXd::Constant(1, 1, variance));
+        CHECK(priors.factor(x, x) == Approx(std::sqrt(variance)).epsilon(1e-5));
+        CHECK(priors.factor.allFinite());
+        CHECK(priors.mean(x) == Approx(900.0).margin(1e-3));
+    }
+}
+
 TEST_CASE("a lag that is tied to a slope takes it along", "[day]") {
     // The fast lag's logarithm moves by 1 when the slope does by 10.
     const MadeUpDay day;
