@@ -99,12 +99,13 @@ void calibrate(const CalibrateOptions& options) {
     if (!options.merge.empty()) take_over(calibration, options.merge);
     if (!options.valid_from.empty())
         calibration.valid_from = instant_option("--valid-from", options.valid_from);
-    if (!options.valid_to.empty()) {
+    if (!options.valid_to.empty())
         calibration.valid_to = instant_option("--valid-to", options.valid_to);
-        if (*calibration.valid_to <= calibration.valid_from)
-            throw InputError("--valid-to = " + options.valid_to + ": not after " +
-                             to_rfc3339(calibration.valid_from) + "; allowed: a later instant");
-    }
+    if (calibration.valid_to && *calibration.valid_to <= calibration.valid_from)
+        throw InputError(
+            (options.valid_to.empty() ? options.merge + ": valid_to_utc" : "--valid-to") + " = " +
+            to_rfc3339(*calibration.valid_to) + ": not after " +
+            to_rfc3339(calibration.valid_from) + "; allowed: a later instant, by --valid-to");
     const std::filesystem::path out = std::filesystem::absolute(options.out);
     write_together(out.parent_path(), {{out.filename().string(), to_toml(calibration)}});
     std::cout << "unit " << calibration.serial_number << ": written to " << options.out << '\n';

@@ -41,6 +41,15 @@ with Scratch() as scratch:
     correct("calibrate", "--tilt", "tilt-series", "--out", "again.toml", cwd=scratch)
     demand("a second run gives the same bytes", (scratch / "again.toml").read_text() == text)
 
+    (scratch / "ended.toml").write_text(text.replace("[axis_bias]", 'valid_to_utc = "2017-01-01T00:00:00Z"\n\n[axis_bias]', 1)
+                                        .replace('valid_from_utc = "2017', 'valid_from_utc = "2016'))
+    merge = ("calibrate", "--tilt", "tilt-series", "--merge", "ended.toml", "--out")
+    refused = correct(*merge, "merged.toml", check=False, cwd=scratch)
+    print(refused.stderr.strip())
+    demand("a validity that ended before the series is not taken over",
+           refused.returncode == 2 and "ended.toml: valid_to_utc" in refused.stderr and not (scratch / "merged.toml").exists())
+    correct(*merge, "merged.toml", "--valid-to", "2030-01-01T00:00:00Z", cwd=scratch)
+
     survey = ("survey", "tilted/survey.toml", "--out", "result", "--calibration")
     correct(*survey, "c.toml", cwd=scratch)
     result = read_json(scratch / "result" / "result.json")
