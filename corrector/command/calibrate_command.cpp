@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "corrector/calibration/sha256.hpp"
+#include "corrector/command/counted_readings.hpp"
 #include "corrector/command/option_values.hpp"
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/survey/aligned_text.hpp"
@@ -34,8 +35,15 @@ SurveyFile series_file(const std::filesystem::path& path) {
     return survey;
 }
 
+/// Lists every file once, however many series and calibrations have it.
+void list_data(Calibration& calibration, const CalibrationData& data) {
+    if (std::ranges::find(calibration.data, data) == calibration.data.end())
+        calibration.data.push_back(data);
+}
+
 /// Notes where the numbers come from: unit, files, the time of the first reading.
-void note_origin(Calibration& calibration, const OccupationRows& read, const std::string& file) {
+void note_origin(Calibration& calibration, CountedReadings& counted, const OccupationRows& read,
+                 const std::string& file) {
     if (read.serial_number.empty())
         throw InputError(file +
                          ": the station metadata do not tell the sensor's serial number; "
@@ -48,8 +56,13 @@ void note_origin(Calibration& calibration, const OccupationRows& read, const std
     const UtcTime start = read.rows.front().start.value_or(read.rows.front().time);
     calibration.valid_from =
         calibration.data.empty() ? start : std::min(calibration.valid_from, start);
-    for (const InputFile& input : read.inputs)
-        calibration.data.push_back({input.name, sha256_of_file(input.path)});
+    std::vector<std::string> archive_sha256;
+    for (const InputFile& input : read.inputs) {
+        const std::string sha256 = sha256_of_file(input.path);
+        if (input.role == "archive") archive_sha256.push_back(sha256);
+        list_data(calibration, {input.name, sha256});
+    }
+    counted.add(read.rows, archive_sha256, file);
 }
 
 std::string series_text(const TiltSeries& series, const std::string& name) {
@@ -75,7 +88,7 @@ void take_over(Calibration& calibration, const std::string& file) {
                          ": the record is of another unit; allowed: " + calibration.serial_number);
     calibration.thermal = other.thermal;
     calibration.warm_up = other.warm_up;
-    calibration.data.insert(calibration.data.end(), other.data.begin(), other.data.end());
+    for (const CalibrationData& data : other.data) list_data(calibration, data);
     calibration.valid_from = std::max(calibration.valid_from, other.valid_from);
     calibration.valid_to = other.valid_to;
 }
@@ -84,6 +97,7 @@ void calibrate(const CalibrateOptions& options) {
     Calibration calibration;
     calibration.program = "a351-correct " A351_VERSION;
     std::vector<TiltSeries> all;
+    CountedReadings counted;
     for (const std::string& file : options.tilt) {
         const SurveyFile survey = series_file(file);
         ProgressBar bar(std::cerr, ::isatty(STDERR_FILENO) == 1, survey.name);
@@ -92,7 +106,7 @@ void calibrate(const CalibrateOptions& options) {
         for (const std::string& warning : read.warnings)
             std::cerr << "a351-correct: " << survey.name << ": " << warning << '\n';
         all.push_back(measure_axis_bias(read, file));
-        note_origin(calibration, read, file);
+        note_origin(calibration, counted, read, file);
         std::cout << series_text(all.back(), survey.name);
     }
     calibration.axis_bias = combine(all);

@@ -1,6 +1,7 @@
 """A unit's axis biases, measured on a simulated tilt series and used on a day of the same unit."""
 
 import math
+import shutil
 
 from programs import BIN, Scratch, demand, read_json, rows, run
 
@@ -49,6 +50,15 @@ with Scratch() as scratch:
     demand("a validity that ended before the series is not taken over",
            refused.returncode == 2 and "ended.toml: valid_to_utc" in refused.stderr and not (scratch / "merged.toml").exists())
     correct(*merge, "merged.toml", "--valid-to", "2030-01-01T00:00:00Z", cwd=scratch)
+
+    merged = (scratch / "merged.toml").read_text()
+    demand("a file that both have is listed once", merged.count("[[data]]") == text.count("[[data]]") > 4)
+    shutil.copytree(scratch / "tilt-series", scratch / "copy")
+    for again in ("tilt-series", "copy"):
+        refused = correct("calibrate", "--tilt", "tilt-series", again, "--out", "twice.toml", check=False, cwd=scratch)
+        print(refused.stderr.strip())
+        demand(f"a series and {again} are one series", refused.returncode == 2 and "each reading once" in refused.stderr and
+               not (scratch / "twice.toml").exists())
 
     survey = ("survey", "tilted/survey.toml", "--out", "result", "--calibration")
     correct(*survey, "c.toml", cwd=scratch)
