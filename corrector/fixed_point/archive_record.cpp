@@ -219,14 +219,6 @@ void describe_inputs(LongRecord& record, const std::filesystem::path& root,
     record.inputs.insert(record.inputs.end(), inputs.begin(), inputs.end());
 }
 
-void add_damage(std::vector<std::string>& warnings, const record::ChannelData& channel) {
-    for (const record::ArchiveDamage& damage : channel.damage) {
-        warnings.push_back(damage.file.filename().string() + ": " +
-                           std::to_string(damage.byte_count) + " bytes at " +
-                           std::to_string(damage.offset) + " are no record");
-    }
-}
-
 }  // namespace
 
 LongRecord read_archive_record(const std::filesystem::path& root, const RecordWindow& window,

@@ -21,14 +21,18 @@ const std::vector<Eigen::Index> kThermalPlaces{DayPriors::place_of(DayTerm::leve
                                                DayPriors::place_of(DayTerm::slow),
                                                DayPriors::place_of(DayTerm::fast), 0, 1};
 
-double detail_of(const SurveyRow& row, std::string_view name) {
-    const auto at = std::ranges::find(row.details, name, &SurveyRow::Detail::name);
-    return at == row.details.end() ? 0.0 : at->value.value_or(0.0);
+double axis_mean_g(const SurveyRow& row, std::string_view name) {
+    const std::optional<double> mean_g = row.detail(name);
+    if (!mean_g)
+        throw InputError("calibration: " + row.site + " (" + std::to_string(row.occupation) +
+                         ") has no " + std::string(name) + "; allowed: rows from records");
+    return *mean_g;
 }
 
-MilliGal tilt_effect(const SurveyRow& row, const AxisBias& bias) {
-    return MilliGal(bias.values(0) * detail_of(row, "mean_x_g") +
-                    bias.values(1) * detail_of(row, "mean_y_g"));
+MilliGal tilt_effect(const SurveyRow& row, const std::optional<AxisBias>& bias) {
+    if (!bias) return MilliGal(0.0);
+    return MilliGal(bias->values(0) * axis_mean_g(row, "mean_x_g") +
+                    bias->values(1) * axis_mean_g(row, "mean_y_g"));
 }
 
 bool is_contradicted(const std::optional<Disagreement>& test) {
@@ -150,16 +154,16 @@ SurveyCorrection correct_with_calibration(const std::vector<SurveyRow>& rows,
                                           const SurveyOptions& options, const DayRecord* day) {
     if (!options.calibration) return correct_survey(rows, options, day);
     const Calibration& calibration = *options.calibration;
-    const AxisBias bias = calibration.axis_bias.value_or(AxisBias{});
     std::vector<SurveyRow> freed = rows;
-    for (SurveyRow& row : freed) row.acceleration = row.acceleration - tilt_effect(row, bias);
+    for (SurveyRow& row : freed)
+        row.acceleration = row.acceleration - tilt_effect(row, calibration.axis_bias);
     SurveyCorrection result = correct_survey(freed, options, day);
     if (result.model == "day") return result;
 
     CalibrationUse use;
     double sum = 0.0, squares = 0.0;
     for (CorrectedRow& row : result.rows) {
-        const MilliGal effect = tilt_effect(row.row, bias);
+        const MilliGal effect = tilt_effect(row.row, calibration.axis_bias);
         row.row.acceleration = row.row.acceleration + effect;
         if (row.difference) row.difference = *row.difference + effect;
         row.tilt_correction = row.tilt_correction - effect;

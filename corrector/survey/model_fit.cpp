@@ -96,9 +96,7 @@ std::optional<double> left_out_paper_error_mgal(std::vector<SurveyRow> rows,
 }
 
 double axis_mean_g(const SurveyRow& row, std::string_view name) {
-    for (const SurveyRow::Detail& detail : row.details) {
-        if (detail.name == name && detail.value) return *detail.value;
-    }
+    if (const std::optional<double> mean_g = row.detail(name)) return *mean_g;
     throw InputError("model = " + std::string(kAxesModel.name) + ": " + row.site + " (" +
                      std::to_string(row.occupation) + ") has no " + std::string(name) +
                      "; allowed: rows from records, or another model");

@@ -68,14 +68,6 @@ SurveySamples read_samples(const SurveyFile& survey, const record::StationCodes&
     return samples;
 }
 
-void add_damage(std::vector<std::string>& warnings, const record::ChannelData& channel) {
-    for (const record::ArchiveDamage& damage : channel.damage) {
-        warnings.push_back(damage.file.filename().string() + ": " +
-                           std::to_string(damage.byte_count) + " bytes at " +
-                           std::to_string(damage.offset) + " are no record");
-    }
-}
-
 std::vector<InputFile> inputs_of(const SurveyFile& survey, const std::filesystem::path& metadata,
                                  const record::StationCodes& codes, const SurveyChannels& channels,
                                  const std::vector<OccupationWindow>& windows) {

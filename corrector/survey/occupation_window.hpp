@@ -47,6 +47,9 @@ struct SurveyChannels {
 [[nodiscard]] SurveyChannels find_channels(const record::StationMetadata& station,
                                            const std::filesystem::path& file);
 
+/// A warning for each piece of its files that could not be read.
+void add_damage(std::vector<std::string>& warnings, const record::ChannelData& channel);
+
 /// The channels' samples over a survey.
 struct SurveySamples {
     std::array<record::ChannelData, 3> axes;

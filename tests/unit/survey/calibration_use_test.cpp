@@ -184,6 +184,18 @@ TEST_CASE("other models read what tilt has not changed", "[survey][calibration]"
     CHECK(calibration_json(correct_survey(rows, without)).is_null());
 }
 
+TEST_CASE("a row without a mean of an axis is refused where a bias is to be taken off it",
+          "[survey][calibration]") {
+    auto rows = rows_of(kDay.record());
+    rows[3].set_detail("mean_y_g", std::nullopt);
+    CHECK_THROWS_WITH(correct_with_calibration(rows, with(calibration(), "t"), nullptr),
+                      "calibration: S3 (1) has no mean_y_g; allowed: rows from records");
+    Calibration known = calibration();
+    known.axis_bias.reset();
+    known.thermal = thermal(kDay);
+    CHECK_NOTHROW(correct_with_calibration(rows, with(known, "t"), nullptr));
+}
+
 TEST_CASE("fitted axes and calibrated ones are one correction of tilt", "[survey][calibration]") {
     auto rows = rows_of(kDay.record());
     for (std::size_t i = 0; i < rows.size(); ++i) {
