@@ -12,6 +12,7 @@
 #include "corrector/calibration/sha256.hpp"
 #include "corrector/command/counted_readings.hpp"
 #include "corrector/command/option_values.hpp"
+#include "corrector/command/output_option.hpp"
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/survey/aligned_text.hpp"
 #include "corrector/survey/tilt_series.hpp"
@@ -94,6 +95,7 @@ void take_over(Calibration& calibration, const std::string& file) {
 }
 
 void calibrate(const CalibrateOptions& options) {
+    require_file_option("--out", options.out);
     Calibration calibration;
     calibration.program = "a351-correct " A351_VERSION;
     std::vector<TiltSeries> all;

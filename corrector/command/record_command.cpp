@@ -12,6 +12,7 @@
 
 #include "corrector/command/figures_option.hpp"
 #include "corrector/command/option_values.hpp"
+#include "corrector/command/output_option.hpp"
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/fixed_point/archive_record.hpp"
 #include "corrector/fixed_point/csv_record.hpp"
@@ -131,6 +132,7 @@ RecordResult analysed(const RecordCommandOptions& options) {
 }
 
 void analyse(const RecordCommandOptions& options) {
+    require_folder_option("--out", options.out);
     const RecordResult result = analysed(options);
     nlohmann::ordered_json settings;
     settings["command"] = "record";

@@ -144,7 +144,9 @@ void tell_prior_use(SurveyCorrection& result, const DayRecord& day,
         " as prior: " + (calibration.axis_bias ? "axis biases" : "no axis biases") +
         (calibration.thermal ? ", thermal response with twice its errors"
                              : ", no thermal response") +
-        "; it changes corrected values by " + fixed(use.effect_rms_mgal, 2) + " mGal rms");
+        "; it changes corrected values by " + fixed(use.effect_rms_mgal, 2) + " mGal rms" +
+        (calibration.axis_bias ? "; other models are scored on readings freed from axis bias x tilt"
+                               : ""));
     if (calibration.axis_bias) remark_test(result, "axis biases", use.axis_bias);
     if (calibration.thermal) remark_test(result, "thermal response", use.thermal);
     result.calibration = use;
@@ -174,10 +176,12 @@ SurveyCorrection correct_with_calibration(const std::vector<SurveyRow>& rows,
     const auto n = static_cast<double>(result.rows.size());
     use.effect_rms_mgal = std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)));
     std::string text = name_of(calibration) + ": ";
-    text += calibration.axis_bias
-                ? "readings freed from axis bias x tilt, which scatters by " +
-                      fixed(use.effect_rms_mgal, 2) + " mGal rms; not compared with the readings"
-                : "no axis biases";
+    text +=
+        calibration.axis_bias
+            ? "readings, those behind the scores of all models too, freed from axis bias x tilt, "
+              "which scatters by " +
+                  fixed(use.effect_rms_mgal, 2) + " mGal rms; not compared with the readings"
+            : "no axis biases";
     if (calibration.thermal)
         text += "; its thermal response is of no use to the model " + result.model;
     result.remarks.push_back(text);
@@ -207,6 +211,13 @@ std::vector<std::string> check_calibration(const SurveyFile& survey,
             to_rfc3339(calibration.valid_from) +
             (calibration.valid_to ? " to " + to_rfc3339(end) : std::string(" on")));
     return warnings;
+}
+
+std::string_view calibration_in(const SurveyCorrection& result, const ModelScore& score) {
+    const std::optional<Calibration>& calibration = result.options.calibration;
+    if (!says_of_day(calibration)) return "none";
+    if (score.model == "day") return "prior";
+    return calibration->axis_bias ? "fixed" : "none";
 }
 
 Json calibration_json(const SurveyCorrection& result) {

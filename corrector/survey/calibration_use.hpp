@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "corrector/day/day_model.hpp"
@@ -50,6 +51,10 @@ void tell_prior_use(SurveyCorrection& result, const DayRecord& day,
 [[nodiscard]] std::vector<std::string> check_calibration(
     const SurveyFile& survey, const std::string& serial_number,
     const std::vector<OccupationWindow>& windows);
+
+/// What a score has of the calibration: "prior", "fixed" (readings freed from axis bias x tilt), "none".
+[[nodiscard]] std::string_view calibration_in(const SurveyCorrection& result,
+                                              const ModelScore& score);
 
 /// null without a calibration.
 [[nodiscard]] nlohmann::ordered_json calibration_json(const SurveyCorrection& result);

@@ -55,10 +55,10 @@ private:
     bool is_first_ = true;
 };
 
-Json score_json(const ModelScore& score, const std::string& rows, bool is_selected) {
+Json score_json(const SurveyCorrection& result, const ScoredRowSet& set, const ModelScore& score) {
     Json json;
     json["model"] = score.model;
-    json["rows"] = rows;
+    json["rows"] = set.rows;
     json["n"] = score.row_count;
     json["p"] = score.parameter_count;
     json["dof"] = score.dof;
@@ -68,7 +68,8 @@ Json score_json(const ModelScore& score, const std::string& rows, bool is_select
     json["loso_mgal"] = json_of(score.loso_mgal);
     json["aicc"] = json_of(score.aicc);
     json["rms_before_drift_mgal"] = json_of(score.rms_before_drift_mgal);
-    json["selected"] = is_selected;
+    json["selected"] = is_selected(result, set, score);
+    json["calibration"] = calibration_in(result, score);
     return json;
 }
 
@@ -201,7 +202,7 @@ std::string stations_csv(const SurveyCorrection& result) {
 std::string models_csv(const SurveyCorrection& result) {
     std::string csv =
         "model,rows,n,p,rms_mgal,s_mgal,loo_mgal,loso_mgal,aicc,selected,rms_before_drift_mgal,"
-        "dof\n";
+        "dof,calibration\n";
     for (const ScoredRowSet& set : result.row_sets) {
         for (const ModelScore& score : set.scores) {
             CsvLine line;
@@ -210,6 +211,7 @@ std::string models_csv(const SurveyCorrection& result) {
             line.number(score.loo_mgal).number(score.loso_mgal).number(score.aicc);
             line.text(is_selected(result, set, score) ? "1" : "0");
             line.number(score.rms_before_drift_mgal).count(score.dof);
+            line.text(calibration_in(result, score));
             csv += line.end();
         }
     }
@@ -259,7 +261,7 @@ std::string result_json(const SurveyCorrection& result, const Json& settings,
     json["models"] = Json::array();
     for (const ScoredRowSet& set : result.row_sets) {
         for (const ModelScore& score : set.scores) {
-            json["models"].push_back(score_json(score, set.rows, is_selected(result, set, score)));
+            json["models"].push_back(score_json(result, set, score));
         }
     }
     json["stations"] = Json::array();

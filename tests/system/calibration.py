@@ -60,6 +60,14 @@ with Scratch() as scratch:
         demand(f"a series and {again} are one series", refused.returncode == 2 and "each reading once" in refused.stderr and
                not (scratch / "twice.toml").exists())
 
+    for bad in (("calibrate", "--tilt", "tilt-series", "--out", "tilt-series/"),
+                ("calibrate", "--tilt", "tilt-series", "--out", "c.toml/c.toml"),
+                ("record", "tilt-series", "--out", "c.toml")):
+        refused = correct(*bad, check=False, cwd=scratch)
+        print(refused.stderr.strip())
+        demand(f"{bad[0]} refuses {bad[-1]} for an output before any work",
+               refused.returncode == 2 and f"--out = {bad[-1]}" in refused.stderr)
+
     survey = ("survey", "tilted/survey.toml", "--out", "result", "--calibration")
     correct(*survey, "c.toml", cwd=scratch)
     result = read_json(scratch / "result" / "result.json")

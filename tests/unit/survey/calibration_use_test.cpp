@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "corrector/survey/result_files.hpp"
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/day/made_up_day.hpp"
 
@@ -194,6 +197,28 @@ TEST_CASE("a row without a mean of an axis is refused where a bias is to be take
     known.axis_bias.reset();
     known.thermal = thermal(kDay);
     CHECK_NOTHROW(correct_with_calibration(rows, with(known, "t"), nullptr));
+}
+
+TEST_CASE("models.csv says which scores are of readings freed from tilt", "[survey][calibration]") {
+    const DayRecord day = kDay.record();
+    const auto rows = rows_of(day);
+    const auto uses = [&](const SurveyCorrection& result) {
+        std::map<std::string, std::string> of_model;
+        std::istringstream lines(models_csv(result));
+        std::string line;
+        std::getline(lines, line);
+        CHECK(line.ends_with(",dof,calibration"));
+        while (std::getline(lines, line))
+            of_model[line.substr(0, line.find(','))] = line.substr(line.rfind(',') + 1);
+        return of_model;
+    };
+    const auto by_day = uses(correct_with_calibration(rows, with(calibration(), "day"), &day));
+    CHECK(by_day.at("day") == "prior");
+    CHECK(by_day.at("t") == "fixed");
+    const auto fixed = correct_with_calibration(rows, with(calibration(), "t"), nullptr);
+    CHECK(uses(fixed).at("paper") == "fixed");
+    CHECK(uses(correct_survey(rows, {})).at("paper") == "none");
+    CHECK(has_remark(fixed, "the scores of all models too"));
 }
 
 TEST_CASE("fitted axes and calibrated ones are one correction of tilt", "[survey][calibration]") {
