@@ -9,7 +9,8 @@
 #include <iostream>
 #include <memory>
 
-#include "corrector/calibration/sha256.hpp"
+#include "corrector/command/calibrate_records.hpp"
+#include "corrector/command/calibration_origin.hpp"
 #include "corrector/command/counted_readings.hpp"
 #include "corrector/command/option_values.hpp"
 #include "corrector/command/output_option.hpp"
@@ -22,8 +23,10 @@ namespace a351::corrector {
 namespace {
 
 struct CalibrateOptions {
-    std::vector<std::string> tilt;
-    std::string out, merge, valid_from, valid_to;
+    std::vector<std::string> tilt, records;
+    std::string out, merge, valid_from, valid_to, power_on;
+    double within_mgal = WarmUpGuidance{}.within_mgal;
+    bool is_within_given = false;
 };
 
 /// A survey file, or a data root with a sites.csv.
@@ -36,34 +39,12 @@ SurveyFile series_file(const std::filesystem::path& path) {
     return survey;
 }
 
-/// Lists every file once, however many series and calibrations have it.
-void list_data(Calibration& calibration, const CalibrationData& data) {
-    if (std::ranges::find(calibration.data, data) == calibration.data.end())
-        calibration.data.push_back(data);
-}
-
-/// Notes where the numbers come from: unit, files, the time of the first reading.
-void note_origin(Calibration& calibration, CountedReadings& counted, const OccupationRows& read,
-                 const std::string& file) {
-    if (read.serial_number.empty())
-        throw InputError(file +
-                         ": the station metadata do not tell the sensor's serial number; "
-                         "allowed: a record of a known unit");
-    std::string& unit = calibration.serial_number;
-    if (!unit.empty() && unit != read.serial_number)
-        throw InputError(file + ": of unit " + read.serial_number + ", what came before is of " +
-                         unit + "; allowed: one unit");
-    unit = read.serial_number;
-    const UtcTime start = read.rows.front().start.value_or(read.rows.front().time);
-    calibration.valid_from =
-        calibration.data.empty() ? start : std::min(calibration.valid_from, start);
-    std::vector<std::string> archive_sha256;
-    for (const InputFile& input : read.inputs) {
-        const std::string sha256 = sha256_of_file(input.path);
-        if (input.role == "archive") archive_sha256.push_back(sha256);
-        list_data(calibration, {input.name, sha256});
-    }
-    counted.add(read.rows, archive_sha256, file);
+std::vector<std::string> of_archive(const std::vector<InputFile>& inputs,
+                                    const std::vector<std::string>& sha256) {
+    std::vector<std::string> chosen;
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+        if (inputs[i].role == "archive") chosen.push_back(sha256[i]);
+    return chosen;
 }
 
 std::string series_text(const TiltSeries& series, const std::string& name) {
@@ -87,20 +68,18 @@ void take_over(Calibration& calibration, const std::string& file) {
     if (other.serial_number != calibration.serial_number)
         throw InputError(file + ": serial_number = " + other.serial_number +
                          ": the record is of another unit; allowed: " + calibration.serial_number);
-    calibration.thermal = other.thermal;
-    calibration.warm_up = other.warm_up;
+    if (!calibration.axis_bias) calibration.axis_bias = other.axis_bias;
+    if (!calibration.thermal) calibration.thermal = other.thermal;
+    if (!calibration.warm_up) calibration.warm_up = other.warm_up;
     for (const CalibrationData& data : other.data) list_data(calibration, data);
     calibration.valid_from = std::max(calibration.valid_from, other.valid_from);
     calibration.valid_to = other.valid_to;
 }
 
-void calibrate(const CalibrateOptions& options) {
-    require_file_option("--out", options.out);
-    Calibration calibration;
-    calibration.program = "a351-correct " A351_VERSION;
+void calibrate_from_tilt(Calibration& calibration, const std::vector<std::string>& files) {
     std::vector<TiltSeries> all;
     CountedReadings counted;
-    for (const std::string& file : options.tilt) {
+    for (const std::string& file : files) {
         const SurveyFile survey = series_file(file);
         ProgressBar bar(std::cerr, ::isatty(STDERR_FILENO) == 1, survey.name);
         const OccupationRows read = average_occupations(
@@ -108,10 +87,34 @@ void calibrate(const CalibrateOptions& options) {
         for (const std::string& warning : read.warnings)
             std::cerr << "a351-correct: " << survey.name << ": " << warning << '\n';
         all.push_back(measure_axis_bias(read, file));
-        note_origin(calibration, counted, read, file);
+        const std::vector<std::string> sha256 = note_origin(
+            calibration, read.serial_number,
+            read.rows.front().start.value_or(read.rows.front().time), read.inputs, file);
+        counted.add(read.rows, of_archive(read.inputs, sha256), file);
         std::cout << series_text(all.back(), survey.name);
     }
     calibration.axis_bias = combine(all);
+}
+
+RecordCalibrationOptions record_options(const CalibrateOptions& options) {
+    RecordCalibrationOptions records;
+    records.files = options.records;
+    number_option("--within", options.within_mgal, 1e-3, 1e3);
+    if (options.is_within_given) records.within_mgal = options.within_mgal;
+    if (!options.power_on.empty())
+        records.power_on = instant_option("--power-on", options.power_on);
+    return records;
+}
+
+void calibrate(const CalibrateOptions& options) {
+    if (options.tilt.empty() && options.records.empty())
+        throw InputError("nothing to calibrate from; allowed: FILE..., --tilt FILE... or both");
+    require_file_option("--out", options.out);
+    Calibration calibration;
+    calibration.program = "a351-correct " A351_VERSION;
+    if (!options.tilt.empty()) calibrate_from_tilt(calibration, options.tilt);
+    if (!options.records.empty())
+        std::cout << calibrate_from_records(calibration, record_options(options));
     if (!options.merge.empty()) take_over(calibration, options.merge);
     if (!options.valid_from.empty())
         calibration.valid_from = instant_option("--valid-from", options.valid_from);
@@ -134,18 +137,34 @@ void add_calibrate_command(CLI::App& program) {
         "calibrate", "Measures what is to be known of a unit before a survey.");
     const auto options = std::make_shared<CalibrateOptions>();
     command
-        .add_option("--tilt", options->tilt,
-                    "Tilt series at one point, for the biases of the horizontal axes: survey files "
-                    "(TOML) or data roots with a sites.csv")
-        ->required();
+        .add_option("FILE", options->records,
+                    "Long records at one point, for the response to temperature: data roots, day "
+                    "files of their archives, or CSVs")
+        ->check(CLI::ExistingPath);
+    command.add_option(
+        "--tilt", options->tilt,
+        "Tilt series at one point, for the biases of the horizontal axes: survey files "
+        "(TOML) or data roots with a sites.csv");
+    CLI::Option* within =
+        command
+            .add_option("--within", options->within_mgal,
+                        "Warm-up guidance: mGal of where the reading ends, 0.001 to 1000")
+            ->capture_default_str();
+    command.add_option("--power-on", options->power_on,
+                       "Instant (RFC 3339) at which the sensor was switched on, at most half an "
+                       "hour before a record begins");
     command.add_option("--out", options->out, "Calibration to write (TOML)")->required();
-    command.add_option("--merge", options->merge,
-                       "Calibration of the same unit from which the thermal parts are taken over");
+    command.add_option(
+        "--merge", options->merge,
+        "Calibration of the same unit; parts that are not measured now are taken over");
     command.add_option("--valid-from", options->valid_from,
                        "Instant (RFC 3339); default: the first reading");
     command.add_option("--valid-to", options->valid_to,
                        "Instant (RFC 3339); default: until a newer one");
-    command.callback([options] { calibrate(*options); });
+    command.callback([options, within] {
+        options->is_within_given = within->count() > 0;
+        calibrate(*options);
+    });
 }
 
 }  // namespace a351::corrector

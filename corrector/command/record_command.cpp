@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,11 +13,9 @@
 #include "corrector/command/option_values.hpp"
 #include "corrector/command/output_option.hpp"
 #include "corrector/command/progress_bar.hpp"
-#include "corrector/fixed_point/archive_record.hpp"
-#include "corrector/fixed_point/csv_record.hpp"
+#include "corrector/command/record_input.hpp"
 #include "corrector/fixed_point/record_result.hpp"
 #include "corrector/report/long_record_page.hpp"
-#include "corrector/survey/aligned_text.hpp"
 #include "protocol/core/input_error.hpp"
 
 namespace a351::corrector {
@@ -35,61 +32,13 @@ struct RecordCommandOptions {
     std::vector<std::string> figures;
 };
 
-/// The data root of a folder, or of a day file within its archive; empty for any other file.
-std::filesystem::path root_of(const std::filesystem::path& file) {
-    if (std::filesystem::is_directory(file)) return std::filesystem::canonical(file);
-    // ROOT/archive/YEAR/NET/STA/CHAN.D/FILE
-    std::filesystem::path root = std::filesystem::canonical(file);
-    constexpr int kLevels = 6;
-    for (int level = 0; level < kLevels; ++level) root = root.parent_path();
-    return std::filesystem::exists(root / "metadata" / "station.xml") ? root
-                                                                      : std::filesystem::path();
-}
-
-/// All pieces in order of time, as one record.
-LongRecord joined(std::vector<LongRecord> records) {
-    LongRecord all = std::move(records.front());
-    for (std::size_t k = 1; k < records.size(); ++k) {
-        LongRecord& next = records[k];
-        all.is_tide_removed = all.is_tide_removed && next.is_tide_removed;
-        std::move(next.stretches.begin(), next.stretches.end(), std::back_inserter(all.stretches));
-        std::move(next.inputs.begin(), next.inputs.end(), std::back_inserter(all.inputs));
-        std::move(next.warnings.begin(), next.warnings.end(), std::back_inserter(all.warnings));
-    }
-    std::stable_sort(all.stretches.begin(), all.stretches.end(),
-                     [](const RecordStretch& a, const RecordStretch& b) {
-                         return a.times.front() < b.times.front();
-                     });
-    for (std::size_t k = 1; k < all.stretches.size(); ++k) {
-        if (all.stretches[k].times.front() > all.stretches[k - 1].times.back()) continue;
-        throw InputError("at " + to_rfc3339(all.stretches[k].times.front()) +
-                         " two parts of the record overlap; allowed: each instant once");
-    }
-    return all;
-}
-
 LongRecord read_record(const RecordCommandOptions& options) {
     RecordWindow window;
     if (!options.from.empty()) window.from = instant_option("--from", options.from);
     if (!options.to.empty()) window.to = instant_option("--to", options.to);
     if (window.from && window.to && *window.from >= *window.to)
         throw InputError("--to = " + options.to + "; allowed: an instant after --from");
-    ProgressBar bar(std::cerr, ::isatty(STDERR_FILENO) == 1, "read");
-    const Progress progress = [&bar](std::size_t done, std::size_t total) {
-        bar.show(done, total);
-    };
-    std::vector<std::filesystem::path> roots;
-    std::vector<LongRecord> records;
-    for (const std::string& file : options.files) {
-        const std::filesystem::path root = root_of(file);
-        if (root.empty()) {
-            records.push_back(read_csv_record(file, window, progress));
-        } else if (std::find(roots.begin(), roots.end(), root) == roots.end()) {
-            roots.push_back(root);
-            records.push_back(read_archive_record(root, window, progress));
-        }
-    }
-    return joined(std::move(records));
+    return join_records(read_records(options.files, window));
 }
 
 RecordResult analysed(const RecordCommandOptions& options) {
@@ -103,21 +52,10 @@ RecordResult analysed(const RecordCommandOptions& options) {
     result.options.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 
     result.record = read_record(options);
-    for (const std::string& warning : result.record.warnings)
-        std::cerr << "a351-correct: " << warning << '\n';
     SegmentOptions segments;
     segments.shortest =
         std::max(segments.shortest, least_record_length(options.cycle_s, result.record.step_s));
-    result.parts = divide_record(result.record, segments);
-    if (result.parts.segments.empty()) {
-        std::string message = options.files.front() + ": nothing to analyse";
-        for (const RefusedPart& part : result.parts.refused)
-            message += "; from " + to_rfc3339(part.start) + " " + part.reason;
-        throw InputError(
-            message + "; allowed: " +
-            fixed(static_cast<double>(segments.shortest) * result.record.step_s / 3600.0, 1) +
-            " h or more in one piece");
-    }
+    result.parts = divide_or_refuse(result.record, segments, options.files.front());
     const auto longest = std::max_element(
         result.parts.segments.begin(), result.parts.segments.end(),
         [](const RecordSegment& a, const RecordSegment& b) { return a.size() < b.size(); });

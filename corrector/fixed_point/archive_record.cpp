@@ -239,6 +239,7 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
                                                              found.axes[2], found.temperature};
 
     LongRecord record;
+    record.serial_number = station.serial_number;
     ArchiveStream stream(record, scales);
     std::size_t done = 0;
     for (const Day day : of_days) {

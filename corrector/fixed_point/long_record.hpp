@@ -38,6 +38,7 @@ struct LongRecord {
     double raw_rate_hz = 0.0;
     double step_s = kRecordStep_s;  ///< Between samples, on the sensor's clock.
     bool is_tide_removed = false;
+    std::string serial_number;  ///< Of the sensor; empty: the metadata do not tell.
     std::vector<InputFile> inputs;
     std::vector<std::string> warnings;  ///< What was passed over, and why.
 };

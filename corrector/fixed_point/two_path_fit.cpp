@@ -269,6 +269,13 @@ FittedParameter named(TwoPathTerm term) {
 
 }  // namespace
 
+TwoPathPrior two_path_prior(TwoPathTerm term) {
+    const auto place = static_cast<std::size_t>(term);
+    if (place < kPriorDeviation.size()) return {0.0, kPriorDeviation.at(place)};
+    const std::size_t lag = place - kPriorDeviation.size();
+    return {std::log(kLagMedian_s.at(lag)), std::log(kLagFactor.at(lag))};
+}
+
 TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
                          const std::vector<double>& acceleration_mgal, double step_s,
                          double cycle_s) {
@@ -291,7 +298,7 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
         const std::size_t lag = is_lag ? k - static_cast<std::size_t>(kLinear) : 0;
         FittedParameter& parameter = fit.parameters.at(k);
         parameter = named(static_cast<TwoPathTerm>(k));
-        units(place) = is_lag ? std::log(kLagFactor.at(lag)) : kPriorDeviation.at(k);
+        units(place) = two_path_prior(static_cast<TwoPathTerm>(k)).deviation;
         const double deviation = units(place) * std::sqrt(scaled(place, place));
         parameter.value = is_lag ? lag_s(u, lag) : units(place) * beta(place);
         parameter.standard_error = is_lag ? parameter.value * deviation : deviation;

@@ -31,6 +31,14 @@ struct FittedParameter {
     std::string needed;          ///< Otherwise: what record would.
 };
 
+/// What the fit believes of a term before it sees a record; of lags and times the natural logarithm of
+/// seconds.  The terms are independent.
+struct TwoPathPrior {
+    double mean = 0.0;
+    double deviation = 0.0;
+};
+[[nodiscard]] TwoPathPrior two_path_prior(TwoPathTerm term);
+
 struct TwoPathFit {
     std::array<FittedParameter, kTwoPathTerms> parameters;
     /// (kTwoPathTerms, kTwoPathTerms): of the coefficients in their units, of the logarithms of the lags.

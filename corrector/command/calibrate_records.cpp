@@ -1,0 +1,134 @@
+#include "corrector/command/calibrate_records.hpp"
+
+#include <algorithm>
+
+#include "corrector/command/calibration_origin.hpp"
+#include "corrector/command/record_input.hpp"
+#include "corrector/fixed_point/record_calibration.hpp"
+#include "corrector/survey/aligned_text.hpp"
+#include "protocol/core/input_error.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr double kSecondsPerHour = 3600.0;
+// Power-on may be so long before the record: what was before the first sample is extrapolated.
+constexpr double kLatestBegin_h = 0.5;
+// Five of the slow path's lags: the fit takes them to be in equilibrium at the begin.
+constexpr double kSettled_h = 4.0;
+constexpr double kContradiction = 0.01;
+constexpr double kCycle_s = 900.0;  // the oven's usual: bands of the residual test
+
+double hours_of(const RecordSegment& segment, double step_s) {
+    return static_cast<double>(segment.size()) * step_s / kSecondsPerHour;
+}
+
+/// How long after power-on the segment begins, if it does so shortly after.
+std::optional<double> begins_after_h(const RecordSegment& segment,
+                                     const std::optional<UtcTime>& power_on) {
+    if (!power_on) return std::nullopt;
+    const double hours = seconds_between(*power_on, segment.start) / kSecondsPerHour;
+    return hours >= 0.0 && hours <= kLatestBegin_h ? std::optional(hours) : std::nullopt;
+}
+
+/// For the response of an oven that has just been switched on, its lags are not in equilibrium.
+RecordSegment without_begin(RecordSegment segment, double step_s) {
+    const auto cut =
+        std::min(segment.size(), static_cast<std::size_t>(kSettled_h * kSecondsPerHour / step_s));
+    const auto behind = static_cast<std::ptrdiff_t>(cut);
+    segment.acceleration_mgal.erase(segment.acceleration_mgal.begin(),
+                                    segment.acceleration_mgal.begin() + behind);
+    segment.temperature_degc.erase(segment.temperature_degc.begin(),
+                                   segment.temperature_degc.begin() + behind);
+    segment.start = segment.start + from_seconds(static_cast<double>(cut) * step_s);
+    return segment;
+}
+
+TwoPathFit fitted(const RecordSegment& segment, double step_s) {
+    return fit_two_paths(segment.temperature_degc, segment.acceleration_mgal, step_s, kCycle_s);
+}
+
+std::string slope_line(const PooledThermal& pooled) {
+    return "  static slope, both paths: " + fixed(pooled.static_slope, 1) + " +- " +
+           fixed(pooled.static_slope_error, 1) + " mGal/degC" +
+           (pooled.is_static_slope_determined ? "" : "; left open") + '\n';
+}
+
+std::string thermal_text(const PooledThermal& pooled) {
+    std::string text;
+    for (const FittedParameter& parameter : pooled.parameters) {
+        text += "  " + parameter.name + ": " + fixed(parameter.value, 1) + " +- " +
+                fixed(parameter.standard_error, 1) + " " + parameter.unit +
+                (parameter.is_determined ? "" : "; left open, needed: " + parameter.needed) + '\n';
+    }
+    text += slope_line(pooled);
+    if (pooled.agreement_p < kContradiction)
+        text +=
+            "  the records contradict each other, by chance once in more than a hundred: is the "
+            "unit still the same? Calibrate from each alone\n";
+    return text;
+}
+
+std::string refusal(const PooledThermal& pooled, const std::string& file) {
+    std::string message = file + ": the response to temperature is not determined";
+    for (const FittedParameter& parameter : pooled.parameters)
+        if (!parameter.needed.empty())
+            message += "; " + parameter.name + ": " + fixed(parameter.value, 1) + " +- " +
+                       fixed(parameter.standard_error, 1) + " " + parameter.unit +
+                       ", needed: " + parameter.needed;
+    return message;
+}
+
+}  // namespace
+
+std::string calibrate_from_records(Calibration& calibration,
+                                   const RecordCalibrationOptions& options) {
+    const LongRecord record = join_records(read_records(options.files, {}));
+    const std::string& file = options.files.front();
+    note_origin(calibration, record.serial_number, record.stretches.front().times.front(),
+                record.inputs, file);
+    const RecordSegments parts = divide_or_refuse(record, {}, file);
+    const double within_mgal = options.within_mgal.value_or(WarmUpGuidance{}.within_mgal);
+    WarmUpReading warm_up{std::nullopt,
+                          "no warm-up guidance: needed: a record that begins at most half an hour "
+                          "after the sensor was switched on, with --power-on"};
+    std::string text;
+    std::vector<TwoPathFit> fits;
+    std::vector<std::string> lacks;
+    for (RecordSegment segment : parts.segments) {
+        if (const auto begin_h = begins_after_h(segment, options.power_on)) {
+            warm_up = warm_up_guidance(fitted(segment, record.step_s), *begin_h,
+                                       hours_of(segment, record.step_s), within_mgal);
+            segment = without_begin(std::move(segment), record.step_s);
+        }
+        const std::string name =
+            fixed(hours_of(segment, record.step_s), 1) + " h from " + to_rfc3339(segment.start);
+        const std::string lack =
+            segment.size() < SegmentOptions{}.shortest
+                ? "too short for the response to temperature; needed: 3 h that begin " +
+                      fixed(kSettled_h, 0) + " h after power-on or later"
+                : lacks_response(segment.temperature_degc, segment.acceleration_mgal,
+                                 record.step_s);
+        if (!lack.empty()) {
+            lacks.push_back(name + ": " + lack);
+            text += lacks.back() + '\n';
+            continue;
+        }
+        fits.push_back(fitted(segment, record.step_s));
+        text += name + ", residual " + fixed(fits.back().residual_rms_mgal, 2) + " mGal" +
+                (fits.back().unexplained.empty()
+                     ? ""
+                     : ", which still follows the temperature: the model is not enough") +
+                '\n';
+    }
+    if (fits.empty()) throw InputError(file + ": " + lacks.front());
+    const PooledThermal pooled = pool_thermal(fits);
+    if (!pooled.response) throw InputError(refusal(pooled, file));
+    if (options.within_mgal && !warm_up.guidance)
+        throw InputError("--within = " + fixed(within_mgal, 3) + ": " + warm_up.words);
+    calibration.thermal = pooled.response;
+    calibration.warm_up = warm_up.guidance;
+    return text + thermal_text(pooled) + "  " + warm_up.words + '\n';
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,37 @@
+#include "corrector/command/calibration_origin.hpp"
+
+#include <algorithm>
+
+#include "corrector/calibration/sha256.hpp"
+#include "protocol/core/input_error.hpp"
+
+namespace a351::corrector {
+
+void list_data(Calibration& calibration, const CalibrationData& data) {
+    if (std::ranges::find(calibration.data, data) == calibration.data.end())
+        calibration.data.push_back(data);
+}
+
+std::vector<std::string> note_origin(Calibration& calibration, const std::string& serial_number,
+                                     UtcTime start, const std::vector<InputFile>& inputs,
+                                     const std::string& file) {
+    if (serial_number.empty())
+        throw InputError(file +
+                         ": the station metadata do not tell the sensor's serial number; "
+                         "allowed: a record of a known unit");
+    std::string& unit = calibration.serial_number;
+    if (!unit.empty() && unit != serial_number)
+        throw InputError(file + ": of unit " + serial_number + ", what came before is of " + unit +
+                         "; allowed: one unit");
+    unit = serial_number;
+    calibration.valid_from =
+        calibration.data.empty() ? start : std::min(calibration.valid_from, start);
+    std::vector<std::string> sha256;
+    for (const InputFile& input : inputs) {
+        sha256.push_back(sha256_of_file(input.path));
+        list_data(calibration, {input.name, sha256.back()});
+    }
+    return sha256;
+}
+
+}  // namespace a351::corrector

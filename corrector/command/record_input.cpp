@@ -1,0 +1,91 @@
+#include "corrector/command/record_input.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+#include "corrector/command/progress_bar.hpp"
+#include "corrector/fixed_point/csv_record.hpp"
+#include "corrector/survey/aligned_text.hpp"
+#include "protocol/core/input_error.hpp"
+
+namespace a351::corrector {
+namespace {
+
+/// The data root of a folder, or of a day file within its archive; empty for any other file.
+std::filesystem::path root_of(const std::filesystem::path& file) {
+    if (std::filesystem::is_directory(file)) return std::filesystem::canonical(file);
+    // ROOT/archive/YEAR/NET/STA/CHAN.D/FILE
+    std::filesystem::path root = std::filesystem::canonical(file);
+    constexpr int kLevels = 6;
+    for (int level = 0; level < kLevels; ++level) root = root.parent_path();
+    return std::filesystem::exists(root / "metadata" / "station.xml") ? root
+                                                                      : std::filesystem::path();
+}
+
+}  // namespace
+
+std::vector<LongRecord> read_records(const std::vector<std::string>& files,
+                                     const RecordWindow& window) {
+    std::vector<std::filesystem::path> roots;
+    std::vector<LongRecord> records;
+    {
+        ProgressBar bar(std::cerr, ::isatty(STDERR_FILENO) == 1, "read");
+        const Progress progress = [&bar](std::size_t done, std::size_t total) {
+            bar.show(done, total);
+        };
+        for (const std::string& file : files) {
+            const std::filesystem::path root = root_of(file);
+            if (root.empty()) {
+                records.push_back(read_csv_record(file, window, progress));
+            } else if (std::find(roots.begin(), roots.end(), root) == roots.end()) {
+                roots.push_back(root);
+                records.push_back(read_archive_record(root, window, progress));
+            }
+        }
+    }
+    for (const LongRecord& record : records)
+        for (const std::string& warning : record.warnings)
+            std::cerr << "a351-correct: " << warning << '\n';
+    return records;
+}
+
+LongRecord join_records(std::vector<LongRecord> records) {
+    LongRecord all = std::move(records.front());
+    for (std::size_t k = 1; k < records.size(); ++k) {
+        LongRecord& next = records[k];
+        if (next.serial_number != all.serial_number)
+            throw InputError("parts of the record are of the units '" + all.serial_number +
+                             "' and '" + next.serial_number + "'; allowed: one unit");
+        all.is_tide_removed = all.is_tide_removed && next.is_tide_removed;
+        std::move(next.stretches.begin(), next.stretches.end(), std::back_inserter(all.stretches));
+        std::move(next.inputs.begin(), next.inputs.end(), std::back_inserter(all.inputs));
+        std::move(next.warnings.begin(), next.warnings.end(), std::back_inserter(all.warnings));
+    }
+    std::stable_sort(all.stretches.begin(), all.stretches.end(),
+                     [](const RecordStretch& a, const RecordStretch& b) {
+                         return a.times.front() < b.times.front();
+                     });
+    for (std::size_t k = 1; k < all.stretches.size(); ++k) {
+        if (all.stretches[k].times.front() > all.stretches[k - 1].times.back()) continue;
+        throw InputError("at " + to_rfc3339(all.stretches[k].times.front()) +
+                         " two parts of the record overlap; allowed: each instant once");
+    }
+    return all;
+}
+
+RecordSegments divide_or_refuse(const LongRecord& record, const SegmentOptions& options,
+                                const std::string& name) {
+    RecordSegments parts = divide_record(record, options);
+    if (!parts.segments.empty()) return parts;
+    std::string message = name + ": nothing to analyse";
+    for (const RefusedPart& part : parts.refused)
+        message += "; from " + to_rfc3339(part.start) + " " + part.reason;
+    throw InputError(message + "; allowed: " +
+                     fixed(static_cast<double>(options.shortest) * record.step_s / 3600.0, 1) +
+                     " h or more in one piece");
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,74 @@
+"""calibrate from simulated nights: the true response within its errors, the warm-up from power-on, merging, refusals."""
+
+import math
+
+from programs import BIN, Scratch, demand, run
+
+# Of the scenarios' plant.
+TRUE_FAST_LAG = math.log(43.0)
+FROM_POWER_ON = """base = "indoor"
+name = "power-on"
+[schedule]
+duration_h = 24.0
+[sensor]
+power_on_before_start_h = 0.25
+[oven]
+run_in_h = 0.25
+"""
+POWER_ON = "2017-06-01T08:45:00Z"
+
+
+def calibrate(folder, *arguments, check=True):
+    return run(BIN / "a351-correct", "calibrate", *arguments, cwd=folder, check=check)
+
+
+def numbers(text, table, key):
+    part = text.split(f"[{table}]")[1].split(f"{key} = [")[1].split("]")[0]
+    return [float(number) for number in part.replace(",", " ").split()]
+
+
+def warm_up_h(text):
+    return float(text.split("after_power_on_h = ")[1].split()[0])
+
+
+with Scratch() as scratch:
+    (scratch / "power-on.toml").write_text(FROM_POWER_ON)
+    run(BIN / "a351-sim", "survey", "--scenario", "indoor", "--seed", 511, "--out", scratch / "night")
+    run(BIN / "a351-sim", "survey", "--scenario", scratch / "power-on.toml", "--seed", 512, "--out", scratch / "first")
+
+    print(calibrate(scratch, "night", "--out", "night.toml").stdout)
+    text = (scratch / "night.toml").read_text()
+    values, covariance = numbers(text, "thermal", "values"), numbers(text, "thermal", "covariance")
+    errors = [math.sqrt(covariance[6 * k]) for k in range(5)]
+    demand("the unit, its files and the begin are noted", 'serial_number = "00000001"' in text and
+           'name = "station.xml"' in text and 'valid_from_utc = "2017-06-01T09:0' in text)
+    demand("the fast lag is true within three of its errors", abs(values[3] - TRUE_FAST_LAG) < 3.0 * errors[3])
+    demand("the slow lag, which a night leaves open, binds nobody", errors[4] > 10.0)
+    demand("without power-on there is no warm-up", "[warm_up]" not in text)
+    calibrate(scratch, "night", next((scratch / "night" / "archive").rglob("*BNZ.D.*")), "--out", "again.toml")
+    demand("a day file beside its root is the same record, and a second run gives the same bytes",
+           (scratch / "again.toml").read_text() == text)
+
+    found = calibrate(scratch, "first", "--power-on", POWER_ON, "--within", "2", "--out", "first.toml").stdout
+    print(found)
+    first = (scratch / "first.toml").read_text()
+    truth = 2.5 * math.log(18.0)
+    print(f"within 2 mGal: {warm_up_h(first):.1f} h, true {truth:.1f} h")
+    demand("the warm-up ends between the true hour and twice that", truth - 0.5 < warm_up_h(first) < 2.0 * truth)
+    calibrate(scratch, "night", "--merge", "first.toml", "--out", "merged.toml")
+    merged = (scratch / "merged.toml").read_text()
+    demand("merging keeps what was not measured again", warm_up_h(merged) == warm_up_h(first) and
+           numbers(merged, "thermal", "values") == values)
+
+    # The same record without metadata.
+    run(BIN / "a351-correct", "record", "night", "--ensemble", "2", "--out", "night-csv", cwd=scratch)
+    for arguments, words in (
+            (("night-csv/record.csv",), "serial number"),
+            (("night", "--within", "1"), "switched on"),
+            (("night", "--power-on", "2017-06-01T05:00:00Z", "--within", "1"), "switched on"),
+            (("night", "--power-on", "today"), "--power-on"),
+            ((), "nothing to calibrate from")):
+        bad = calibrate(scratch, *arguments, "--out", "bad.toml", check=False)
+        print(bad.stderr.strip())
+        demand(f"{arguments}: one line, status 2, nothing written", bad.returncode == 2 and
+               bad.stderr.count("\n") == 1 and words in bad.stderr and not (scratch / "bad.toml").exists())
