@@ -13,6 +13,7 @@
 #include "corrector/command/option_values.hpp"
 #include "corrector/command/output_option.hpp"
 #include "corrector/command/progress_bar.hpp"
+#include "corrector/command/record_apply.hpp"
 #include "corrector/command/record_input.hpp"
 #include "corrector/fixed_point/record_result.hpp"
 #include "corrector/report/long_record_page.hpp"
@@ -23,7 +24,7 @@ namespace {
 
 struct RecordCommandOptions {
     std::vector<std::string> files;
-    std::string from, to;
+    std::string from, to, apply;
     std::string out = "result";
     double cycle_s = RecordAnalysisOptions{}.cycle_s;
     double shift_s = RecordAnalysisOptions{}.shift_s;
@@ -71,7 +72,8 @@ RecordResult analysed(const RecordCommandOptions& options) {
 
 void analyse(const RecordCommandOptions& options) {
     require_folder_option("--out", options.out);
-    const RecordResult result = analysed(options);
+    RecordResult result = analysed(options);
+    if (!options.apply.empty()) apply_to(result, options.apply);
     nlohmann::ordered_json settings;
     settings["command"] = "record";
     settings["from"] = options.from;
@@ -81,6 +83,7 @@ void analyse(const RecordCommandOptions& options) {
     settings["ensemble"] = options.ensemble;
     settings["noise_ratio"] = EemdOptions{}.noise_ratio;
     settings["seed"] = options.seed;
+    settings["apply"] = options.apply;
     std::vector<NamedText> files = record_files(result, settings);
     Report page = make_long_record_page(result, settings, options.figures);
     std::move(page.files.begin(), page.files.end(), std::back_inserter(files));
@@ -104,6 +107,10 @@ void add_record_command(CLI::App& program) {
         ->check(CLI::ExistingPath);
     command.add_option("--from", options->from, "First instant, RFC 3339");
     command.add_option("--to", options->to, "Instant behind the last one");
+    command
+        .add_option("--apply", options->apply,
+                    "Calibration of the unit: the record corrected with it, in two ways")
+        ->check(CLI::ExistingFile);
     command.add_option("--out", options->out, "Folder of the result")->capture_default_str();
     command.add_option("--cycle", options->cycle_s, "Cycle of the oven in seconds, 200 to 7200")
         ->capture_default_str();

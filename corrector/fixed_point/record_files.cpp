@@ -1,6 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "corrector/fixed_point/applied_tables.hpp"
 #include "corrector/fixed_point/record_result.hpp"
 #include "corrector/survey/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
@@ -113,7 +114,8 @@ Json segments_json(const RecordResult& result) {
 }  // namespace
 
 std::string record_csv(const RecordResult& result) {
-    std::string csv = "time_utc,acceleration_mgal,temperature_degc,segment\n";
+    std::string csv = "time_utc,acceleration_mgal,temperature_degc,segment" +
+                      std::string(result.applied ? ",parametric_mgal,by_modes_mgal\n" : "\n");
     for (const RecordStretch& stretch : result.record.stretches) {
         for (std::size_t i = 0; i < stretch.size(); ++i) {
             csv += to_rfc3339(stretch.times[i], 6) + ',' +
@@ -124,7 +126,7 @@ std::string record_csv(const RecordResult& result) {
                 if (stretch.times[i] >= segment.start && stretch.times[i] <= segment.end)
                     csv += std::to_string(k + 1);
             }
-            csv += '\n';
+            csv += applied_cells(result, stretch.times[i]) + '\n';
         }
     }
     return csv;
@@ -187,6 +189,7 @@ std::string record_json(const RecordResult& result, const Json& settings) {
     json["response_by_spectrum"] = points_json(analysis.by_spectrum);
     json["response_by_modes"] = points_json(analysis.by_modes);
     json["two_paths"] = two_paths_json(analysis.two_paths);
+    json["applied"] = applied_json(result);
     json["remarks"] = analysis.remarks;
     return json.dump(2) + '\n';
 }

@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "corrector/fixed_point/record_analysis.hpp"
+#include "corrector/fixed_point/apply_calibration.hpp"
 
 namespace a351::corrector {
 
@@ -17,6 +17,7 @@ struct RecordResult {
     std::size_t analysed = 0;  ///< Number of the segment, the longest.
     RecordAnalysis analysis;
     RecordAnalysisOptions options;
+    std::optional<AppliedCalibration> applied;  ///< To the analysed segment.
 
     [[nodiscard]] const RecordSegment& segment() const { return parts.segments[analysed]; }
 };
@@ -34,7 +35,8 @@ struct RecordStatistic {
 [[nodiscard]] std::vector<RecordStatistic> record_statistics(const RecordResult& result);
 
 /// `time_utc,acceleration_mgal,temperature_degc,segment`: every sample; empty where missing; the
-/// number of its segment from 1, empty where it is in none.
+/// number of its segment from 1, empty where it is in none.  With a calibration `parametric_mgal` and
+/// `by_modes_mgal` follow, of the analysed segment.
 [[nodiscard]] std::string record_csv(const RecordResult& result);
 
 /// Both ways by period.

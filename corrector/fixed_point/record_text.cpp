@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "corrector/fixed_point/applied_tables.hpp"
 #include "corrector/fixed_point/record_result.hpp"
 #include "corrector/fixed_point/record_tables.hpp"
 #include "corrector/survey/aligned_text.hpp"
@@ -70,7 +71,7 @@ std::string record_text(const RecordResult& result) {
     text += '\n' + analysis.reading + "\n\n" + aligned(response_table(result)) +
             lines_of(refused_bands(result)) + '\n' + aligned(two_paths_table(result)) +
             two_paths_reading(result) + "\n\n";
-    return text + lines_of(analysis.remarks);
+    return text + applied_text(result) + lines_of(analysis.remarks);
 }
 
 }  // namespace a351::corrector

@@ -2,7 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corrector/fixed_point/record_tables.hpp"
+#include "corrector/fixed_point/applied_tables.hpp"
+#include "corrector/report/applied_figures.hpp"
 #include "corrector/report/escaping.hpp"
 #include "corrector/report/html.hpp"
 #include "corrector/report/long_record_figures.hpp"
@@ -41,12 +42,21 @@ Report make_long_record_page(const RecordResult& result, const nlohmann::ordered
     const std::vector<Figure> response{response_figure(result)};
     std::vector<Figure> all = figures;
     all.push_back(response.front());
+    const std::vector<Figure> applied =
+        result.applied ? applied_figures(result) : std::vector<Figure>();
+    all.insert(all.end(), applied.begin(), applied.end());
     Drawing drawing = draw(all, picture_formats);
     Report page;
     page.warnings = missing_lines(drawing.troubles);
 
     std::string body = "<section class=\"first\">\n" + head_html(result) +
                        list_html(page.warnings) + "</section>\n";
+    if (result.applied)
+        body += section("With the calibration",
+                        list_html(applied_sentences(*result.applied)) +
+                            table_html("lrrr", applied_bands_table(*result.applied)) +
+                            figures_html(applied, drawing) +
+                            table_html("lrrr", allan_table(*result.applied)));
     body += section("Response by period", table_html("lrrrrrr", response_table(result)) +
                                               figures_html(response, drawing) +
                                               list_html(refused_bands(result)));

@@ -1,8 +1,9 @@
-"""calibrate from simulated nights: the true response within its errors, the warm-up from power-on, merging, refusals."""
+"""calibrate from simulated nights: the true response within its errors, the warm-up from power-on, merging, refusals;
+record --apply: another night of the unit corrected in two ways."""
 
 import math
 
-from programs import BIN, Scratch, demand, run
+from programs import BIN, Scratch, demand, read_json, rows, run
 
 # Of the scenarios' plant.
 TRUE_FAST_LAG = math.log(43.0)
@@ -72,3 +73,30 @@ with Scratch() as scratch:
         print(bad.stderr.strip())
         demand(f"{arguments}: one line, status 2, nothing written", bad.returncode == 2 and
                bad.stderr.count("\n") == 1 and words in bad.stderr and not (scratch / "bad.toml").exists())
+
+    def apply(record, calibration, out, check=True):
+        return run(BIN / "a351-correct", "record", record, "--apply", calibration, "--ensemble", "20", "--out", out,
+                   cwd=scratch, check=check)
+
+    apply("first", "night.toml", "applied")
+    applied = read_json(scratch / "applied" / "result.json")["applied"]
+    cycle = next(band["rms_mgal"] for band in applied["bands"] if band["shortest_s"] == 600.0)
+    print(applied["calibration"], cycle)
+    demand("the calibration is of other records", "measured from other records" in applied["calibration"])
+    demand("a night's fast path takes a fifth of the cycle out of another record",
+           cycle["parametric"] < 0.8 * cycle["before"])
+    demand("Allan deviations are there up to a quarter of the record",
+           applied["allan"][0]["averaging_s"] == 20.0 and applied["allan"][-1]["averaging_s"] > 10000.0)
+    table = rows(scratch / "applied" / "record.csv")
+    filled = [row for row in table if row["parametric_mgal"] and row["by_modes_mgal"]]
+    demand("record.csv has both series for every sample of the segment",
+           len(filled) == sum(row["segment"] == "1" for row in table) > 4000)
+    page = (scratch / "applied" / "record.html").read_text()
+    demand("the page shows them", "With the calibration" in page and "Allan deviation before and after" in page)
+    apply("night", "night.toml", "in-sample")
+    demand("in sample is said", "in sample" in read_json(scratch / "in-sample" / "result.json")["applied"]["calibration"])
+    (scratch / "other.toml").write_text(text.replace("00000001", "00000002"))
+    bad = apply("night", "other.toml", "bad", check=False)
+    print(bad.stderr.strip())
+    demand("another unit's calibration is refused in one line, nothing written", bad.returncode == 2 and
+           bad.stderr.count("\n") == 1 and "00000002" in bad.stderr and not (scratch / "bad").exists())

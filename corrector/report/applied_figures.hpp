@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "corrector/fixed_point/record_result.hpp"
+#include "corrector/report/figure.hpp"
+
+namespace a351::corrector {
+
+/// Before and after a calibration was applied: the series, and their Allan deviations.
+/// @pre result.applied
+[[nodiscard]] std::vector<Figure> applied_figures(const RecordResult& result);
+
+}  // namespace a351::corrector
