@@ -58,8 +58,7 @@ TEST_CASE("what a calibration leaves open is not applied, and said", "[fixed_poi
     CHECK(applied.parametric_mgal == segment.acceleration_mgal);
 }
 
-TEST_CASE("a sine that only the rate explains is taken out to a hundredth",
-          "[fixed_point][apply]") {
+TEST_CASE("a sine that only the rate explains is taken out by two paths", "[fixed_point][apply]") {
     RecordSegment segment;
     for (int i = 0; i < 2160; ++i) {
         const double angle = 2.0 * M_PI * 20.0 * i / 1800.0;
