@@ -10,6 +10,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/csv_reader.hpp"
+#include "protocol/text/text_file.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -29,7 +30,7 @@ struct Row {
 class Rows {
 public:
     Rows(const std::filesystem::path& file, const RecordWindow& window)
-        : in_(file, std::ios::binary), reader_(opened(in_, file), file), window_(window) {
+        : in_(text::open_file(file)), reader_(in_, file), window_(window) {
         const auto& columns = reader_.columns();
         const auto has = [&](const char* name) {
             return std::find(columns.begin(), columns.end(), name) != columns.end();
@@ -71,11 +72,6 @@ public:
     }
 
 private:
-    static std::ifstream& opened(std::ifstream& in, const std::filesystem::path& file) {
-        if (!in) throw InputError(file.string() + ": cannot be read; allowed: a readable file");
-        return in;
-    }
-
     [[nodiscard]] UtcTime time() const {
         const std::string_view cell = reader_.cells()[time_];
         if (const auto instant = parse_rfc3339(cell)) return *instant;
@@ -199,8 +195,7 @@ LongRecord read_csv_record(const std::filesystem::path& file, const RecordWindow
     record.step_s = step_s * std::pow(kRecordFactor, *stages);
     CsvStream stream(record, step_s, *stages, rows.axes());
     for (const Row& early : first) stream.take(early);
-    const std::size_t megabytes =
-        std::filesystem::is_regular_file(file) ? std::filesystem::file_size(file) / kMegabyte : 0;
+    const std::size_t megabytes = std::filesystem::file_size(file) / kMegabyte;
     for (std::size_t count = 0; rows.read(row); ++count) {
         stream.take(row);
         if (count % kBlock == 0) progress(rows.bytes_read() / kMegabyte, megabytes);

@@ -136,10 +136,13 @@ Json station_json(const StationValue& station) {
 }  // namespace
 
 InputFile describe_input(std::string role, const std::filesystem::path& file) {
-    const std::string content = text::read_text_file(file);
     boost::crc_32_type crc;
-    crc.process_bytes(content.data(), content.size());
-    return {std::move(role), file.filename().string(), content.size(), crc.checksum(), file};
+    std::uint64_t byte_count = 0;
+    text::read_file_in_blocks(file, [&](std::string_view block) {
+        crc.process_bytes(block.data(), block.size());
+        byte_count += block.size();
+    });
+    return {std::move(role), file.filename().string(), byte_count, crc.checksum(), file};
 }
 
 std::string occupations_csv(const SurveyCorrection& result) {

@@ -1,20 +1,46 @@
 #include "protocol/text/text_file.hpp"
 
-#include <fstream>
 #include <sstream>
+#include <vector>
 
 #include "protocol/core/input_error.hpp"
 
 namespace a351::text {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& file) {
+    throw InputError(file.string() + ": cannot be read; allowed: a readable file");
+}
+
+}  // namespace
+
+std::ifstream open_file(const std::filesystem::path& file) {
+    std::error_code error;
+    if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+        throw InputError(file.string() + ": is no regular file; allowed: a readable file");
+    std::ifstream in(file, std::ios::binary);
+    if (!in.is_open()) refuse(file);
+    return in;
+}
 
 std::string read_text_file(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
+    std::ifstream in = open_file(file);
     std::ostringstream content;
-    if (std::filesystem::is_regular_file(file)) content << in.rdbuf();
-    if (!in.is_open() || in.bad() || !std::filesystem::is_regular_file(file)) {
-        throw InputError(file.string() + ": cannot be read; allowed: a readable file");
-    }
+    content << in.rdbuf();
+    if (in.bad()) refuse(file);
     return std::move(content).str();
+}
+
+void read_file_in_blocks(const std::filesystem::path& file,
+                         const std::function<void(std::string_view block)>& take) {
+    constexpr std::size_t kBlock = 65536;
+    std::ifstream in = open_file(file);
+    std::vector<char> block(kBlock);
+    while (in) {
+        in.read(block.data(), static_cast<std::streamsize>(block.size()));
+        take({block.data(), static_cast<std::size_t>(in.gcount())});
+    }
+    if (in.bad()) refuse(file);
 }
 
 }  // namespace a351::text

@@ -98,4 +98,7 @@ TEST_CASE("SHA-256 of the standard's example", "[calibration]") {
     const ScratchFolder folder;
     CHECK(sha256_of_file(folder.write("abc", "abc")) ==
           "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    // A million times "a": more than one block.
+    CHECK(sha256_of_file(folder.write("a", std::string(1'000'000, 'a'))) ==
+          "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }

@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
@@ -100,4 +102,7 @@ TEST_CASE("what no record can be is named with its line", "[fixed_point][reading
             "r.csv:7: acceleration_mgal");
     refused("time_utc,temperature_degc\n2026-03-01T01:00:00Z,42\n", "acceleration_mgal");
     refused(kHeader + rows(20.0, 0, 1), "fewer than two rows");
+    const auto fifo = folder.path() / "fifo";
+    REQUIRE(::mkfifo(fifo.c_str(), S_IRUSR | S_IWUSR) == 0);
+    CHECK_THROWS_WITH(read_csv_record(fifo, {}, kSilent), Catch::Contains("is no regular file"));
 }

@@ -96,6 +96,10 @@ TEST_CASE("the JSON holds settings, inputs, both RMS of the paper and every row"
     // CRC-32 of "123456789", the check value of the Rocksoft model.
     const InputFile input = describe_input("sites", folder.write("s.csv", "123456789"));
     CHECK(input.crc32 == 0xCBF43926);
+    // A million times "a", by zlib's crc32(): more than one block.
+    const InputFile large = describe_input("sites", folder.write("a", std::string(1'000'000, 'a')));
+    CHECK(large.crc32 == 0xDC25BFBC);
+    CHECK(large.byte_count == 1'000'000);
     const auto json = nlohmann::json::parse(
         result_json(corrected("paper"), {{"model", "paper"}, {"seed", 7}}, {input}));
     CHECK(json["settings"]["seed"] == 7);

@@ -1,0 +1,38 @@
+#include "protocol/text/text_file.hpp"
+
+#include <sys/stat.h>
+
+#include <catch2/catch.hpp>
+
+#include "protocol/core/input_error.hpp"
+#include "tests/unit/survey/scratch_folder.hpp"
+
+using namespace a351;
+using namespace a351::text;
+
+TEST_CASE("blocks of a file are its content, none longer than a fixed size", "[text_file]") {
+    const ScratchFolder folder;
+    for (const std::size_t size : {0U, 1U, 65536U, 65537U, 1'000'000U}) {
+        std::string content(size, '\0');
+        for (std::size_t i = 0; i < size; ++i) content[i] = static_cast<char>(i * 7919 >> 3);
+        const auto file = folder.write("f", content);
+        std::string joined;
+        std::size_t longest = 0;
+        read_file_in_blocks(file, [&](std::string_view block) {
+            joined += block;
+            longest = std::max(longest, block.size());
+        });
+        CHECK((joined == content));
+        CHECK(longest <= 65536);
+        CHECK((read_text_file(file) == content));
+    }
+}
+
+TEST_CASE("a FIFO is refused, not waited for", "[text_file]") {
+    const ScratchFolder folder;
+    const auto fifo = folder.path() / "fifo";
+    REQUIRE(::mkfifo(fifo.c_str(), S_IRUSR | S_IWUSR) == 0);
+    CHECK_THROWS_WITH(read_text_file(fifo), Catch::Contains("fifo: is no regular file; allowed"));
+    CHECK_THROWS_AS(open_file(folder.path()), InputError);
+    CHECK_THROWS_WITH(open_file(folder.path() / "none"), Catch::Contains("none: cannot be read"));
+}
