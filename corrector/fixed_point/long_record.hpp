@@ -27,6 +27,8 @@ struct RecordStretch {
 
     std::vector<UtcTime> times;
     std::vector<double> acceleration_mgal;  ///< Norm of the decimated axes.
+    /// x, y, z as the sensor gave them, tide and all; none where the record has only their norm.
+    std::vector<std::vector<double>> axes_mgal;
     std::vector<double> temperature_degc;
     std::vector<RawRange> raw;
 

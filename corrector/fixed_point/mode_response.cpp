@@ -157,7 +157,10 @@ std::vector<ResponsePoint> response_by_modes(const std::vector<std::vector<doubl
         const Complex gain = all.acceleration / all.temperature;
         const double chance =
             chance_gain(z, temperature, acceleration, gain, margin, cycles, options.significance);
-        if (!set_limits(point, sums, gain, chance, options.significance)) {
+        if (!std::isnormal(std::abs(gain)) || !std::isfinite(chance)) {
+            point.refusal = "one of both is constant";
+            point.needed = "a record in which both move";
+        } else if (!set_limits(point, sums, gain, chance, options.significance)) {
             point.refusal = "not known within a factor of two";
             point.needed = "more swing or a longer record: a response below " +
                            fixed(2.0 * chance, 0) + " mGal/degC does not show";

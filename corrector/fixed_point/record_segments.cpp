@@ -1,6 +1,7 @@
 #include "corrector/fixed_point/record_segments.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "corrector/signal/disturbance.hpp"
@@ -101,11 +102,7 @@ public:
 
 private:
     void add_stretch(const RecordStretch& stretch) {
-        std::vector<bool> is_stuck =
-            refuse_stuck(stretch, stretch.temperature_degc, kSame_degc, "the temperature", " degC");
-        const std::vector<bool> is_still = refuse_stuck(stretch, stretch.acceleration_mgal,
-                                                        kSame_mgal, "the acceleration", " mGal");
-        for (std::size_t i = 0; i < is_stuck.size(); ++i) is_stuck[i] = is_stuck[i] || is_still[i];
+        const std::vector<bool> is_stuck = refuse_stuck_channels(stretch);
         const Valid valid = valid_samples(stretch, is_stuck);
         if (valid.size() == 0) return;
         const std::vector<double> steps = find_steps(valid.acceleration_mgal, options_);
@@ -134,6 +131,22 @@ private:
         last_end_ = stretch.times.back();
         last_temperature_ =
             level(valid, valid.size() - std::min(valid.size(), kBeside), valid.size());
+    }
+
+    std::vector<bool> refuse_stuck_channels(const RecordStretch& stretch) {
+        std::vector<bool> is_stuck =
+            refuse_stuck(stretch, stretch.temperature_degc, kSame_degc, "the temperature", " degC");
+        const auto refuse = [&](const std::vector<double>& values, const std::string& name) {
+            const auto is_still = refuse_stuck(stretch, values, kSame_mgal, name, " mGal");
+            for (std::size_t i = 0; i < is_stuck.size(); ++i)
+                is_stuck[i] = is_stuck[i] || is_still[i];
+        };
+        // The tide moves a norm that stands still; the axes it has not touched.
+        constexpr std::array kNames{"the x axis", "the y axis", "the z axis"};
+        if (stretch.axes_mgal.empty()) refuse(stretch.acceleration_mgal, "the acceleration");
+        for (std::size_t k = 0; k < stretch.axes_mgal.size(); ++k)
+            refuse(stretch.axes_mgal[k], kNames.at(k));
+        return is_stuck;
     }
 
     std::vector<bool> refuse_stuck(const RecordStretch& stretch, const std::vector<double>& values,

@@ -14,7 +14,7 @@ struct SegmentOptions {
     std::size_t longest_bridge = 15;
     /// Shortest segment in samples: 3 h, twelve cycles of 15 min.
     std::size_t shortest = 540;
-    /// A temperature or acceleration that is the same to the last digit for so many samples, 20 min, is
+    /// A temperature, axis or acceleration that is the same to the last digit for so many samples, 20 min, is
     /// stuck: the sensor has more noise than that.
     std::size_t stuck = 60;
     /// A step between the medians of nine samples before and after, over 1.4826 MAD of all such

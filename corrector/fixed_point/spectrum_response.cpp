@@ -116,15 +116,17 @@ ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, doub
     point.period_s = tt > 0.0 ? tt / frequency : std::sqrt(band.shortest_s * band.longest_s);
     point.temperature_rms_degc =
         std::sqrt(2.0 * tt / spectrum.rayleigh / static_cast<double>(samples));
-    if (!(tt > 0.0) || !(aa > 0.0)) {
+    // Of a constant rounding may leave so little that the quotient is no number.
+    const std::complex<double> gain = at / tt;
+    if (!(tt > 0.0) || !(aa > 0.0) || !std::isfinite(std::abs(gain)) || !std::isfinite(aa / tt)) {
         point.refusal = "one of both is constant";
+        point.needed = "a record in which both move";
         return point;
     }
     // Bins that carry the temperature's power, in units of the resolution: a line is as wide as the
     // tapers make it.
     const double freedom = std::max(tt * tt / tt2 / spectrum.rayleigh - 1.0, 2.0);
-    const std::complex<double> gain = at / tt;
-    point.coherence = std::norm(at) / (tt * aa);
+    point.coherence = std::min(1.0, std::norm(at) / tt / aa);  // rounding goes above 1
     const double quantile = std::pow(options.significance, -1.0 / (freedom - 1.0 + 1e-9)) - 1.0;
     const double radius = std::sqrt(quantile * (1.0 - point.coherence) * aa / tt);
     point.gain = {std::abs(gain), std::max(0.0, std::abs(gain) - radius), std::abs(gain) + radius};

@@ -49,6 +49,8 @@ TEST_CASE("blocks of any size make the same stretch", "[fixed_point][reading]") 
     const RecordStretch whole = build(5000), cut = build(77);
     REQUIRE(whole.size() == 50);
     REQUIRE(cut.size() == 50);
+    REQUIRE(whole.axes_mgal.size() == 3);
+    CHECK(whole.axes_mgal[2][25] == Approx(979763.0).margin(1e-6));
     CHECK(whole.times[3] == kStart + from_seconds(6.0));
     for (std::size_t k = 0; k < 50; ++k) {
         CHECK(std::isnan(whole.acceleration_mgal[k]) == (k < 5 || k > 45));

@@ -105,3 +105,18 @@ TEST_CASE("a stuck acceleration is refused", "[fixed_point][segments]") {
     REQUIRE(parts.refused.size() == 1);
     CHECK(parts.refused[0].reason == "the acceleration is stuck at 979763.0000 mGal");
 }
+
+TEST_CASE("an axis that is stuck is refused, whatever tide was taken from the norm",
+          "[fixed_point][segments]") {
+    LongRecord record = night();
+    RecordStretch& stretch = record.stretches[0];
+    stretch.axes_mgal.assign(3, stretch.acceleration_mgal);
+    CHECK(divide_record(record).segments.size() == 1);
+    stretch.axes_mgal[2].assign(2160, 979763.0);
+    for (std::size_t i = 0; i < 2160; ++i)
+        stretch.acceleration_mgal[i] = 979763.0 - 0.1 * std::sin(static_cast<double>(i) / 700.0);
+    const RecordSegments parts = divide_record(record);
+    CHECK(parts.segments.empty());
+    REQUIRE(parts.refused.size() == 1);
+    CHECK(parts.refused[0].reason == "the z axis is stuck at 979763.0000 mGal");
+}

@@ -84,3 +84,41 @@ TEST_CASE("noise without a response is refused, and so is a record too short",
     CHECK(short_ones >= 2);
     CHECK(silent >= 3);
 }
+
+TEST_CASE("an acceleration that is the temperature in other units has limits, not NaN",
+          "[fixed_point][response]") {
+    const std::vector<double> temperature = simulated_segment("indoor", 1).temperature_degc;
+    ResponseOptions options;
+    // The coherence is 1 but for rounding, to either side.
+    for (const double factor : {-1.0, 1.1, 3.3, 7.7, 13.7, 1e3, 1.7e5}) {
+        std::vector<double> acceleration;
+        for (const double value : temperature) acceleration.push_back(factor * value);
+        for (const auto& point :
+             response_by_spectrum(temperature, acceleration, kRecordStep_s, options)) {
+            CAPTURE(factor, point.period_s);
+            CHECK(point.coherence <= 1.0);
+            CHECK(std::isfinite(point.gain.low));
+            CHECK(std::isfinite(point.phase_deg.high));
+        }
+    }
+}
+
+TEST_CASE("a response that is no number is refused", "[fixed_point][response]") {
+    std::vector<double> temperature = simulated_segment("indoor", 1).temperature_degc;
+    const std::vector<double> acceleration = temperature, still(temperature.size(), 0.0);
+    ResponseOptions options;
+    const auto is_refused = [](const ResponsePoint& point) { return !point.refusal.empty(); };
+    // The least numbers there are: their squares vanish, quotients by them overflow.
+    for (double& value : temperature) value *= 1e-158;
+    for (const auto& x : {temperature, still}) {
+        const auto points = response_by_spectrum(x, acceleration, kRecordStep_s, options);
+        CHECK(std::all_of(points.begin(), points.end(), is_refused));
+        for (const ResponsePoint& point : points) CHECK(std::isfinite(point.gain.high));
+    }
+    for (const auto& y : {still}) {
+        const auto points =
+            response_by_modes({acceleration}, acceleration, y, kRecordStep_s, options);
+        CHECK(std::all_of(points.begin(), points.end(), is_refused));
+        for (const ResponsePoint& point : points) CHECK(std::isfinite(point.gain.high));
+    }
+}
