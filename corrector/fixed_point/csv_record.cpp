@@ -18,10 +18,12 @@ namespace {
 constexpr std::size_t kBlock = 16384;     // rows
 constexpr std::size_t kFirstRows = 1000;  // whose steps tell the rate, whatever gaps they have
 constexpr double kLongestGap_s = 3600.0;
+constexpr double kStepTolerance = 0.1;
 constexpr double kMostSeconds = 9e9;  // of from_seconds()
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 struct Row {
+    std::size_t line = 0;
     UtcTime time;
     std::vector<double> values;  ///< The axes in mGal, then the temperature.
 };
@@ -58,6 +60,7 @@ public:
             if ((window_.from && row.time < *window_.from) ||
                 (window_.to && row.time >= *window_.to))
                 continue;
+            row.line = reader_.line();
             row.values.clear();
             for (const std::size_t column : values_)
                 row.values.push_back(value(column) * (column == values_.back() ? 1.0 : unit_mgal_));
@@ -153,22 +156,65 @@ private:
     UtcTime last_;
 };
 
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
 double median_step_s(const std::vector<Row>& rows) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < rows.size(); ++i)
         steps.push_back(seconds_between(rows[i - 1].time, rows[i].time));
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return *middle;
+    return median(std::move(steps));
 }
+
+/// Refuses rows that come at another step than the first ones: they would be put on wrong times.
+class StepCheck {
+public:
+    StepCheck(const std::filesystem::path& file, double step_s) : file_(file), step_s_(step_s) {}
+
+    void take(const Row& row) {
+        if (last_) {
+            const double passed_s = seconds_between(*last_, row.time);
+            // Rows that are missing leave the step as it is.
+            if (passed_s <= kLongestGap_s)
+                steps_.push_back(passed_s / std::max(1.0, std::round(passed_s / step_s_)));
+        }
+        last_ = row.time;
+        if (steps_.empty()) first_line_ = row.line;
+        if (steps_.size() == kRows) finish();
+    }
+
+    /// What is left at the end.
+    void finish() {
+        if (steps_.size() < kFewestRows) return;
+        const double step_s = median(std::move(steps_));
+        if (std::abs(step_s / step_s_ - 1.0) > kStepTolerance) {
+            throw InputError(file_.string() + ":" + std::to_string(first_line_) + ": a row every " +
+                             text::shortest(step_s) + " s from about here on, every " +
+                             text::shortest(step_s_) +
+                             " s elsewhere; allowed: one step in a file, within 10 %");
+        }
+        steps_.clear();
+    }
+
+private:
+    static constexpr std::size_t kRows = 100, kFewestRows = 20;  // stamps may jitter
+
+    const std::filesystem::path& file_;
+    double step_s_;
+    std::vector<double> steps_;
+    std::optional<UtcTime> last_;
+    std::size_t first_line_ = 0;
+};
 
 }  // namespace
 
 std::optional<int> record_stages(double step_s) {
-    constexpr double kTolerance = 0.1;
     double step = kRecordStep_s;
     for (int stages = 0; stages <= kMostRecordStages; ++stages, step /= kRecordFactor)
-        if (std::abs(step_s / step - 1.0) < kTolerance) return stages;
+        if (std::abs(step_s / step - 1.0) < kStepTolerance) return stages;
     return std::nullopt;
 }
 
@@ -194,12 +240,18 @@ LongRecord read_csv_record(const std::filesystem::path& file, const RecordWindow
     record.raw_rate_hz = 1.0 / step_s;
     record.step_s = step_s * std::pow(kRecordFactor, *stages);
     CsvStream stream(record, step_s, *stages, rows.axes());
-    for (const Row& early : first) stream.take(early);
+    StepCheck check(file, step_s);
+    const auto take = [&](const Row& next) {
+        check.take(next);
+        stream.take(next);
+    };
+    for (const Row& early : first) take(early);
     const std::size_t megabytes = std::filesystem::file_size(file) / kMegabyte;
     for (std::size_t count = 0; rows.read(row); ++count) {
-        stream.take(row);
+        take(row);
         if (count % kBlock == 0) progress(rows.bytes_read() / kMegabyte, megabytes);
     }
+    check.finish();
     stream.finish();
     record.inputs.push_back(describe_input("record", file));
     return record;

@@ -25,6 +25,13 @@ std::string rows(double step_s, int first, int behind) {
     return text;
 }
 
+/// `time_s` without a header.
+std::string seconds(double step_s, double first_s, int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) text += std::to_string(first_s + step_s * i) + ",979763,42.5\n";
+    return text;
+}
+
 const std::string kHeader = "time_utc,acceleration_mgal,temperature_degc\n";
 
 }  // namespace
@@ -92,6 +99,16 @@ TEST_CASE("a CSV at 20 s is taken as it is, and a long gap begins a new stretch"
     CHECK(read_csv_record(file, window, kSilent).stretches[0].size() == 10);
 }
 
+TEST_CASE("rows missing here and there are no other step", "[fixed_point][reading]") {
+    const ScratchFolder folder;
+    std::string text = kHeader;
+    for (int i = 0; i < 500; ++i)
+        if (i < 300 || i % 3 == 0) text += rows(20.0, i, i + 1);
+    const LongRecord record = read_csv_record(folder.write("r.csv", text), {}, kSilent);
+    REQUIRE(record.stretches.size() == 1);
+    CHECK(record.stretches[0].size() == 499);
+}
+
 TEST_CASE("what no record can be is named with its line", "[fixed_point][reading]") {
     const ScratchFolder folder;
     const auto refused = [&](const std::string& text, const std::string& message) {
@@ -104,6 +121,12 @@ TEST_CASE("what no record can be is named with its line", "[fixed_point][reading
             "r.csv:7: acceleration_mgal");
     refused("time_utc,temperature_degc\n2026-03-01T01:00:00Z,42\n", "acceleration_mgal");
     refused(kHeader + rows(20.0, 0, 1), "fewer than two rows");
+    refused("time_s,acceleration_mgal,temperature_degc\n" + seconds(20.0, 0.0, 2160) +
+                seconds(10.0, 43200.0, 2160),
+            "a row every 10 s from about here on, every 20 s elsewhere; allowed: one step");
+    refused("time_s,acceleration_mgal,temperature_degc\n" + seconds(20.0, 0.0, 300) +
+                seconds(10.0, 6000.0, 30),
+            "a row every 10 s");
     const auto fifo = folder.path() / "fifo";
     REQUIRE(::mkfifo(fifo.c_str(), S_IRUSR | S_IWUSR) == 0);
     CHECK_THROWS_WITH(read_csv_record(fifo, {}, kSilent), Catch::Contains("is no regular file"));
