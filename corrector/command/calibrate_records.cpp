@@ -4,6 +4,7 @@
 
 #include "corrector/command/calibration_origin.hpp"
 #include "corrector/command/record_input.hpp"
+#include "corrector/fixed_point/joined_record.hpp"
 #include "corrector/fixed_point/record_calibration.hpp"
 #include "corrector/survey/aligned_text.hpp"
 #include "protocol/core/input_error.hpp"
@@ -83,7 +84,7 @@ std::string refusal(const PooledThermal& pooled, const std::string& file) {
 
 std::string calibrate_from_records(Calibration& calibration,
                                    const RecordCalibrationOptions& options) {
-    const LongRecord record = join_records(read_records(options.files, {}));
+    const LongRecord record = joined_record(read_records(options.files, {}));
     const std::string& file = options.files.front();
     note_origin(calibration, record.serial_number, record.stretches.front().times.front(),
                 record.inputs, file);

@@ -15,6 +15,7 @@
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/command/record_apply.hpp"
 #include "corrector/command/record_input.hpp"
+#include "corrector/fixed_point/joined_record.hpp"
 #include "corrector/fixed_point/record_result.hpp"
 #include "corrector/report/long_record_page.hpp"
 #include "protocol/core/input_error.hpp"
@@ -39,7 +40,7 @@ LongRecord read_record(const RecordCommandOptions& options) {
     if (!options.to.empty()) window.to = instant_option("--to", options.to);
     if (window.from && window.to && *window.from >= *window.to)
         throw InputError("--to = " + options.to + "; allowed: an instant after --from");
-    return join_records(read_records(options.files, window));
+    return joined_record(read_records(options.files, window));
 }
 
 RecordResult analysed(const RecordCommandOptions& options) {

@@ -52,30 +52,6 @@ std::vector<LongRecord> read_records(const std::vector<std::string>& files,
     return records;
 }
 
-LongRecord join_records(std::vector<LongRecord> records) {
-    LongRecord all = std::move(records.front());
-    for (std::size_t k = 1; k < records.size(); ++k) {
-        LongRecord& next = records[k];
-        if (next.serial_number != all.serial_number)
-            throw InputError("parts of the record are of the units '" + all.serial_number +
-                             "' and '" + next.serial_number + "'; allowed: one unit");
-        all.is_tide_removed = all.is_tide_removed && next.is_tide_removed;
-        std::move(next.stretches.begin(), next.stretches.end(), std::back_inserter(all.stretches));
-        std::move(next.inputs.begin(), next.inputs.end(), std::back_inserter(all.inputs));
-        std::move(next.warnings.begin(), next.warnings.end(), std::back_inserter(all.warnings));
-    }
-    std::stable_sort(all.stretches.begin(), all.stretches.end(),
-                     [](const RecordStretch& a, const RecordStretch& b) {
-                         return a.times.front() < b.times.front();
-                     });
-    for (std::size_t k = 1; k < all.stretches.size(); ++k) {
-        if (all.stretches[k].times.front() > all.stretches[k - 1].times.back()) continue;
-        throw InputError("at " + to_rfc3339(all.stretches[k].times.front()) +
-                         " two parts of the record overlap; allowed: each instant once");
-    }
-    return all;
-}
-
 RecordSegments divide_or_refuse(const LongRecord& record, const SegmentOptions& options,
                                 const std::string& name) {
     RecordSegments parts = divide_record(record, options);

@@ -14,11 +14,6 @@ namespace a351::corrector {
 [[nodiscard]] std::vector<LongRecord> read_records(const std::vector<std::string>& files,
                                                    const RecordWindow& window);
 
-/// All pieces in order of time, as one record.
-/// @param records  at least one.
-/// @throws InputError  they overlap, or are of several units.
-[[nodiscard]] LongRecord join_records(std::vector<LongRecord> records);
-
 /// divide_record() where something is left to be analysed.
 /// @throws InputError  in words, why there is not.
 [[nodiscard]] RecordSegments divide_or_refuse(const LongRecord& record,
