@@ -175,6 +175,7 @@ public:
     StepCheck(const std::filesystem::path& file, double step_s) : file_(file), step_s_(step_s) {}
 
     void take(const Row& row) {
+        if (steps_.empty()) first_line_ = row.line;
         if (last_) {
             const double passed_s = seconds_between(*last_, row.time);
             // Rows that are missing leave the step as it is.
@@ -182,7 +183,6 @@ public:
                 steps_.push_back(passed_s / std::max(1.0, std::round(passed_s / step_s_)));
         }
         last_ = row.time;
-        if (steps_.empty()) first_line_ = row.line;
         if (steps_.size() == kRows) finish();
     }
 

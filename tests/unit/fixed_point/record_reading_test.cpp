@@ -121,9 +121,10 @@ TEST_CASE("what no record can be is named with its line", "[fixed_point][reading
             "r.csv:7: acceleration_mgal");
     refused("time_utc,temperature_degc\n2026-03-01T01:00:00Z,42\n", "acceleration_mgal");
     refused(kHeader + rows(20.0, 0, 1), "fewer than two rows");
-    refused("time_s,acceleration_mgal,temperature_degc\n" + seconds(20.0, 0.0, 2160) +
-                seconds(10.0, 43200.0, 2160),
-            "a row every 10 s from about here on, every 20 s elsewhere; allowed: one step");
+    refused(
+        "time_s,acceleration_mgal,temperature_degc\n" + seconds(20.0, 0.0, 2160) +
+            seconds(10.0, 43200.0, 2160),
+        "r.csv:2203: a row every 10 s from about here on, every 20 s elsewhere; allowed: one step");
     refused("time_s,acceleration_mgal,temperature_degc\n" + seconds(20.0, 0.0, 300) +
                 seconds(10.0, 6000.0, 30),
             "a row every 10 s");
