@@ -49,6 +49,17 @@ TwoPathFit fitted(const RecordSegment& segment, double step_s) {
     return fit_two_paths(segment.temperature_degc, segment.acceleration_mgal, step_s, kCycle_s);
 }
 
+/// @throws InputError  the record is of several units.
+std::string unit_of(const LongRecord& record, const std::string& file) {
+    const std::string& unit = record.stretches.front().serial_number;
+    for (const RecordStretch& stretch : record.stretches)
+        if (stretch.serial_number != unit)
+            throw InputError(file + ": from " + to_rfc3339(stretch.times.front()) +
+                             " on of the unit '" + stretch.serial_number + "', before of '" + unit +
+                             "'; allowed: one unit");
+    return unit;
+}
+
 std::string slope_line(const PooledThermal& pooled) {
     return "  static slope, both paths: " + fixed(pooled.static_slope, 1) + " +- " +
            fixed(pooled.static_slope_error, 1) + " mGal/degC" +
@@ -86,7 +97,7 @@ std::string calibrate_from_records(Calibration& calibration,
                                    const RecordCalibrationOptions& options) {
     const LongRecord record = joined_record(read_records(options.files, {}));
     const std::string& file = options.files.front();
-    note_origin(calibration, record.serial_number, record.stretches.front().times.front(),
+    note_origin(calibration, unit_of(record, file), record.stretches.front().times.front(),
                 record.inputs, file);
     const RecordSegments parts = divide_or_refuse(record, {}, file);
     const double within_mgal = options.within_mgal.value_or(WarmUpGuidance{}.within_mgal);

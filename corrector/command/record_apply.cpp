@@ -22,7 +22,7 @@ bool is_in_sample(const LongRecord& record, const Calibration& calibration) {
 
 void apply_to(RecordResult& result, const std::string& file) {
     const Calibration calibration = read_calibration(file);
-    const std::string& unit = result.record.serial_number;
+    const std::string& unit = result.segment().serial_number;
     if (!unit.empty() && unit != calibration.serial_number)
         throw InputError(file + ": serial_number = " + calibration.serial_number +
                          ": the record is of unit " + unit + "; allowed: a calibration of " + unit);

@@ -6,12 +6,15 @@
 #include <limits>
 #include <pugixml.hpp>
 #include <set>
+#include <utility>
 
 #include "corrector/fixed_point/csv_record.hpp"
+#include "corrector/fixed_point/record_epochs.hpp"
 #include "corrector/fixed_point/stretch_builder.hpp"
 #include "corrector/survey/occupation_window.hpp"
 #include "corrector/tide/earth_tide.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/record/archive_reader.hpp"
 #include "protocol/record/sds.hpp"
 #include "protocol/record/station_document.hpp"
 #include "protocol/text/csv.hpp"
@@ -22,10 +25,11 @@ namespace {
 using std::chrono::days;
 using Day = std::chrono::sys_time<days>;
 
-constexpr std::size_t kChannels = 4;  // x, y, z, temperature
+constexpr std::size_t kChannels = kRecordChannels;
 constexpr std::size_t kVertical = 2;
 constexpr std::int64_t kBlock = 16384;  // samples: a channel's block stays in the cache
 constexpr double kLongestGap_s = 3600.0;
+constexpr double kSameRate = 1e-3;  // ten times what a sensor's clock is off
 constexpr double kMilliGalPerMps2 = 1e5;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -43,19 +47,39 @@ struct Placed {
 /// Turns the days of four channels into stretches.
 class ArchiveStream {
 public:
-    ArchiveStream(LongRecord& record, const std::array<record::ChannelScale, kChannels>& scales)
-        : record_(record), scales_(scales) {}
+    explicit ArchiveStream(LongRecord& record) : record_(record) {}
+
+    /// What is taken from here on is of that epoch.
+    void use(const RecordEpoch& epoch) {
+        if (epoch_ == &epoch) return;
+        if (std::string change = epoch_ == nullptr ? "" : epoch_change(*epoch_, epoch);
+            !change.empty()) {
+            end_stretch(false, {});
+            change_ = std::move(change);
+            tell_change(epoch.start);
+        }
+        epoch_ = &epoch;
+    }
 
     /// Samples of the day after those taken so far.
     void take(const DayOfChannels& day) {
         std::vector<Placed> run;
         for (const record::Segment& segment : day[kVertical].segments) {
-            if (record_.raw_rate_hz == 0.0) begin(segment.rate_hz);
             const UtcTime start = segment.time_of(0);
+            if (rate_hz_ == 0.0) begin(segment.rate_hz);
+            if (!has_rate(segment)) {
+                push(run, day);
+                run.clear();
+                end_stretch(false, {});
+                change_ = "another rate: " + text::shortest(segment.rate_hz) + " Hz after " +
+                          text::shortest(rate_hz_) + " Hz";
+                tell_change(start);
+                begin(segment.rate_hz);
+            }
             std::int64_t first = 0;
             if (builder_) {
-                const double late = seconds_between(next_time_, start) * record_.raw_rate_hz;
-                if (late > -0.5 && late < kLongestGap_s * record_.raw_rate_hz) {
+                const double late = seconds_between(next_time_, start) * rate_hz_;
+                if (late > -0.5 && late < kLongestGap_s * rate_hz_) {
                     first = next_ + std::llround(late);
                 } else {
                     push(run, day);
@@ -67,8 +91,7 @@ public:
             run.push_back({&segment, first});
             note_times(run.back());
             next_ = run.back().behind();
-            next_time_ = segment.time_of(segment.counts.size() - 1) +
-                         from_seconds(1.0 / record_.raw_rate_hz);
+            next_time_ = segment.time_of(segment.counts.size() - 1) + from_seconds(1.0 / rate_hz_);
         }
         push(run, day);
     }
@@ -78,19 +101,38 @@ public:
     }
 
 private:
+    [[nodiscard]] bool has_rate(const record::Segment& segment) const {
+        return std::abs(segment.rate_hz / rate_hz_ - 1.0) <= kSameRate;
+    }
+
     void begin(double rate_hz) {
-        record_.raw_rate_hz = rate_hz;
         const auto stages = record_stages(1.0 / rate_hz);
         if (!stages) {
             throw InputError("archive: rate = " + text::shortest(rate_hz) +
                              " Hz; allowed: 0.05, 0.5, 5 or 50 Hz within 10 %");
         }
         stages_ = *stages;
-        record_.step_s = std::pow(kRecordFactor, stages_) / rate_hz;
+        const double step_s = std::pow(kRecordFactor, stages_) / rate_hz;
+        if (rate_hz_ == 0.0) {
+            record_.raw_rate_hz = rate_hz;
+            record_.step_s = step_s;
+        } else if (std::abs(step_s / record_.step_s - 1.0) > kSameRate) {
+            throw InputError("archive: rate = " + text::shortest(rate_hz) + " Hz after " +
+                             text::shortest(rate_hz_) +
+                             " Hz; allowed: rates that differ by factors of 10");
+        }
+        rate_hz_ = rate_hz;
+    }
+
+    void tell_change(UtcTime time) {
+        record_.warnings.push_back("from " + to_rfc3339(time) + " on " + change_ +
+                                   "; divided there");
     }
 
     void end_stretch(bool is_step_back, UtcTime start) {
         record_.stretches.push_back(builder_->finish(record_.step_s));
+        record_.stretches.back().serial_number = epoch_->serial_number;
+        record_.stretches.back().begins_with = std::exchange(change_, {});
         builder_.reset();
         next_ = 0;
         if (is_step_back) {
@@ -113,6 +155,7 @@ private:
                                             const std::vector<Placed>& run) const {
         std::vector<Placed> placed;
         for (const record::Segment& segment : channel.segments) {
+            if (!has_rate(segment)) continue;
             const UtcTime start = segment.time_of(0);
             const Placed* beside = &run.front();
             for (const Placed& candidate : run)
@@ -122,7 +165,7 @@ private:
                 anchors.begin(), anchors.end(), start,
                 [](UtcTime time, const auto& anchor) { return time < anchor.time; });
             if (after != anchors.begin()) --after;
-            const double behind = seconds_between(after->time, start) * record_.raw_rate_hz;
+            const double behind = seconds_between(after->time, start) * rate_hz_;
             placed.push_back({&segment, beside->first + static_cast<std::int64_t>(after->offset) +
                                             std::llround(behind)});
         }
@@ -146,7 +189,8 @@ private:
               std::int64_t at, std::size_t count) const {
         values.assign(count, kNaN);
         const double unit = channel < kChannels - 1 ? kMilliGalPerMps2 : 1.0;
-        const double gain = unit * scales_[channel].gain, offset = unit * scales_[channel].offset;
+        const record::ChannelScale& scale = epoch_->scales.at(channel);
+        const double gain = unit * scale.gain, offset = unit * scale.offset;
         const std::int64_t behind = at + static_cast<std::int64_t>(count);
         for (const Placed& part : placed) {
             const std::int64_t end = std::min(part.behind(), behind);
@@ -157,7 +201,9 @@ private:
     }
 
     LongRecord& record_;
-    const std::array<record::ChannelScale, kChannels>& scales_;
+    const RecordEpoch* epoch_ = nullptr;
+    std::string change_;    ///< With which the stretch begins, or the next one.
+    double rate_hz_ = 0.0;  ///< 0: no sample yet.
     int stages_ = 0;
     std::optional<StretchBuilder> builder_;
     std::int64_t next_ = 0;  ///< Number of the sample that would continue the stretch ...
@@ -204,13 +250,17 @@ std::set<Day> days_with_files(const std::filesystem::path& archive,
 }
 
 void describe_inputs(LongRecord& record, const std::filesystem::path& root,
-                     const record::StationCodes& codes, const std::vector<std::string>& channels,
-                     const std::set<Day>& of_days) {
+                     const std::vector<RecordEpoch>& epochs, const std::set<Day>& of_days) {
     std::vector<std::filesystem::path> files;
-    for (const std::string& channel : channels) {
-        for (const Day day : of_days) {
-            auto file = record::sds_file(root / "archive", codes, channel, day);
-            if (std::filesystem::exists(file)) files.push_back(std::move(file));
+    for (std::size_t k = 0; k < kChannels; ++k) {
+        for (const RecordEpoch& epoch : epochs) {
+            for (const Day day : of_days) {
+                auto file =
+                    record::sds_file(root / "archive", epoch.codes, epoch.scales.at(k).code, day);
+                if (std::filesystem::exists(file) &&
+                    std::find(files.begin(), files.end(), file) == files.end())
+                    files.push_back(std::move(file));
+            }
         }
     }
     std::vector<InputFile> inputs(files.size());
@@ -225,38 +275,40 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
                                const Progress& progress) {
     const std::filesystem::path metadata = root / "metadata" / "station.xml";
     const std::filesystem::path archive = root / "archive";
-    record::StationMetadata station = record::read_station_xml(metadata, window.from);
-    SurveyChannels found = find_channels(station, metadata);
-    const std::set<Day> of_days =
-        days_with_files(archive, station.codes, found.axes[kVertical].code, window);
-    if (!window.from && !of_days.empty()) {
-        // Of epochs that follow each other the one in which the record ends: the first day may begin
-        // before the epoch does.
-        station = record::read_station_xml(metadata, UtcTime(*of_days.rbegin() + days(1)));
-        found = find_channels(station, metadata);
-    }
-    const std::array<record::ChannelScale, kChannels> scales{found.axes[0], found.axes[1],
-                                                             found.axes[2], found.temperature};
+    const std::vector<RecordEpoch> epochs = read_record_epochs(metadata);
+    std::set<Day> of_days;
+    for (const RecordEpoch& epoch : epochs)
+        of_days.merge(days_with_files(archive, epoch.codes, epoch.scales[kVertical].code, window));
 
     LongRecord record;
-    record.serial_number = station.serial_number;
-    ArchiveStream stream(record, scales);
+    ArchiveStream stream(record);
     std::size_t done = 0;
     for (const Day day : of_days) {
-        const UtcTime from = std::max(UtcTime(day), window.from.value_or(UtcTime(day)));
-        const UtcTime next = day + days(1);
-        DayOfChannels samples;
-        on_all_cores(kChannels, [&](std::size_t k) {
-            samples[k] = record::read_channel(archive, station.codes, scales[k].code, from,
-                                              std::min(next, window.to.value_or(next)));
-        });
-        for (const record::ChannelData& channel : samples) add_damage(record.warnings, channel);
-        stream.take(samples);
+        const UtcTime next = std::min(UtcTime(day + days(1)), window.to.value_or(UtcTime::max()));
+        UtcTime from = std::max(UtcTime(day), window.from.value_or(UtcTime(day)));
+        for (std::size_t e = 0; e < epochs.size(); ++e) {
+            // The epoch's part of the day.
+            const bool is_last = e + 1 == epochs.size();
+            const UtcTime to = is_last ? next : std::min(next, epochs[e + 1].start);
+            if (from >= to) continue;
+            const RecordEpoch& epoch = epochs[e];
+            DayOfChannels samples;
+            on_all_cores(kChannels, [&](std::size_t k) {
+                samples[k] =
+                    record::read_channel(archive, epoch.codes, epoch.scales.at(k).code, from, to);
+            });
+            for (const record::ChannelData& channel : samples) add_damage(record.warnings, channel);
+            from = to;
+            if (samples[kVertical].segments.empty()) continue;
+            stream.use(epoch);
+            stream.take(samples);
+        }
         progress(++done, of_days.size());
     }
     stream.finish();
     if (record.stretches.empty()) {
-        throw InputError(root.string() + ": archive: no sample of " + scales[kVertical].code +
+        throw InputError(root.string() + ": archive: no sample of " +
+                         epochs.back().scales[kVertical].code +
                          "; allowed: an archive with samples from --from to --to");
     }
     if (const auto position = position_of(metadata)) {
@@ -265,8 +317,7 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
         record.warnings.push_back(metadata.string() + ": no position: the tide is left in");
     }
     record.inputs.push_back(describe_input("metadata", metadata));
-    describe_inputs(record, root, station.codes,
-                    {scales[0].code, scales[1].code, scales[2].code, scales[3].code}, of_days);
+    describe_inputs(record, root, epochs, of_days);
     return record;
 }
 

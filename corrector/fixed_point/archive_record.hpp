@@ -20,12 +20,13 @@ struct RecordWindow {
 /// for one day of samples however long the record.
 ///
 /// Samples are counted, not timed: a gap (half a sample or more between neighbouring records) becomes
-/// as many missing samples; after a gap of more than an hour, or where the time goes back, a new
-/// stretch begins.
+/// as many missing samples; after a gap of more than an hour, where the time goes back, and where the
+/// sensor, a scale or the rate changes, a new stretch begins.
 /// @param root      holds archive/ and metadata/station.xml.
 /// @param progress  counts days.
 /// @throws InputError  the metadata cannot be read, the archive has no sample of the vertical axis in
-///                     the window, or one every so often that no whole stages of 10 lead to 20 s.
+///                     the window, or one every so often that no whole stages of 10 lead to 20 s, or in
+///                     one part to another step than in the rest.
 [[nodiscard]] LongRecord read_archive_record(const std::filesystem::path& root,
                                              const RecordWindow& window, const Progress& progress);
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "corrector/fixed_point/record_epochs.hpp"
 #include "corrector/fixed_point/record_segments.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
@@ -41,8 +42,9 @@ void append(RecordStretch& to, std::size_t missing, double step_s, const RecordS
 /// Samples missing between two stretches of different parts that are one piece.
 std::optional<std::size_t> bridged(const Part& before, const Part& after, double step_s) {
     const RecordStretch &a = before.stretch, &b = after.stretch;
-    if (before.number == after.number || before.is_tide_removed != after.is_tide_removed ||
-        a.raw.empty() != b.raw.empty() || a.axes_mgal.size() != b.axes_mgal.size())
+    if (before.number == after.number || a.serial_number != b.serial_number ||
+        before.is_tide_removed != after.is_tide_removed || a.raw.empty() != b.raw.empty() ||
+        a.axes_mgal.size() != b.axes_mgal.size())
         return std::nullopt;
     const double steps = std::round(seconds_between(a.times.back(), b.times.front()) / step_s);
     if (steps > static_cast<double>(SegmentOptions{}.longest_bridge + 1)) return std::nullopt;
@@ -55,7 +57,6 @@ LongRecord joined_record(std::vector<LongRecord> parts) {
     LongRecord all;
     all.raw_rate_hz = parts.front().raw_rate_hz;
     all.step_s = parts.front().step_s;
-    all.serial_number = parts.front().serial_number;
     all.is_tide_removed = true;
     std::vector<Part> sorted;
     for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -66,9 +67,6 @@ LongRecord joined_record(std::vector<LongRecord> parts) {
                              text::shortest(part.step_s) + " s, the first part has one every " +
                              text::shortest(all.step_s) + " s; allowed: one step in all parts");
         }
-        if (part.serial_number != all.serial_number)
-            throw InputError("parts of the record are of the units '" + all.serial_number +
-                             "' and '" + part.serial_number + "'; allowed: one unit");
         all.is_tide_removed = all.is_tide_removed && part.is_tide_removed;
         for (RecordStretch& stretch : part.stretches)
             sorted.push_back({std::move(stretch), k, part.is_tide_removed});
@@ -93,6 +91,13 @@ LongRecord joined_record(std::vector<LongRecord> parts) {
             append(last.stretch, *missing, all.step_s, next.stretch);
             last.number = next.number;
         } else {
+            if (std::string change =
+                    sensor_change(last.stretch.serial_number, next.stretch.serial_number);
+                last.number != next.number && !change.empty()) {
+                all.warnings.push_back("from " + to_rfc3339(next.stretch.times.front()) + " on " +
+                                       change + "; divided there");
+                next.stretch.begins_with = std::move(change);
+            }
             joined.push_back(std::move(next));
         }
     }

@@ -13,7 +13,7 @@ namespace a351::corrector {
 /// counted on from there and keep their times, so that they lie up to half a step beside the first
 /// part's clock.
 /// @param parts  at least one.
-/// @throws InputError  parts overlap, have another step, or are of several units.
+/// @throws InputError  parts overlap, or have another step.
 [[nodiscard]] LongRecord joined_record(std::vector<LongRecord> parts);
 
 }  // namespace a351::corrector

@@ -25,6 +25,8 @@ struct RecordStretch {
         double temperature_low_degc, temperature_high_degc;
     };
 
+    std::string serial_number;  ///< Of the sensor; empty: not told.
+    std::string begins_with;    ///< What is new from here on, "another sensor: ..."; empty: a gap.
     std::vector<UtcTime> times;
     std::vector<double> acceleration_mgal;  ///< Norm of the decimated axes.
     /// x, y, z as the sensor gave them, tide and all; none where the record has only their norm.
@@ -40,7 +42,6 @@ struct LongRecord {
     double raw_rate_hz = 0.0;
     double step_s = kRecordStep_s;  ///< Between samples, on the sensor's clock.
     bool is_tide_removed = false;
-    std::string serial_number;  ///< Of the sensor; empty: the metadata do not tell.
     std::vector<InputFile> inputs;
     std::vector<std::string> warnings;  ///< What was passed over, and why.
 };

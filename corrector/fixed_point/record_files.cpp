@@ -95,12 +95,17 @@ Json two_paths_json(const TwoPathFit& fit) {
     return json;
 }
 
+Json serial_json(const RecordSegment& segment) {
+    return segment.serial_number.empty() ? Json(nullptr) : Json(segment.serial_number);
+}
+
 Json segments_json(const RecordResult& result) {
     Json list = Json::array();
     for (std::size_t k = 0; k < result.parts.segments.size(); ++k) {
         const RecordSegment& segment = result.parts.segments[k];
         list.push_back({{"start_utc", to_rfc3339(segment.start, 3)},
                         {"end_utc", to_rfc3339(segment.end, 3)},
+                        {"serial_number", serial_json(segment)},
                         {"samples", segment.size()},
                         {"begins_with", segment.begins_with},
                         {"restart", segment.is_restart},
@@ -168,6 +173,7 @@ std::string record_json(const RecordResult& result, const Json& settings) {
                                   {"bytes", input.byte_count},
                                   {"crc32", input.crc32}});
     }
+    json["serial_number"] = serial_json(result.segment());
     json["raw_rate_hz"] = result.record.raw_rate_hz;
     json["step_s"] = result.record.step_s;
     json["tide_removed"] = result.record.is_tide_removed;

@@ -177,9 +177,10 @@ private:
     std::string begin_of(const RecordStretch& stretch, const Valid& valid) {
         is_restart_ = false;
         if (!last_end_) return "the record begins";
-        return gap_text(seconds_between(*last_end_, stretch.times.front()),
-                        level(valid, 0, std::min(valid.size(), kBeside)) - last_temperature_,
-                        is_restart_);
+        const std::string gap = gap_text(
+            seconds_between(*last_end_, stretch.times.front()),
+            level(valid, 0, std::min(valid.size(), kBeside)) - last_temperature_, is_restart_);
+        return stretch.begins_with.empty() ? gap : stretch.begins_with;
     }
 
     std::string break_text(const RecordStretch& stretch, const std::vector<bool>& is_stuck,
@@ -198,6 +199,7 @@ private:
         RecordSegment segment;
         segment.start = stretch.times[valid.places[first]];
         segment.end = stretch.times[valid.places[behind - 1]];
+        segment.serial_number = stretch.serial_number;
         segment.begins_with = why;
         segment.is_restart = is_restart;
         const std::size_t span = valid.places[behind - 1] - valid.places[first] + 1;

@@ -31,8 +31,9 @@ struct SegmentOptions {
 /// A run of samples without a break, bridged where single ones were missing.
 struct RecordSegment {
     UtcTime start;
-    UtcTime end;              ///< Of the last sample.
-    std::string begins_with;  ///< Why it begins: "the record begins", "gap of 512 s" ...
+    UtcTime end;                ///< Of the last sample.
+    std::string serial_number;  ///< Of the sensor; empty: not told.
+    std::string begins_with;    ///< Why it begins: "the record begins", "gap of 512 s" ...
     std::vector<double> acceleration_mgal;
     std::vector<double> temperature_degc;
     std::size_t bridged = 0;    ///< Samples made by a straight line ...

@@ -26,7 +26,11 @@ std::string head_html(const RecordResult& result) {
     const RecordSegment& segment = result.segment();
     const double hours = static_cast<double>(segment.size()) * result.record.step_s / 3600.0;
     return "<h1>A long record at one point</h1>\n" +
-           html_paragraph("Analysed: " + fixed(hours, 1) + " h from " + to_rfc3339(segment.start) +
+           html_paragraph("Analysed: " +
+                          (segment.serial_number.empty()
+                               ? std::string()
+                               : "sensor " + segment.serial_number + ", ") +
+                          fixed(hours, 1) + " h from " + to_rfc3339(segment.start) +
                           ", a sample every " + fixed(result.record.step_s, 0) + " s" +
                           (result.record.is_tide_removed ? ", earth tide removed." : ".")) +
            html_paragraph(result.analysis.reading) +
