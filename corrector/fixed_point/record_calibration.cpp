@@ -27,7 +27,6 @@ constexpr Index kLevel = 0, kSlow = 1, kRate = 2, kFirstLag = 3;
 constexpr double kDetermined = 0.5;        // of the prior's deviation, as in the fit
 constexpr double kLeastInformation = 1.0;  // as much as the prior
 constexpr double kOpenDeviation = 100.0;   // of the prior's deviation
-constexpr double kErrorFactor = 2.0;       // by which the survey widens the errors
 constexpr double kOneSided95 = 1.645;
 constexpr double kSecondsPerHour = 3600.0;
 
@@ -115,7 +114,7 @@ double agreement(const std::vector<Information>& records) {
     if (dof == rank) return 1.0;
     const boost::math::chi_squared distribution(static_cast<double>(dof - rank));
     return boost::math::cdf(boost::math::complement(
-        distribution, std::max(0.0, sum - common) / (kErrorFactor * kErrorFactor)));
+        distribution, std::max(0.0, sum - common) / (kThermalErrorFactor * kThermalErrorFactor)));
 }
 
 ThermalResponse passed_on(const Information& all) {

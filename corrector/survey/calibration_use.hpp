@@ -15,10 +15,6 @@
 
 namespace a351::corrector {
 
-/// Errors of a thermal response that were estimated from a record at one point come out too small
-/// by 1.4 to 2.3 on simulated records: they count as so many times as large.
-inline constexpr double kThermalErrorFactor = 2.0;
-
 /// Readings that differ so much from the calibration by chance once in a hundred contradict it.
 inline constexpr double kContradictionP = 0.01;
 
