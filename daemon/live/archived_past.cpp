@@ -1,0 +1,96 @@
+#include "daemon/live/archived_past.hpp"
+
+#include <string>
+#include <utility>
+
+#include "protocol/record/archive_reader.hpp"
+#include "protocol/record/channel_code.hpp"
+
+namespace a351::daemon {
+namespace {
+
+constexpr Nanoseconds kPast = std::chrono::hours(24);
+constexpr Nanoseconds kPiece = std::chrono::hours(6);  ///< 17 MB at 50 Hz.
+constexpr double kDegcPerCount = 0.001;                ///< Of the oven's channels.
+
+/// Goes through a channel sample by sample.
+class Cursor {
+public:
+    explicit Cursor(record::ChannelData data) : data_(std::move(data)) {}
+
+    [[nodiscard]] bool is_at_end() const { return segment_ == data_.segments.size(); }
+    [[nodiscard]] std::int32_t counts() const { return data_.segments[segment_].counts[sample_]; }
+    [[nodiscard]] UtcTime time() const {
+        const record::Segment& segment = data_.segments[segment_];
+        const auto& anchor = segment.anchors[anchor_];
+        return anchor.time +
+               from_seconds(static_cast<double>(sample_ - anchor.offset) / segment.rate_hz);
+    }
+    void next() {
+        const record::Segment& segment = data_.segments[segment_];
+        if (++sample_ == segment.counts.size()) {
+            ++segment_;
+            sample_ = anchor_ = 0;
+        } else if (anchor_ + 1 < segment.anchors.size() &&
+                   segment.anchors[anchor_ + 1].offset == sample_) {
+            ++anchor_;
+        }
+    }
+
+    /// To the first sample that is not earlier than `time` by more than `tolerance`.
+    /// @return whether it is not later either.
+    bool find(UtcTime time, Nanoseconds tolerance) {
+        while (!is_at_end() && this->time() < time - tolerance) next();
+        return !is_at_end() && this->time() <= time + tolerance;
+    }
+
+private:
+    record::ChannelData data_;
+    std::size_t segment_ = 0, sample_ = 0, anchor_ = 0;
+};
+
+void take_samples(const std::filesystem::path& archive, const record::StationCodes& codes,
+                  UtcTime from, UtcTime to, LiveRecord& record) {
+    const auto cursor = [&](const std::string& instrument_and_axis) {
+        return Cursor(record::read_channel(
+            archive, codes, record::channel_code(record.rate_hz(), instrument_and_axis), from, to));
+    };
+    std::array cursors{cursor("N" + codes.axes[0]), cursor("N" + codes.axes[1]),
+                       cursor("N" + codes.axes[2]), cursor("K1")};
+    const Nanoseconds half = from_seconds(0.5 / record.rate_hz());
+    PlacedSample sample;
+    for (; !cursors[0].is_at_end(); cursors[0].next(), ++sample.index) {
+        sample.time = cursors[0].time();
+        bool is_whole = true;
+        for (std::size_t channel = 0; channel < kLiveChannelCount; ++channel) {
+            is_whole = is_whole && cursors[channel].find(sample.time, half);
+            if (is_whole) sample.counts[channel] = cursors[channel].counts();
+        }
+        if (is_whole) record.take(sample);
+    }
+}
+
+void take_oven(const std::filesystem::path& archive, const record::StationCodes& codes,
+               UtcTime from, UtcTime to, LiveRecord& record) {
+    const auto cursor = [&](std::string_view channel) {
+        return Cursor(record::read_channel(archive, codes, std::string(channel), from, to));
+    };
+    Cursor value = cursor(record::kOvenTemperature), set_point = cursor(record::kOvenSetPoint);
+    for (; !set_point.is_at_end(); set_point.next()) {
+        OvenPoint point{set_point.time(), std::nullopt, DegC(kDegcPerCount * set_point.counts())};
+        if (value.find(point.time, std::chrono::milliseconds(500)))
+            point.process_value = DegC(kDegcPerCount * value.counts());
+        record.take(point);
+    }
+}
+
+}  // namespace
+
+void take_archived_past(const std::filesystem::path& archive, const record::StationCodes& codes,
+                        UtcTime now, LiveRecord& record) {
+    for (UtcTime from = now - kPast; from < now; from += kPiece)
+        take_samples(archive, codes, from, from + kPiece, record);
+    take_oven(archive, codes, now - kPast, now, record);
+}
+
+}  // namespace a351::daemon

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "daemon/live/recent_samples.hpp"
+#include "protocol/core/utc_time.hpp"
+
+namespace a351::daemon {
+
+/// Least and largest value within [time, time + interval).
+struct LiveEnvelope {
+    UtcTime time;
+    double interval_s = 0.0;
+    float low = 0.0F, high = 0.0F;
+};
+
+/// The last day as envelopes of 2 s, in the channels' units.
+class History {
+public:
+    void take(UtcTime time, const std::array<float, kLiveChannelCount>& values);
+
+    /// Those that touch [from, to), neighbours joined so that no more than `points` (>= 1) remain.
+    /// Where nothing was recorded there is none.
+    [[nodiscard]] std::vector<LiveEnvelope> envelopes(LiveChannel channel, UtcTime from, UtcTime to,
+                                                      std::size_t points) const;
+
+private:
+    struct Bin {
+        std::int64_t number = 0;  ///< Of 2 s since 1970.
+        std::array<float, kLiveChannelCount> low{}, high{};
+    };
+    std::deque<Bin> bins_;  ///< Ascending.
+};
+
+}  // namespace a351::daemon

@@ -1,0 +1,128 @@
+#include "daemon/live/live_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace a351::daemon {
+namespace {
+
+constexpr int kRecentSeconds = 90;  // The page shows 60.
+constexpr int kLevelSeconds = 2;    // Traffic is 20 mGal: 0.1' and less.
+constexpr Nanoseconds kKept = std::chrono::hours(24);
+constexpr Nanoseconds kOvenStep = std::chrono::seconds(2);
+
+template <class Point>
+void keep_a_day(std::deque<Point>& points) {
+    while (points.front().time < points.back().time - kKept) points.pop_front();
+}
+
+}  // namespace
+
+LiveRecord::LiveRecord(const wire::DeviceProfile& profile, int rate_hz,
+                       const VerdictOptions& options)
+    : profile_(profile),
+      rate_hz_(rate_hz),
+      options_(options),
+      recent_(static_cast<std::size_t>(kRecentSeconds * rate_hz), 1.0 / rate_hz),
+      thinning_(profile, rate_hz),
+      judge_(options) {}
+
+void LiveRecord::take(const PlacedSample& sample) {
+    const std::lock_guard lock(mutex_);
+    if (last_ && sample.time <= *last_ && *last_ - sample.time < kKept) return;
+    last_ = sample.time;
+    recent_.take(sample);
+    std::array<float, kLiveChannelCount> values{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        values[axis] = static_cast<float>(1e3 * profile_.acceleration(sample.counts[axis]).value());
+    values[3] = static_cast<float>(profile_.temperature(sample.counts[3]).value());
+    history_.take(sample.time, values);
+
+    fresh_.clear();
+    thinning_.take(sample, fresh_);
+    for (const LiveSample& one : fresh_) {
+        while (!thinned_.empty() && thinned_.back().time >= one.time) thinned_.pop_back();
+        thinned_.push_back(one);
+        keep_a_day(thinned_);
+        judge_.take(one);
+    }
+}
+
+void LiveRecord::take(const OvenPoint& point) {
+    const std::lock_guard lock(mutex_);
+    while (!oven_.empty() && oven_.back().time > point.time) oven_.pop_back();
+    if (!oven_.empty() && point.time - oven_.back().time < kOvenStep) return;
+    oven_.push_back(point);
+    keep_a_day(oven_);
+}
+
+std::uint64_t LiveRecord::end() const {
+    const std::lock_guard lock(mutex_);
+    return recent_.end();
+}
+
+std::optional<LiveBlock> LiveRecord::block_from(std::uint64_t& cursor, std::size_t most) const {
+    const std::lock_guard lock(mutex_);
+    return recent_.block_from(cursor, most);
+}
+
+std::vector<LiveEnvelope> LiveRecord::history(LiveChannel channel, UtcTime from, UtcTime to,
+                                              std::size_t points) const {
+    const std::lock_guard lock(mutex_);
+    return history_.envelopes(channel, from, to, points);
+}
+
+std::vector<OvenPoint> LiveRecord::oven_history(UtcTime from, UtcTime to,
+                                                std::size_t points) const {
+    const std::lock_guard lock(mutex_);
+    std::vector<OvenPoint> found;
+    for (const OvenPoint& point : oven_)
+        if (point.time >= from && point.time < to) found.push_back(point);
+    const std::size_t step = found.size() / std::max<std::size_t>(points, 1) + 1;
+    for (std::size_t i = 0; i * step < found.size(); ++i) found[i] = found[i * step];
+    found.resize((found.size() + step - 1) / step);
+    return found;
+}
+
+Verdict LiveRecord::verdict(UtcTime now) {
+    const std::lock_guard lock(mutex_);
+    return judge_.at(now);
+}
+
+RunningReading LiveRecord::reading(UtcTime from, UtcTime to, MilliGal target) const {
+    const std::lock_guard lock(mutex_);
+    RunningValue value(options_, from);
+    for (const LiveSample& sample : thinned_) {
+        if (sample.time < from) continue;
+        if (sample.time > to) break;
+        value.take(sample);
+    }
+    return value.reading(target, judge_.verdict().state);
+}
+
+std::optional<Level> LiveRecord::level_against(UtcTime from, UtcTime to) const {
+    const std::lock_guard lock(mutex_);
+    std::array<double, 2> sum_mgal{};
+    int count = 0;
+    for (const LiveSample& sample : thinned_) {
+        // Nothing of how the box was carried there may enter.
+        if (seconds_between(from, sample.time) < kReachSeconds) continue;
+        if (seconds_between(sample.time, to) < kReachSeconds) break;
+        const double x = sample.axes[0].value(), y = sample.axes[1].value();
+        if (!std::isfinite(x + y)) continue;
+        sum_mgal[0] += x;
+        sum_mgal[1] += y;
+        ++count;
+    }
+    const auto now = recent_.mean_of_last(static_cast<std::size_t>(kLevelSeconds * rate_hz_));
+    if (count == 0 || !now) return std::nullopt;
+    std::array<StandardGravity, 2> horizontal{}, reference{};
+    const double g_per_count = profile_.acceleration(1).value();
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        horizontal[axis] = StandardGravity(g_per_count * (*now)[axis]);
+        reference[axis] = to_standard_gravity(MilliGal(sum_mgal[axis] / count));
+    }
+    return level(horizontal, reference);
+}
+
+}  // namespace a351::daemon

@@ -1,0 +1,83 @@
+#pragma once
+/// @file
+/// The last day as the page draws it and the verdict judges it.  Written by the archive thread,
+/// read by the page's.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "daemon/live/history.hpp"
+#include "daemon/live/level.hpp"
+#include "daemon/live/live_thinning.hpp"
+#include "daemon/live/recent_samples.hpp"
+#include "daemon/verdict/running_value.hpp"
+#include "daemon/verdict/verdict.hpp"
+#include "protocol/wire/device_profile.hpp"
+
+namespace a351::daemon {
+
+/// What the oven's controller said.
+struct OvenPoint {
+    UtcTime time;
+    std::optional<DegC> process_value;
+    DegC set_point;
+};
+
+/// Thread-safe.  Memory: 24 h of envelopes and of the 2 s series, 90 s at full rate; 7 MB at 50 Hz.
+class LiveRecord {
+public:
+    /// `profile` must outlive this.
+    LiveRecord(const wire::DeviceProfile& profile, int rate_hz, const VerdictOptions& options);
+
+    /// Samples in the order of their time; one that is not later than the last is passed over, for
+    /// a replay brings in what the archive's past has told already, unless it is earlier by more
+    /// than the past goes back: then the clock was set.
+    void take(const PlacedSample& sample);
+    void take(const OvenPoint& point);
+
+    /// @name Of RecentSamples and History.
+    /// @{
+    [[nodiscard]] std::uint64_t end() const;
+    [[nodiscard]] std::optional<LiveBlock> block_from(std::uint64_t& cursor,
+                                                      std::size_t most) const;
+    [[nodiscard]] std::vector<LiveEnvelope> history(LiveChannel channel, UtcTime from, UtcTime to,
+                                                    std::size_t points) const;
+    /// @}
+    /// Every n-th, so that at most `points` (>= 1) remain.
+    [[nodiscard]] std::vector<OvenPoint> oven_history(UtcTime from, UtcTime to,
+                                                      std::size_t points) const;
+
+    /// What is to be told now, be there samples or not.
+    [[nodiscard]] Verdict verdict(UtcTime now);
+
+    /// Of the set-up from `from` to `to`, as far as it is remembered.
+    [[nodiscard]] RunningReading reading(UtcTime from, UtcTime to, MilliGal target) const;
+
+    /// The box as it stood in the last 2 s, against the mean of a set-up; std::nullopt where one of
+    /// the two is not known.
+    [[nodiscard]] std::optional<Level> level_against(UtcTime from, UtcTime to) const;
+
+    [[nodiscard]] const wire::DeviceProfile& profile() const noexcept { return profile_; }
+    [[nodiscard]] int rate_hz() const noexcept { return rate_hz_; }
+
+private:
+    const wire::DeviceProfile& profile_;
+    int rate_hz_;
+    VerdictOptions options_;
+    mutable std::mutex mutex_;
+    RecentSamples recent_;
+    History history_;
+    LiveThinning thinning_;
+    VerdictJudge judge_;
+    std::vector<LiveSample> fresh_;  ///< Kept for reuse.
+    std::deque<LiveSample> thinned_;
+    std::deque<OvenPoint> oven_;
+    std::optional<UtcTime> last_;
+};
+
+}  // namespace a351::daemon

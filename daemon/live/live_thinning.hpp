@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "corrector/signal/decimator.hpp"
+#include "daemon/live/recent_samples.hpp"
+#include "daemon/verdict/live_sample.hpp"
+#include "protocol/wire/device_profile.hpp"
+
+namespace a351::daemon {
+
+/// Samples -> the live series of one value in 2 s, by the decimation of the evening: to 5 Hz, then
+/// by ten.  What is missing for up to a minute costs the values that touch it; after more, or where
+/// time is set back, the series begins anew.
+class LiveThinning {
+public:
+    /// @param rate_hz  a multiple of 10, >= 10: all output rates of the profiles are.
+    LiveThinning(const wire::DeviceProfile& profile, int rate_hz);
+
+    /// Appends to `output` what is complete with this sample.
+    void take(const PlacedSample& sample, std::vector<LiveSample>& output);
+
+private:
+    using Values = std::array<double, kLiveChannelCount>;
+
+    void begin_run();
+    void add(UtcTime time, const Values& values, std::vector<LiveSample>& output);
+    void push_block(std::vector<LiveSample>& output);
+    [[nodiscard]] MilliGal shake_of_block() const;
+
+    const wire::DeviceProfile& profile_;
+    double interval_s_;
+    std::size_t block_size_;  ///< Samples in 2 s.
+    corrector::DecimationFilter to_5_hz_, by_ten_;
+    std::vector<corrector::Decimator> first_, second_;  ///< By channel.
+    std::array<std::vector<double>, kLiveChannelCount> block_, at_5_hz_, thinned_;
+    std::deque<UtcTime> begins_;  ///< Of the blocks whose value is not complete.
+    std::optional<UtcTime> last_;
+};
+
+}  // namespace a351::daemon
