@@ -16,6 +16,7 @@
 #include <string>
 
 #include "daemon/config/config.hpp"
+#include "daemon/live/archived_past.hpp"
 #include "daemon/page/server.hpp"
 #include "daemon/page/status.hpp"
 #include "daemon/source/host_clock.hpp"
@@ -97,13 +98,27 @@ record::StationDescription station_of(const Config& config) {
     return station;
 }
 
+PlacedSample placed(const record::Sample& sample, UtcTime time) {
+    const auto& axes = sample.values.axes;
+    return {sample.index, time, {axes[0], axes[1], axes[2], sample.values.temperature}};
+}
+
+void recall_past(const Config& config, UtcTime now, spdlog::logger& log, LiveRecord& live) {
+    try {
+        take_archived_past(config.storage.root / "archive", config.station.codes, now, live);
+    } catch (const std::exception& error) {
+        log.warn("the verdict does without what was recorded before: {}", error.what());
+    }
+}
+
 Status snapshot(const Config& config, const HostClock& clock, const SensorLink& link,
-                const std::optional<OvenLink>& oven, Store& store) {
+                const std::optional<OvenLink>& oven, Store& store, LiveRecord& live) {
     Status status;
     status.version = A351_VERSION;
     const timing::ClockReading reading = clock.read();
     status.now = reading.realtime;
     status.leap = reading.leap;
+    status.verdict = live.verdict(status.now);
     status.profile = config.sensor.profile->name;
     status.is_profile_verified = config.sensor.profile->is_verified;
     status.filter = config.sensor.filter;
@@ -159,6 +174,7 @@ sigset_t block_signals() {
 ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log,
                const sigset_t& signals, StatusLog& status_log) {
     ReadQueue reads;
+    LiveRecord live(*config.sensor.profile, config.sensor.settings.output_rate_hz, config.verdict);
     std::atomic<bool> is_recovered{false};
     Store store(record::posix_files(),
                 {.root = config.storage.root,
@@ -168,7 +184,10 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
                      [&](const auto& report) {
                          log_recovery(log, report);
                          is_recovered = true;
-                     }},
+                     },
+                 .begin = [&] { recall_past(config, clock.read().realtime, log, live); },
+                 .sample = [&](const record::Sample& sample,
+                               UtcTime time) { live.take(placed(sample, time)); }},
                 clock, reads);
     SensorLink link({.address = config.sensor.address,
                      .baud = config.sensor.baud,
@@ -180,16 +199,23 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
                     clock, reads);
     std::optional<OvenLink> oven;
     if (config.oven) {
-        oven.emplace(*config.oven, clock,
-                     [&store](record::OvenChunk poll) { store.post(std::move(poll)); });
+        oven.emplace(*config.oven, clock, [&](record::OvenChunk poll) {
+            if (const auto point = oven_point(poll, clock.read().realtime)) live.take(*point);
+            store.post(std::move(poll));
+        });
     }
     const std::filesystem::path events = config.storage.root / "events";
-    Occupations occupations(store, config.survey.sites, record::read_events(events).events);
+    Occupations occupations(
+        store, config.survey.sites, record::read_events(events).events,
+        {.planned = config.survey.planned, .target = MilliGal(config.verdict.target_mgal)});
     Server page(
         {.listen = config.page.listen, .hosts = config.page.hosts, .token = config.page.token},
-        {.status = [&] { return snapshot(config, clock, link, oven, store); },
+        {.status = [&] { return snapshot(config, clock, link, oven, store, live); },
          .occupations = occupations,
+         .live = live,
          .sites = config.survey.sites,
+         .latitude = config.station.latitude,
+         .longitude = config.station.longitude,
          .events = [&] { return record::read_events(events).events; },
          .stale_after = std::max<Nanoseconds>(kStale, clock.instrument_span(kShortestRealStale))});
     for (const std::string& address : page.addresses()) log.info("page at http://{}", address);
@@ -203,7 +229,7 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
     constexpr timespec kSecond{1, 0};
     while (true) {
         const int signal = sigtimedwait(&signals, nullptr, &kSecond);
-        status_log.note(snapshot(config, clock, link, oven, store),
+        status_log.note(snapshot(config, clock, link, oven, store, live),
                         std::chrono::steady_clock::now());
         if (signal == SIGHUP) log.warn("SIGHUP: no key can be reloaded in this version");
         if (signal == SIGINT || signal == SIGTERM) break;

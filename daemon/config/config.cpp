@@ -231,6 +231,7 @@ SurveyConfig read_survey(TomlTable table) {
         table.refuse("calibration", "no such file: " + survey.calibration.string(),
                      "a calibration of a351-correct, or \"\"");
     }
+    survey.planned = from_seconds(60.0 * table.number_or("occupation_min", 10.0, 1.0, 240.0));
     table.require_all_read();
     return survey;
 }

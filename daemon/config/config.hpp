@@ -48,8 +48,9 @@ struct PageConfig {
 };
 
 struct SurveyConfig {
-    std::vector<text::Site> sites;      ///< Empty when no file is named.
-    std::filesystem::path calibration;  ///< Empty when none is named.
+    std::vector<text::Site> sites;                   ///< Empty when no file is named.
+    std::filesystem::path calibration;               ///< Empty when none is named.
+    Nanoseconds planned = std::chrono::minutes(10);  ///< Length of an occupation.
 };
 
 struct Config {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "protocol/oven/controller_values.hpp"
+
 namespace a351::daemon {
 namespace {
 
@@ -17,6 +19,12 @@ void keep_a_day(std::deque<Point>& points) {
 }
 
 }  // namespace
+
+std::optional<OvenPoint> oven_point(const record::OvenChunk& poll, UtcTime time) {
+    const auto values = oven::controller_values(poll.registers, poll.decimals);
+    if (!values) return std::nullopt;
+    return OvenPoint{time, values->process_value, values->set_point};
+}
 
 LiveRecord::LiveRecord(const wire::DeviceProfile& profile, int rate_hz,
                        const VerdictOptions& options)

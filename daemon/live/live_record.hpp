@@ -17,6 +17,7 @@
 #include "daemon/live/recent_samples.hpp"
 #include "daemon/verdict/running_value.hpp"
 #include "daemon/verdict/verdict.hpp"
+#include "protocol/record/journal.hpp"
 #include "protocol/wire/device_profile.hpp"
 
 namespace a351::daemon {
@@ -27,6 +28,9 @@ struct OvenPoint {
     std::optional<DegC> process_value;
     DegC set_point;
 };
+
+/// std::nullopt unless the poll was answered.
+[[nodiscard]] std::optional<OvenPoint> oven_point(const record::OvenChunk& poll, UtcTime time);
 
 /// Thread-safe.  Memory: 24 h of envelopes and of the 2 s series, 90 s at full rate; 7 MB at 50 Hz.
 class LiveRecord {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "daemon/page/field_json.hpp"
 #include "daemon/page/order.hpp"
 #include "daemon/page/status_json.hpp"
 #include "protocol/core/input_error.hpp"
@@ -18,9 +19,13 @@ constexpr std::size_t kEventsPerAnswer = 1000;
 
 constexpr std::string_view kReadable[] = {"/",          "/api/status",      "/api/events",
                                           "/api/sites", "/api/occupations", "/api/token"};
-constexpr std::string_view kChangeable[] = {"/api/occupation/start",  "/api/occupation/stop",
-                                            "/api/occupation/setup",  "/api/occupation/discard",
-                                            "/api/occupation/rename", "/api/note"};
+constexpr std::string_view kChangeable[] = {"/api/occupation/start",
+                                            "/api/occupation/stop",
+                                            "/api/occupation/setup",
+                                            "/api/occupation/discard",
+                                            "/api/occupation/rename",
+                                            "/api/note",
+                                            "/api/target"};
 
 bool contains(std::span<const std::string_view> list, std::string_view path) {
     return std::find(list.begin(), list.end(), path) != list.end();
@@ -104,24 +109,45 @@ Response Api::read(std::string_view path, std::string_view query) {
     if (path == "/api/events") return events_since(query);
     if (!query.empty()) throw InputError("query: none is allowed here");
     if (path == "/api/status") {
-        return ok(to_json(sources_.status(), sources_.occupations, sources_.stale_after));
+        const Status status = sources_.status();
+        const auto field = field_status(sources_.occupations, sources_.live, status.now);
+        return ok(
+            to_json(status, sources_.occupations, field, sources_.live, sources_.stale_after));
     }
-    if (path == "/api/sites") {
-        json sites = json::array();
-        for (const auto& site : sources_.sites) sites.push_back(to_json(site));
-        return ok({{"sites", sites}});
-    }
-    if (path == "/api/occupations") {
-        json list = json::array();
-        for (const auto& one : sources_.occupations.list()) list.push_back(to_json(one));
-        return ok({{"occupations", list}});
-    }
+    if (path == "/api/sites") return sites_around();
+    if (path == "/api/occupations") return occupations_so_far();
     if (path == "/api/token") {
         if (token_.empty()) return refusal(403, "the token is the one in [page] token");
         return ok({{"token", token_}});
     }
     return {.content_type = "text/plain; charset=utf-8",
             .body = "a351d answers under /api/status; there is no page here yet.\n"};
+}
+
+/// Around the last occupation's site, or else the base.
+Response Api::sites_around() const {
+    Degrees latitude = sources_.latitude, longitude = sources_.longitude;
+    const auto list = sources_.occupations.list();
+    const auto& running = sources_.occupations.running();
+    const std::string last = running ? running->site : list.empty() ? "" : list.back().site;
+    if (const auto* site = text::find_site(sources_.sites, last); site && site->is_placed) {
+        latitude = site->latitude;
+        longitude = site->longitude;
+    }
+    json sites = json::array();
+    for (const auto& one : nearest_first(sources_.sites, latitude, longitude))
+        sites.push_back(to_json(one));
+    return ok({{"sites", sites}});
+}
+
+Response Api::occupations_so_far() const {
+    json list = json::array();
+    for (const auto& one : sources_.occupations.list()) {
+        list.push_back(to_json(one));
+        list.back()["reading"] =
+            to_json(reading_of(one.set_ups, sources_.live, sources_.occupations.target()));
+    }
+    return ok({{"occupations", list}});
 }
 
 Response Api::events_since(std::string_view query) {
@@ -171,6 +197,8 @@ Response Api::change(std::string_view path, const std::string& body) {
         if (order.site.empty()) throw InputError("body: key site is missing");
         if (order.at) throw InputError("body: key at: a rename speaks of no instant");
         outcome = occupations.rename(order.site, order.remark);
+    } else if (path == "/api/target") {
+        outcome = occupations.set_target(parse_target(body));
     } else {
         outcome = occupations.note(parse_order(body, {"note"}).remark.note);
     }

@@ -3,7 +3,8 @@
 /// The HTTP interface as a function from request to response.  No sockets, no threads.
 ///
 /// GET  /api/status /api/events?since=UTC /api/sites /api/occupations /api/token
-/// POST /api/occupation/start|stop|setup|discard|rename /api/note, with a JSON object as body
+/// POST /api/occupation/start|stop|setup|discard|rename /api/note /api/target, with a JSON object
+///      as body
 ///
 /// An answer is JSON; a refusal is {"error": one line}: 400 malformed, 403 and 421 security, 404,
 /// 405, 409 against a rule of the survey, 500 not on disk.  GET changes nothing.
@@ -14,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "daemon/live/live_record.hpp"
 #include "daemon/page/message.hpp"
 #include "daemon/page/status.hpp"
 #include "daemon/survey/occupations.hpp"
@@ -27,7 +29,9 @@ namespace a351::daemon {
 struct ApiSources {
     std::function<Status()> status;
     Occupations& occupations;
+    LiveRecord& live;
     std::vector<text::Site> sites = {};
+    Degrees latitude, longitude;                         ///< Of the base, where a day begins.
     std::function<std::vector<record::Event>()> events;  ///< The whole event log, in file order.
 
     /// Instrument time without a sample after which the verdict is "no data".  On scaled time let
@@ -49,6 +53,8 @@ private:
     [[nodiscard]] Response route(const Request& request);
     [[nodiscard]] Response read(std::string_view path, std::string_view query);
     [[nodiscard]] Response change(std::string_view path, const std::string& body);
+    [[nodiscard]] Response sites_around() const;
+    [[nodiscard]] Response occupations_so_far() const;
     [[nodiscard]] Response events_since(std::string_view query);
 
     ApiSources sources_;

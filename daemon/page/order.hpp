@@ -23,4 +23,8 @@ struct Order {
 ///                     `at` that is not RFC 3339; names the key.
 [[nodiscard]] Order parse_order(std::string_view body, const std::vector<std::string>& allowed);
 
+/// The body {"target_mgal": number}.
+/// @throws InputError  anything else.
+[[nodiscard]] MilliGal parse_target(std::string_view body);
+
 }  // namespace a351::daemon

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/verdict/verdict.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "protocol/oven/controller_values.hpp"
@@ -59,6 +60,7 @@ struct Status {
 
     std::array<StandardGravity, 3> acceleration{};
     DegC temperature;
+    Verdict verdict;
     std::optional<OvenStatus> oven;  ///< Absent: not enabled.
 
     record::ArchiverCounters counters;

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "daemon/page/field_json.hpp"
+
 namespace a351::daemon {
 namespace {
 
@@ -40,16 +42,30 @@ json or_null(const std::optional<Number>& number) {
 }
 
 json verdict_of(const Status& status, Nanoseconds stale_after) {
-    if (!status.last_sample) {
-        return {{"state", "no data"}, {"reasons", json::array({"no sample has come yet"})}};
-    }
-    if (status.now - *status.last_sample <= stale_after) {
-        return {{"state", "not assessed"}, {"reasons", json::array()}};
-    }
+    const auto no_data = [&](const char* reason, std::optional<UtcTime> since) {
+        json verdict =
+            to_json(Verdict{VerdictState::no_data, since.value_or(UtcTime{}), {}}, status.now);
+        verdict["reasons"].push_back(reason);
+        return verdict;
+    };
+    if (!status.last_sample) return no_data("no sample has come yet", std::nullopt);
+    if (status.now - *status.last_sample <= stale_after) return to_json(status.verdict, status.now);
     char reason[64];
     std::snprintf(reason, sizeof reason, "last sample %.1f s ago",
                   seconds_between(*status.last_sample, status.now));
-    return {{"state", "no data"}, {"reasons", json::array({reason})}};
+    return no_data(reason, status.last_sample);
+}
+
+json occupation_of(const Occupations& occupations, const FieldStatus& field, UtcTime now) {
+    const auto& running = occupations.running();
+    if (!running) return nullptr;
+    json occupation = to_json(*running, now);
+    occupation["reading"] = field.reading ? to_json(*field.reading, occupations.target()) : json();
+    occupation["whole"] = to_json(field.whole);
+    occupation["half_time_s"] = or_null(field.half_time_s);
+    occupation["propose_set_up"] = field.proposes_set_up;
+    occupation["warnings"] = field.warnings;
+    return occupation;
 }
 
 json rate_of(const Status& status) {
@@ -117,8 +133,8 @@ json counters_of(const Status& status) {
 
 }  // namespace
 
-json to_json(const Status& status, const Occupations& occupations, Nanoseconds stale_after) {
-    const auto& running = occupations.running();
+json to_json(const Status& status, const Occupations& occupations, const FieldStatus& field,
+             const LiveRecord& live, Nanoseconds stale_after) {
     const double uncertainty_ms =
         std::chrono::duration<double, std::milli>(status.timing_uncertainty).count();
     return {{"api", kApiVersion},
@@ -135,7 +151,10 @@ json to_json(const Status& status, const Occupations& occupations, Nanoseconds s
               {"uncertainty_ms", uncertainty_ms},
               {"rate", rate_of(status)}}},
             {"verdict", verdict_of(status, stale_after)},
-            {"occupation", running ? to_json(*running, status.now) : json()},
+            {"occupation", occupation_of(occupations, field, status.now)},
+            {"target_mgal", occupations.target().value()},
+            {"level", level_of(field)},
+            {"live", channels_of(live)},
             {"sample", sample_of(status)},
             {"counters", counters_of(status)},
             {"oven", oven_of(status.oven)},
@@ -162,7 +181,8 @@ json to_json(const RunningOccupation& running, UtcTime now) {
             {"operator", running.remark.operator_name},
             {"note", running.remark.note},
             {"start", to_rfc3339(running.start, 3)},
-            {"set_up", to_rfc3339(running.set_up, 3)},
+            {"set_up", to_rfc3339(running.set_ups.back(), 3)},
+            {"set_up_count", running.set_ups.size()},
             {"running_s", seconds_between(running.start, now)},
             {"session", running.session ? json(running.session->to_hex()) : json()},
             {"index", or_null(running.index)}};
@@ -180,13 +200,15 @@ json to_json(const record::Occupation& occupation) {
             {"set_ups", set_ups}};
 }
 
-json to_json(const text::Site& site) {
+json to_json(const SiteDistance& one) {
+    const text::Site& site = one.site;
     const auto placed = [&site](double value) { return site.is_placed ? json(value) : json(); };
     return {{"site", site.name},
             {"longitude_deg", placed(site.longitude.value())},
             {"latitude_deg", placed(site.latitude.value())},
             {"altitude_m", placed(site.altitude.value())},
-            {"gravity_mgal", site.gravity ? json(site.gravity->value()) : json()}};
+            {"gravity_mgal", site.gravity ? json(site.gravity->value()) : json()},
+            {"distance_m", one.distance ? json(one.distance->value()) : json()}};
 }
 
 }  // namespace a351::daemon

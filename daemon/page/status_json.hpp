@@ -3,6 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "daemon/page/status.hpp"
+#include "daemon/survey/field_status.hpp"
 #include "daemon/survey/occupations.hpp"
 #include "protocol/record/event_log.hpp"
 #include "protocol/text/sites.hpp"
@@ -15,11 +16,12 @@ inline constexpr int kApiVersion = 1;
 /// The body of GET /api/status.  A number that is not known, or not finite, is null.
 /// @param stale_after  the verdict is "no data" when the last sample is older than that.
 [[nodiscard]] nlohmann::json to_json(const Status& status, const Occupations& occupations,
+                                     const FieldStatus& field, const LiveRecord& live,
                                      Nanoseconds stale_after);
 
 /// `now` adds the running time.
 [[nodiscard]] nlohmann::json to_json(const RunningOccupation& running, UtcTime now);
 [[nodiscard]] nlohmann::json to_json(const record::Occupation& occupation);
-[[nodiscard]] nlohmann::json to_json(const text::Site& site);
+[[nodiscard]] nlohmann::json to_json(const SiteDistance& one);
 
 }  // namespace a351::daemon

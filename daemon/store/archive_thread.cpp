@@ -37,6 +37,10 @@ ArchiveThread::ArchiveThread(record::FileLayer& files, std::filesystem::path arc
       last_sync_(time_.now()),
       archiver_(std::make_unique<record::Archiver>(outbox_)) {
     status_.is_replaying = true;
+    outbox_.placed = [this](const record::Sample& sample) {
+        if (const auto placed = archiver_->clock()->time_of(sample.index))
+            hooks_.sample(sample, placed->utc);
+    };
 }
 
 ArchiveThread::~ArchiveThread() {
@@ -66,6 +70,7 @@ bool ArchiveThread::join() {
 }
 
 void ArchiveThread::run() noexcept {
+    hooks_.begin();
     while (!recover()) {
         bool is_over = false;
         {

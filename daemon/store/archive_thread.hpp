@@ -59,6 +59,10 @@ public:
         std::function<void(const record::JournalHeader&)> session_began;
         /// The archive is up to the journal of the last run.
         std::function<void(const record::RecoveryReport&)> recovered;
+        /// Before anything is read or written.
+        std::function<void()> begin;
+        /// Each sample that gets its place, those of the last run's journal included.
+        std::function<void(const record::Sample&, UtcTime)> sample;
     };
 
     /// All referred to must outlive this.
@@ -100,7 +104,10 @@ private:
             bytes += record.bytes.size();
             entries.push_back({session, channel, record, last_index});
         }
-        void sample(const record::Sample& sample) override { last_sample = sample; }
+        void sample(const record::Sample& sample) override {
+            last_sample = sample;
+            placed(sample);
+        }
         [[nodiscard]] std::optional<std::size_t> samples_held(const std::string& channel,
                                                               UtcTime start) const override {
             return writer->samples_held(channel, start);
@@ -111,6 +118,7 @@ private:
         std::deque<Entry> entries;
         std::size_t bytes = 0;
         std::optional<record::Sample> last_sample;
+        std::function<void(const record::Sample&)> placed;
     };
 
     /// A session that is over but still remembered.

@@ -30,7 +30,9 @@ Store::Store(record::FileLayer& files, StoreOptions options, const HostClock& cl
                reserve_,
                {.post = [this](record::JournalChunk chunk) { journal_.post(std::move(chunk)); },
                 .session_began = [this](const record::JournalHeader& header) { describe(header); },
-                .recovered = [this](const record::RecoveryReport& report) { go_on(report); }},
+                .recovered = [this](const record::RecoveryReport& report) { go_on(report); },
+                .begin = options_.begin,
+                .sample = options_.sample},
                options_.time, plan_) {}
 
 Store::~Store() { stop(); }

@@ -43,6 +43,10 @@ struct StoreOptions {
     std::chrono::milliseconds commit_patience{10'000};
     /// Called by another thread when the archive is up to the journal of the last run.
     std::function<void(const record::RecoveryReport&)> recovered = [](const auto&) {};
+    /// Both by another thread: once before anything is recorded or recovered, and it must not
+    /// throw; and with each sample that gets its place, those of the last run's journal included.
+    std::function<void()> begin = [] {};
+    std::function<void(const record::Sample&, UtcTime)> sample = [](const auto&, UtcTime) {};
 };
 
 class Store : public Recorder {

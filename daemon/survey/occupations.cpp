@@ -1,6 +1,9 @@
 #include "daemon/survey/occupations.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
 #include <system_error>
 #include <utility>
 
@@ -34,6 +37,18 @@ std::string detail(const record::Event& event, const std::string& key) {
     return found == event.details.end() ? "" : found->second;
 }
 
+constexpr const char* kTargetKey = "target_mgal";
+
+bool is_target(MilliGal target) { return target.value() >= 0.01 && target.value() <= 1000.0; }
+
+std::optional<MilliGal> target_of(const record::Event& event) {
+    const std::string text = detail(event, kTargetKey);
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return is_target(MilliGal(value)) ? std::optional(MilliGal(value)) : std::nullopt;
+}
+
 std::string named(std::string_view site, int number) {
     return std::string(site) + " (stay " + std::to_string(number) + ")";
 }
@@ -45,8 +60,8 @@ std::string named(const record::Occupation& occupation) {
 }  // namespace
 
 Occupations::Occupations(Recorder& recorder, std::vector<text::Site> sites,
-                         std::vector<record::Event> events)
-    : recorder_(recorder), sites_(std::move(sites)) {
+                         std::vector<record::Event> events, const Options& options)
+    : recorder_(recorder), options_(options), target_(options.target), sites_(std::move(sites)) {
     events_.reserve(events.size());
     for (auto& event : events) {
         follow(event);
@@ -103,17 +118,21 @@ Outcome Occupations::start(std::string_view site, const Remark& remark, std::opt
     auto event = event_at("start", *placed.instant);
     add(event, "site", site);
     add(event, remark);
-    return commit(std::move(event),
-                  "started " + std::string(site) + " at " + shown(placed.instant->utc));
+    auto outcome = commit(std::move(event),
+                          "started " + std::string(site) + " at " + shown(placed.instant->utc));
+    if (running_ && running_->number > 1)
+        outcome.message +=
+            "; the site was occupied before: stay " + std::to_string(running_->number);
+    return outcome;
 }
 
 Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
     if (!running_) return refused("no occupation is running");
     const auto placed = place(at);
     if (!placed.instant) return refused(placed.trouble);
-    if (placed.instant->utc <= running_->set_up) {
+    if (placed.instant->utc <= running_->set_ups.back()) {
         return refused(shown(placed.instant->utc) + " is not after the start of the set-up at " +
-                       running_->site + ", " + shown(running_->set_up));
+                       running_->site + ", " + shown(running_->set_ups.back()));
     }
     for (const auto& one : list()) {
         const auto begin = one.set_ups.front().start;
@@ -126,16 +145,29 @@ Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
     add(event, "site", running_->site);
     add(event, remark);
     return commit(std::move(event), "stopped " + named(running_->site, running_->number) + " at " +
-                                        shown(placed.instant->utc));
+                                        shown(placed.instant->utc) +
+                                        remarks_on_stop(placed.instant->utc));
+}
+
+std::string Occupations::remarks_on_stop(UtcTime stop) const {
+    const Nanoseconds stay = stop - running_->start;
+    if (stay >= options_.planned) return "";
+    char text[80];
+    const auto minutes = [](Nanoseconds span) {
+        return std::chrono::duration<double, std::ratio<60>>(span).count();
+    };
+    std::snprintf(text, sizeof text, "; short: %.1f min of the %.0f planned", minutes(stay),
+                  minutes(options_.planned));
+    return text;
 }
 
 Outcome Occupations::setup(std::optional<UtcTime> at) {
     if (!running_) return refused("no occupation is running");
     const auto placed = place(at);
     if (!placed.instant) return refused(placed.trouble);
-    if (placed.instant->utc <= running_->set_up) {
+    if (placed.instant->utc <= running_->set_ups.back()) {
         return refused(shown(placed.instant->utc) + " is not after the start of the set-up at " +
-                       running_->site + ", " + shown(running_->set_up));
+                       running_->site + ", " + shown(running_->set_ups.back()));
     }
     auto event = event_at("setup", *placed.instant);
     add(event, "site", running_->site);
@@ -179,6 +211,17 @@ Outcome Occupations::note(std::string_view text) {
     return commit(std::move(event), "noted at " + shown(event.utc));
 }
 
+Outcome Occupations::set_target(MilliGal target) {
+    if (!is_target(target)) return refused("target: allowed: 0.01 to 1000 mGal");
+    auto event = about_now("target");
+    if (event.utc == UtcTime{}) return refused("no sample has come yet");
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.begin(), text.end(), target.value()).ptr;
+    add(event, kTargetKey, std::string_view(text.data(), end));
+    return commit(std::move(event),
+                  "good enough is a standard error of " + std::string(text.data(), end) + " mGal");
+}
+
 std::vector<record::Occupation> Occupations::list() const {
     return record::occupations_of(events_);
 }
@@ -215,13 +258,15 @@ void Occupations::follow(const record::Event& event) {
         running_ = RunningOccupation{detail(event, "site"),
                                      1,
                                      event.utc,
-                                     event.utc,
+                                     {event.utc},
                                      event.session,
                                      event.index,
                                      {detail(event, "operator"), detail(event, "note")}};
+    } else if (event.type == "target") {
+        target_ = target_of(event).value_or(target_);
     } else if (running_) {
         if (event.type == "stop" || event.type == "discard") running_.reset();
-        if (event.type == "setup") running_->set_up = event.utc;
+        if (event.type == "setup") running_->set_ups.push_back(event.utc);
         if (event.type == "rename") running_->site = detail(event, "site");
     }
 }

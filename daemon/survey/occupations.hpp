@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "daemon/survey/recorder.hpp"
+#include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "protocol/record/event_log.hpp"
 #include "protocol/text/sites.hpp"
@@ -34,7 +35,7 @@ struct RunningOccupation {
     std::string site;
     int number = 1;  ///< Counts the stays at this site, discarded ones left out.
     UtcTime start;
-    UtcTime set_up;  ///< Start of the current set-up; `start` unless the sensor was set up anew.
+    std::vector<UtcTime> set_ups;              ///< Start of each, the first at `start`.
     std::optional<record::SessionId> session;  ///< Of the first sample.
     std::optional<std::int64_t> index;
     Remark remark;
@@ -47,12 +48,21 @@ struct RunningOccupation {
 /// `at` is an instant of the recorded past, by default that of the last sample.  Refused are: an
 /// instant after the last sample or before what the recorder remembers; a start while another runs;
 /// a stop or set-up without one, or not after its start; an overlap with a finished occupation; a
-/// site that is not in the list (any name will do when the list is empty).
+/// site that is not in the list (any name will do when the list is empty).  What is allowed but
+/// may be a mistake (a site again, a short stay) is said in the answer.
 class Occupations {
 public:
+    struct Options {
+        Nanoseconds planned = std::chrono::minutes(10);  ///< Length of a stay.
+        MilliGal target{1.0};                            ///< Until the operator sets another.
+    };
+
     /// @param events  the event log so far, in file order.  `recorder` must outlive this.
     Occupations(Recorder& recorder, std::vector<text::Site> sites,
-                std::vector<record::Event> events);
+                std::vector<record::Event> events, const Options& options);
+    Occupations(Recorder& recorder, std::vector<text::Site> sites,
+                std::vector<record::Event> events)
+        : Occupations(recorder, std::move(sites), std::move(events), {}) {}
 
     Outcome start(std::string_view site, const Remark& remark, std::optional<UtcTime> at);
     Outcome stop(const Remark& remark, std::optional<UtcTime> at);
@@ -64,6 +74,11 @@ public:
     Outcome rename(std::string_view site, const Remark& remark);
 
     Outcome note(std::string_view text);
+
+    /// The standard error with which a reading is good enough, from now on: 0.01 to 1000 mGal.
+    Outcome set_target(MilliGal target);
+    [[nodiscard]] MilliGal target() const noexcept { return target_; }
+    [[nodiscard]] Nanoseconds planned() const noexcept { return options_.planned; }
 
     /// Finished ones, as record::occupations_of() reads them from the log.
     [[nodiscard]] std::vector<record::Occupation> list() const;
@@ -84,8 +99,11 @@ private:
     Outcome commit(record::Event event, std::string message);
     void follow(const record::Event& event);
     void renumber();
+    [[nodiscard]] std::string remarks_on_stop(UtcTime stop) const;
 
     Recorder& recorder_;
+    Options options_;
+    MilliGal target_;
     std::vector<text::Site> sites_;
     std::vector<record::Event> events_;
     std::optional<RunningOccupation> running_;

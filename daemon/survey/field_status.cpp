@@ -1,0 +1,141 @@
+#include "daemon/survey/field_status.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+
+namespace a351::daemon {
+namespace {
+
+constexpr Nanoseconds kNight = std::chrono::hours(6);  ///< Longer than any drive of a day.
+constexpr double kForgottenAfter = 3.0;                ///< Planned lengths.
+constexpr double kEarthRadiusMetres = 6371000.0;
+
+using SetUp = record::Occupation::SetUp;
+
+std::vector<SetUp> set_ups_so_far(const RunningOccupation& running, UtcTime now) {
+    std::vector<SetUp> set_ups;
+    for (std::size_t i = 0; i < running.set_ups.size(); ++i) {
+        const bool is_last = i + 1 == running.set_ups.size();
+        set_ups.push_back({running.set_ups[i], is_last ? now : running.set_ups[i + 1]});
+    }
+    return set_ups;
+}
+
+std::vector<std::string> warnings_of(const RunningOccupation& running, double running_s,
+                                     double planned_s) {
+    std::vector<std::string> warnings;
+    char text[160];
+    if (running.number > 1) {
+        std::snprintf(text, sizeof text, "the site was occupied before: this is stay %d",
+                      running.number);
+        warnings.emplace_back(text);
+    }
+    if (running_s > kForgottenAfter * planned_s) {
+        std::snprintf(text, sizeof text,
+                      "running for %.0f min, planned are %.0f: was stop forgotten?",
+                      running_s / 60.0, planned_s / 60.0);
+        warnings.emplace_back(text);
+    }
+    return warnings;
+}
+
+void compare_level(FieldStatus& field, const Occupations& occupations, const LiveRecord& live,
+                   UtcTime now) {
+    const auto day = survey_day(occupations, now);
+    const auto& running = occupations.running();
+    SetUp first;
+    if (!day.empty()) {
+        first = day.front().set_ups.front();
+        field.level_site = day.front().site;
+    } else if (running) {
+        first = set_ups_so_far(*running, now).front();
+        field.level_site = running->site;
+    } else {
+        return;
+    }
+    field.level_utc = first.start;
+    field.level = live.level_against(first.start, first.end);
+}
+
+/// Haversine formula.
+double distance_m(const text::Site& site, Degrees latitude, Degrees longitude) {
+    constexpr double kRadians = std::numbers::pi / 180.0;
+    const double phi_1 = kRadians * latitude.value(), phi_2 = kRadians * site.latitude.value();
+    const double half_phi = 0.5 * (phi_2 - phi_1);
+    const double half_lambda = 0.5 * kRadians * (site.longitude - longitude).value();
+    const double h = std::pow(std::sin(half_phi), 2) +
+                     std::cos(phi_1) * std::cos(phi_2) * std::pow(std::sin(half_lambda), 2);
+    return 2.0 * kEarthRadiusMetres * std::asin(std::min(1.0, std::sqrt(h)));
+}
+
+}  // namespace
+
+std::vector<record::Occupation> survey_day(const Occupations& occupations, UtcTime now) {
+    auto list = occupations.list();
+    const auto& running = occupations.running();
+    UtcTime later = running ? running->start : now;
+    auto first = list.end();
+    while (first != list.begin() && later - std::prev(first)->set_ups.back().end < kNight) {
+        --first;
+        later = first->set_ups.front().start;
+    }
+    list.erase(list.begin(), first);
+    return list;
+}
+
+OccupationReading reading_of(const std::vector<SetUp>& set_ups, const LiveRecord& live,
+                             MilliGal target) {
+    OccupationReading whole;
+    double sum_mgal = 0.0, square = 0.0;
+    int values = 0, errors = 0;
+    for (const SetUp& set_up : set_ups) {
+        const auto reading = live.reading(set_up.start, set_up.end, target);
+        if (!reading.value) continue;
+        sum_mgal += reading.value->value();
+        ++values;
+        if (!reading.standard_error) continue;
+        square += std::pow(reading.standard_error->value(), 2);
+        ++errors;
+    }
+    if (values > 0) whole.value = MilliGal(sum_mgal / values);
+    if (values > 0 && errors == values) whole.standard_error = MilliGal(std::sqrt(square) / values);
+    return whole;
+}
+
+FieldStatus field_status(const Occupations& occupations, const LiveRecord& live, UtcTime now) {
+    FieldStatus field;
+    compare_level(field, occupations, live, now);
+    const auto& running = occupations.running();
+    if (!running) return field;
+
+    const auto set_ups = set_ups_so_far(*running, now);
+    const auto& last = set_ups.back();
+    field.reading = live.reading(last.start, last.end, occupations.target());
+    field.whole = reading_of(set_ups, live, occupations.target());
+    const double running_s = seconds_between(running->start, now);
+    const double planned_s = std::chrono::duration<double>(occupations.planned()).count();
+    field.half_time_s = std::max(0.0, 0.5 * planned_s - running_s);
+    field.proposes_set_up = set_ups.size() == 1 && *field.half_time_s == 0.0;
+    field.warnings = warnings_of(*running, running_s, planned_s);
+    return field;
+}
+
+std::vector<SiteDistance> nearest_first(const std::vector<text::Site>& sites, Degrees latitude,
+                                        Degrees longitude) {
+    std::vector<SiteDistance> list;
+    for (const text::Site& site : sites) {
+        list.push_back({site, std::nullopt});
+        if (site.is_placed) list.back().distance = Metres(distance_m(site, latitude, longitude));
+    }
+    const auto rank = [](const SiteDistance& one) {
+        return one.distance ? one.distance->value() : std::numeric_limits<double>::infinity();
+    };
+    std::stable_sort(list.begin(), list.end(),
+                     [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    return list;
+}
+
+}  // namespace a351::daemon
