@@ -36,6 +36,7 @@ struct Arguments {
     std::string at;
     std::string operator_name;
     std::string note;
+    double target_mgal = 0.0;
 };
 
 void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
@@ -188,7 +189,9 @@ int main(int argc, char** argv) {
     rename->add_option("NAME", a.site, "Benchmark")->required();
     auto* note = app.add_subcommand("note", "Write a remark to the event log");
     note->add_option("TEXT", a.note, "Remark")->required();
-    auto* sites = app.add_subcommand("sites", "List the benchmarks");
+    auto* target = app.add_subcommand("target", "Set what standard error is good enough");
+    target->add_option("MGAL", a.target_mgal, "mGal, 0.01 to 1000")->required();
+    auto* sites = app.add_subcommand("sites", "List the benchmarks, nearest first");
     auto* list = app.add_subcommand("list", "List the finished occupations");
 
     const auto usage_status = [&] { return *status ? kNoDaemon : kUsage; };
@@ -204,6 +207,7 @@ int main(int argc, char** argv) {
         if (*discard) return change(client, a, "/api/occupation/discard", order(a));
         if (*rename) return change(client, a, "/api/occupation/rename", order(a));
         if (*note) return change(client, a, "/api/note", order(a));
+        if (*target) return change(client, a, "/api/target", json{{"target_mgal", a.target_mgal}});
         if (*sites) return show(client, "/api/sites", site_table);
         if (*list) return show(client, "/api/occupations", occupation_table);
     } catch (const CLI::ParseError& error) {

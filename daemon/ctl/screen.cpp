@@ -107,6 +107,37 @@ std::string occupation(const json& status) {
     return text;
 }
 
+std::string verdict(const json& status) {
+    const json& why = at(status, "verdict/reasons");
+    return text_of(at(status, "verdict/state")) +
+           number_of(at(status, "verdict/held_s"), " for %.0f s") +
+           (why.empty() ? "" : ": " + joined(why));
+}
+
+/// Of the running set-up, and what the operator has to know about it.
+std::string reading(const json& status) {
+    const json& reading = at(status, "occupation/reading");
+    std::string text = number_of(at(reading, "value_mgal"), "%.2f") + " +- " +
+                       number_of(at(reading, "standard_error_mgal"), "%.2f mGal") + ", target " +
+                       number_of(at(status, "target_mgal"), "%.2f mGal");
+    if (at(reading, "is_good_enough") == true)
+        text += ": good enough";
+    else if (at(reading, "needed_s").is_number())
+        text += number_of(at(reading, "needed_s"), ": %.0f s more");
+    if (at(status, "occupation/propose_set_up") == true)
+        text += "; half time: set the box down anew";
+    for (const json& warning : at(status, "occupation/warnings")) text += "; " + text_of(warning);
+    return text;
+}
+
+std::string tilt(const json& status) {
+    const json& advice = at(status, "tilt/advice");
+    return "x " + number_of(at(status, "tilt/x_arcmin"), "%+.1f'") + "   y " +
+           number_of(at(status, "tilt/y_arcmin"), "%+.1f'") + " against " +
+           text_of(at(status, "tilt/reference/site")) +
+           (advice.empty() ? "" : ": " + joined(advice));
+}
+
 std::string device(const json& status) {
     std::string text = text_of(at(status, "device/product_id")) + " " +
                        text_of(at(status, "device/serial_number")) + ", " +
@@ -173,15 +204,13 @@ std::string printable(std::string_view text) {
 std::string status_screen(const json& status, bool is_coloured) {
     const std::string level = text_of(at(status, "level"));
     const json& reasons = at(status, "reasons");
-    const json& why = at(status, "verdict/reasons");
     std::string screen =
         line("a351d", text_of(at(status, "version")) + "   " + text_of(at(status, "now")) + "   " +
                           coloured(level, level, is_coloured) +
                           (reasons.empty() ? "" : ": " + joined(reasons)));
     screen += line("device", device(status));
     screen += line("sampling", rate(status));
-    screen += line("verdict",
-                   text_of(at(status, "verdict/state")) + (why.empty() ? "" : ": " + joined(why)));
+    screen += line("verdict", verdict(status));
     screen += line("axes", axes(status));
     screen += line("temperature", number_of(at(status, "sample/temperature_degc"), "%.3f degC"));
     screen += line("oven", oven(status));
@@ -205,29 +234,33 @@ std::string status_screen(const json& status, bool is_coloured) {
     const json free_gb = free_bytes.is_number() ? json(free_bytes.get<double>() / 1e9) : json();
     screen += line("disk", number_of(free_gb, "%.1f GB free"));
     screen += line("occupation", occupation(status));
+    if (at(status, "occupation/reading").is_object()) screen += line("reading", reading(status));
+    if (at(status, "tilt").is_object()) screen += line("tilt", tilt(status));
     return screen;
 }
 
 std::string site_table(const json& answer) {
     std::vector<std::vector<std::string>> rows = {
-        {"site", "longitude_deg", "latitude_deg", "altitude_m", "gravity_mgal"}};
+        {"site", "longitude_deg", "latitude_deg", "altitude_m", "gravity_mgal", "distance_m"}};
     for (const auto& site : at(answer, "sites")) {
         rows.push_back({text_of(at(site, "site")), number_of(at(site, "longitude_deg"), "%.6f"),
                         number_of(at(site, "latitude_deg"), "%.6f"),
                         number_of(at(site, "altitude_m"), "%.2f"),
-                        number_of(at(site, "gravity_mgal"), "%.3f")});
+                        number_of(at(site, "gravity_mgal"), "%.3f"),
+                        number_of(at(site, "distance_m"), "%.0f")});
     }
     return table(rows);
 }
 
 std::string occupation_table(const json& answer) {
-    std::vector<std::vector<std::string>> rows = {{"site", "stay", "start", "end", "note"}};
+    std::vector<std::vector<std::string>> rows = {{"site", "stay", "start", "end", "mgal", "note"}};
     for (const auto& one : at(answer, "occupations")) {
         std::string note = text_of(at(one, "note"));
+        std::string value = number_of(at(one, "reading/value_mgal"), "%.2f");
         for (const auto& set_up : at(one, "set_ups")) {
             rows.push_back({text_of(at(one, "site")), text_of(at(one, "number")),
-                            text_of(at(set_up, "start")), text_of(at(set_up, "end")), note});
-            note = "";
+                            text_of(at(set_up, "start")), text_of(at(set_up, "end")), value, note});
+            note = value = "";
         }
     }
     return table(rows);

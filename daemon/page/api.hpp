@@ -31,7 +31,7 @@ struct ApiSources {
     Occupations& occupations;
     LiveRecord& live;
     std::vector<text::Site> sites = {};
-    Degrees latitude, longitude;                         ///< Of the base, where a day begins.
+    Degrees latitude = {}, longitude = {};               ///< Of the base, where a day begins.
     std::function<std::vector<record::Event>()> events;  ///< The whole event log, in file order.
 
     /// Instrument time without a sample after which the verdict is "no data".  On scaled time let

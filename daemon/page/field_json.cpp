@@ -45,7 +45,7 @@ json to_json(const RunningReading& reading, MilliGal target) {
             {"needed_s", reading.needed_s ? json(*reading.needed_s) : json()}};
 }
 
-json level_of(const FieldStatus& field) {
+json tilt_of(const FieldStatus& field) {
     if (field.level_site.empty()) return nullptr;
     json level = {
         {"x_arcmin", nullptr},

@@ -12,8 +12,8 @@ namespace a351::daemon {
 [[nodiscard]] nlohmann::json to_json(const OccupationReading& reading);
 [[nodiscard]] nlohmann::json to_json(const RunningReading& reading, MilliGal target);
 
-/// null unless the day has a first set-up.
-[[nodiscard]] nlohmann::json level_of(const FieldStatus& field);
+/// Tilt against the day's first set-up; null unless there was one.
+[[nodiscard]] nlohmann::json tilt_of(const FieldStatus& field);
 
 /// The scale of each channel of the live stream: value = offset + scale x counts.
 [[nodiscard]] nlohmann::json channels_of(const LiveRecord& live);

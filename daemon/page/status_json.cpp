@@ -153,7 +153,7 @@ json to_json(const Status& status, const Occupations& occupations, const FieldSt
             {"verdict", verdict_of(status, stale_after)},
             {"occupation", occupation_of(occupations, field, status.now)},
             {"target_mgal", occupations.target().value()},
-            {"level", level_of(field)},
+            {"tilt", tilt_of(field)},
             {"live", channels_of(live)},
             {"sample", sample_of(status)},
             {"counters", counters_of(status)},

@@ -7,7 +7,7 @@ from programs import BIN, TOP, Scratch, demand, run
 PAGES = {
     "a351d": ("daemon/a351d.1", []),
     "a351ctl": ("daemon/ctl/a351ctl.1",
-                ["status", "watch", "start", "stop", "setup", "discard", "rename", "note", "sites", "list"]),
+                ["status", "watch", "start", "stop", "setup", "discard", "rename", "note", "target", "sites", "list"]),
     "a351-sim": ("sim/a351-sim.1", ["device", "replay", "survey", "plan"]),
     "a351-correct": ("corrector/a351-correct.1",
                      ["survey", "table", "calibrate", "decimate", "emd", "record", "retime", "smooth", "tide"]),

@@ -50,10 +50,12 @@ struct FakeDaemon {
 
     FakeRecorder recorder;
     Occupations occupations{recorder, two_sites(), {}};
+    LiveRecord live{*wire::find_profile("A351"), 50, {}};
     Status status;
     Server server{{.listen = {.port = 0}},
                   {.status = [this] { return status; },
                    .occupations = occupations,
+                   .live = live,
                    .sites = two_sites(),
                    .events = [this] { return recorder.log; }}};
 };

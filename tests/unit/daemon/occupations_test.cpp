@@ -58,7 +58,7 @@ TEST_CASE("replaying the log at any point leads to the same state", "[daemon][oc
             CHECK(again.running()->site == whole.running()->site);
             CHECK(again.running()->number == whole.running()->number);
             CHECK(again.running()->start == whole.running()->start);
-            CHECK(again.running()->set_up == whole.running()->set_up);
+            CHECK(again.running()->set_ups == whole.running()->set_ups);
             CHECK(again.running()->session == whole.running()->session);
             CHECK(again.running()->index == whole.running()->index);
             CHECK(again.running()->remark.operator_name == whole.running()->remark.operator_name);

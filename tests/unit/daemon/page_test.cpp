@@ -56,9 +56,11 @@ bool is(const json& whole, const std::string& pointer, const std::string& expect
 struct Page {
     FakeRecorder recorder;
     Occupations occupations{recorder, two_sites(), {}};
+    LiveRecord live{*wire::find_profile("A351"), 50, {}};
     Status status;
     Api api{{.status = [this] { return status; },
              .occupations = occupations,
+             .live = live,
              .sites = two_sites(),
              .events = [this] { return recorder.log; }},
             kToken};
@@ -168,12 +170,27 @@ TEST_CASE("no header opens the interface to other origins", "[daemon][page]") {
 TEST_CASE("every fixed field of the status is there before the first sample", "[daemon][page]") {
     Page page;
     const auto status = page.ask(get("/api/status"));
-    for (const char* field :
-         {"/api", "/version", "/level", "/session", "/received", "/journaled", "/archived",
-          "/timing/state", "/timing/uncertainty_ms", "/verdict/state", "/verdict/reasons",
-          "/occupation", "/counters/gaps", "/counters/checksum_errors", "/counters/bytes_skipped",
-          "/counters/duplicates", "/oven", "/device/port", "/disk/free_bytes",
-          "/disk/reserve", "/disk/longest_sync_ms"}) {
+    for (const char* field : {"/api",
+                              "/version",
+                              "/level",
+                              "/session",
+                              "/received",
+                              "/journaled",
+                              "/archived",
+                              "/timing/state",
+                              "/timing/uncertainty_ms",
+                              "/verdict/state",
+                              "/verdict/reasons",
+                              "/occupation",
+                              "/counters/gaps",
+                              "/counters/checksum_errors",
+                              "/counters/bytes_skipped",
+                              "/counters/duplicates",
+                              "/oven",
+                              "/device/port",
+                              "/disk/free_bytes",
+                              "/disk/reserve",
+                              "/disk/longest_sync_ms"}) {
         CAPTURE(field);
         CHECK(status.contains(json::json_pointer(field)));
     }
@@ -230,6 +247,7 @@ TEST_CASE("the status tells of the oven with units, and of a doubtful temperatur
 TEST_CASE("the status carries values with their units", "[daemon][page]") {
     Page page;
     page.status.level = Status::Level::warning;
+    page.status.verdict.state = VerdictState::stable;
     page.status.reasons = {"disk nearly full"};
     page.status.now = minute(60) + std::chrono::milliseconds(500);
     page.status.last_sample = minute(60);
@@ -257,7 +275,7 @@ TEST_CASE("the status carries values with their units", "[daemon][page]") {
     CHECK(is(status, "/timing/rate/span_h", "24.0"));
     CHECK(is(status, "/timing/rate/declared_hz", "50.00025"));
     CHECK(is(status, "/timing/rate/advice", R"("change it")"));
-    CHECK(is(status, "/verdict/state", R"("not assessed")"));
+    CHECK(is(status, "/verdict/state", R"("stable")"));
     CHECK(is(status, "/verdict/reasons", "[]"));
     CHECK(status["sample"]["acceleration_mg"][0].get<double>() == Approx(1.0).epsilon(1e-15));
     CHECK(status["sample"]["acceleration_mg"][2].get<double>() == Approx(999.3).epsilon(1e-15));
@@ -275,8 +293,9 @@ TEST_CASE("the status carries values with their units", "[daemon][page]") {
 TEST_CASE("the verdict is no data from 3 s without a sample on", "[daemon][page]") {
     Page page;
     page.status.last_sample = minute(1);
+    page.status.verdict.state = VerdictState::stable;
     page.status.now = minute(1) + std::chrono::seconds(3);
-    CHECK(is(page.ask(get("/api/status")), "/verdict/state", R"("not assessed")"));
+    CHECK(is(page.ask(get("/api/status")), "/verdict/state", R"("stable")"));
     page.status.now += Nanoseconds(1);
     const auto verdict = page.ask(get("/api/status"))["verdict"];
     CHECK(is(verdict, "/state", R"("no data")"));
@@ -302,7 +321,7 @@ TEST_CASE("an occupation is started, set up anew, renamed and stopped by POST", 
     CHECK(is(started, "/occupation/site", R"("No.0")"));
     CHECK(is(started, "/occupation/operator", R"("M. Ito")"));
     page.ask(post("/api/occupation/setup", R"({"at":"2026-03-14T17:20:00+09:00"})"));
-    CHECK(page.occupations.running()->set_up == minute(20));
+    CHECK(page.occupations.running()->set_ups.back() == minute(20));
     page.ask(post("/api/occupation/rename", R"({"site":"No.1"})"));
     page.ask(post("/api/note", R"({"note":"a lorry passed"})"));
     page.ask(post("/api/occupation/stop", R"({"site":"No.0"})"), 409);
@@ -417,6 +436,7 @@ TEST_CASE("the token is handed out only when the interface may", "[daemon][page]
     CHECK(is(page.ask(get("/api/token")), "/token", '"' + kToken + '"'));
     Api exposed({.status = [] { return Status{}; },
                  .occupations = page.occupations,
+                 .live = page.live,
                  .sites = {},
                  .events = [] { return std::vector<record::Event>{}; }},
                 "");
@@ -427,6 +447,7 @@ TEST_CASE("an exception of a source is a server error and is counted", "[daemon]
     Page page;
     Api broken({.status = []() -> Status { throw std::runtime_error("no status"); },
                 .occupations = page.occupations,
+                .live = page.live,
                 .sites = {},
                 .events = []() -> std::vector<record::Event> { throw 1; }},
                "");

@@ -31,6 +31,7 @@ struct Served {
     ApiSources sources() {
         return {.status = [] { return Status{}; },
                 .occupations = occupations,
+                .live = live,
                 .sites = two_sites(),
                 .events = [] { return std::vector<record::Event>{}; }};
     }
@@ -54,6 +55,7 @@ struct Served {
 
     FakeRecorder recorder;
     Occupations occupations{recorder, two_sites(), {}};
+    LiveRecord live{*wire::find_profile("A351"), 50, {}};
     Server server;
 };
 

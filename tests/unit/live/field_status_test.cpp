@@ -1,0 +1,125 @@
+#include "daemon/survey/field_status.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/unit/daemon/fake_recorder.hpp"
+#include "tests/unit/live/live_samples.hpp"
+
+namespace a351::daemon {
+namespace {
+
+/// An hour at 50 Hz from minute 0 of the fake recorder on.
+struct Field {
+    Field() {
+        for (std::int64_t i = 0; i < 40 * 60 * 50; ++i) {
+            PlacedSample sample = placed(i, 100.0, 0.0, 980000.0);
+            sample.counts[3] += static_cast<std::int32_t>(i % 7) - 3;
+            live.take(sample);
+        }
+    }
+    FakeRecorder recorder;
+    Occupations occupations{recorder, two_sites(), {}};
+    LiveRecord live{kProfile, 50, {}};
+};
+
+TEST_CASE("half time proposes a further set-up, once", "[field]") {
+    Field field;
+    CHECK_FALSE(field_status(field.occupations, field.live, minute(5)).reading);
+    (void)field.occupations.start("No.0", {}, minute(20));
+    auto now = field_status(field.occupations, field.live, minute(24));
+    CHECK(now.half_time_s == 60.0);
+    CHECK_FALSE(now.proposes_set_up);
+    CHECK(now.warnings.empty());
+    CHECK(field_status(field.occupations, field.live, minute(25)).proposes_set_up);
+    (void)field.occupations.setup(minute(26));
+    now = field_status(field.occupations, field.live, minute(35));
+    CHECK_FALSE(now.proposes_set_up);
+    REQUIRE(now.reading->value);
+    CHECK(now.reading->used_s == Approx(9.0 * 60.0 - 10.0).margin(2.0));
+    CHECK(now.whole.value->value() == Approx(980000.005).margin(0.06));
+    CHECK(now.whole.standard_error->value() < now.reading->standard_error->value());
+}
+
+TEST_CASE("a forgotten stop and a site that comes again are told", "[field]") {
+    Field field;
+    (void)field.occupations.start("No.0", {}, minute(1));
+    CHECK(field_status(field.occupations, field.live, minute(30)).warnings.empty());
+    const auto forgotten = field_status(field.occupations, field.live, minute(32)).warnings;
+    REQUIRE(forgotten.size() == 1);
+    CHECK(forgotten[0] == "running for 31 min, planned are 10: was stop forgotten?");
+    const auto stopped = field.occupations.stop({}, minute(3));
+    CHECK(stopped.message.ends_with("; short: 2.0 min of the 10 planned"));
+    const auto again = field.occupations.start("No.0", {}, minute(4));
+    CHECK(again.message.ends_with("; the site was occupied before: stay 2"));
+    CHECK(field_status(field.occupations, field.live, minute(5)).warnings.size() == 1);
+}
+
+TEST_CASE("tilt is against the first set-up of the day", "[field][level]") {
+    Field field;
+    CHECK(field_status(field.occupations, field.live, minute(39)).level_site.empty());
+    (void)field.occupations.start("No.1", {}, minute(2));
+    CHECK(field_status(field.occupations, field.live, minute(39)).level_site == "No.1");
+    (void)field.occupations.stop({}, minute(12));
+    (void)field.occupations.start("No.0", {}, minute(20));
+    const auto now = field_status(field.occupations, field.live, minute(39));
+    CHECK(now.level_site == "No.1");
+    CHECK(now.level_utc == minute(2));
+    REQUIRE(now.level);
+    CHECK(now.level->is_within);
+    CHECK(now.level->tilt_arcmin[0] == Approx(0.0).margin(0.01));
+}
+
+record::Event event(const char* type, UtcTime utc) {
+    record::Event event;
+    event.type = type;
+    event.utc = utc;
+    event.details["site"] = "No.0";
+    return event;
+}
+
+TEST_CASE("a survey day begins behind the night", "[field]") {
+    FakeRecorder recorder;
+    std::vector<record::Event> events;
+    for (const int hour : {0, 3, 6, 14, 16}) {
+        events.push_back(event("start", minute(60 * hour)));
+        events.push_back(event("stop", minute(60 * hour + 10)));
+    }
+    const Occupations occupations(recorder, {}, events);
+    const auto day = survey_day(occupations, minute(60 * 17));
+    REQUIRE(day.size() == 2);
+    CHECK(day[0].set_ups.front().start == minute(60 * 14));
+    CHECK(survey_day(occupations, minute(60 * 23)).empty());
+}
+
+TEST_CASE("the target is an event, and stays after a restart", "[field]") {
+    FakeRecorder recorder;
+    Occupations occupations(recorder, {}, {}, {.target = MilliGal(0.7)});
+    CHECK(occupations.target() == MilliGal(0.7));
+    CHECK(occupations.set_target(MilliGal(0.35)).message ==
+          "good enough is a standard error of 0.35 mGal");
+    for (const double wrong : {0.0, -1.0, 1e9, std::nan("")})
+        CHECK(occupations.set_target(MilliGal(wrong)).kind == Outcome::Kind::refused);
+    const Occupations again(recorder, {}, recorder.log);
+    CHECK(again.target() == MilliGal(0.35));
+    CHECK(recorder.log.size() == 1);
+}
+
+TEST_CASE("sites come nearest first, those without a position last", "[field]") {
+    std::vector<text::Site> sites(3);
+    sites[0].name = "nowhere";
+    sites[0].is_placed = false;
+    sites[1].name = "far";
+    sites[1].latitude = Degrees(37.0);
+    sites[1].longitude = Degrees(140.0);
+    sites[2].name = "near";
+    sites[2].latitude = Degrees(36.1);
+    sites[2].longitude = Degrees(140.0);
+    const auto list = nearest_first(sites, Degrees(36.0), Degrees(140.0));
+    CHECK(list[0].site.name == "near");
+    CHECK(list[0].distance->value() == Approx(11119.5).margin(0.1));  // 0.1 deg on the sphere.
+    CHECK(list[1].site.name == "far");
+    CHECK_FALSE(list[2].distance);
+}
+
+}  // namespace
+}  // namespace a351::daemon

@@ -1,0 +1,169 @@
+#include "daemon/live/live_record.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "corrector/signal/decimation.hpp"
+#include "tests/unit/live/live_samples.hpp"
+
+namespace a351::daemon {
+namespace {
+
+double wave(std::int64_t i) { return 500.0 * std::sin(0.01 * static_cast<double>(i)); }
+
+TEST_CASE("a viewer reads every sample once, in blocks without a gap", "[live]") {
+    LiveRecord record(kProfile, 50, {});
+    for (std::int64_t i = 0; i < 1000; ++i)
+        if (i < 400 || i >= 410) record.take(placed(i, static_cast<double>(i), 0.0, 980000.0));
+    std::uint64_t cursor = 0;
+    std::int64_t expected = 0;
+    while (const auto block = record.block_from(cursor, 150)) {
+        if (expected == 400) expected = 410;
+        CHECK(block->first_index == expected);
+        CHECK(block->first_time == placed(expected, 0, 0, 0).time);
+        REQUIRE(block->counts[0].size() <= 150);
+        for (std::size_t k = 0; k < block->counts[0].size(); ++k)
+            CHECK(block->counts[0][k] ==
+                  counts_of(static_cast<double>(expected) + static_cast<double>(k)));
+        expected += static_cast<std::int64_t>(block->counts[0].size());
+    }
+    CHECK(expected == 1000);
+    CHECK(cursor == record.end());
+    CHECK(record.end() == 990);
+}
+
+TEST_CASE("a viewer that stayed away goes on with the oldest that is kept", "[live]") {
+    LiveRecord record(kProfile, 50, {});
+    for (std::int64_t i = 0; i < 10000; ++i) record.take(placed(i, 0.0, 0.0, 980000.0));
+    std::uint64_t cursor = 17;
+    const auto block = record.block_from(cursor, 100000);
+    REQUIRE(block);
+    CHECK(block->first_index == 10000 - 4500);  // 90 s
+    CHECK(cursor == 10000);
+}
+
+TEST_CASE("what a replay tells again is passed over", "[live]") {
+    LiveRecord record(kProfile, 50, {});
+    for (std::int64_t i = 0; i < 100; ++i) record.take(placed(i, 0.0, 0.0, 980000.0));
+    for (std::int64_t i = 50; i < 120; ++i) record.take(placed(i, 0.0, 0.0, 980000.0));
+    CHECK(record.end() == 120);
+}
+
+TEST_CASE("the live series is the decimation of the evening", "[live][thinning]") {
+    LiveThinning thinning(kProfile, 50);
+    std::vector<LiveSample> live;
+    std::vector<double> z;
+    for (std::int64_t i = 0; i < 6000; ++i) {
+        const PlacedSample sample = placed(i, 0.0, wave(i), 980000.0 + wave(i));
+        z.push_back(to_milligal(kProfile.acceleration(sample.counts[2])).value());
+        thinning.take(sample, live);
+    }
+    const auto filter = corrector::design_decimation(10);
+    const auto evening = corrector::decimate(corrector::decimate(z, filter), filter);
+    REQUIRE(live.size() == 56);
+    int finite = 0;
+    for (std::size_t k = 0; k < live.size(); ++k) {
+        CHECK(live[k].time == after(2.0 * static_cast<double>(k)));
+        CHECK(seconds_between(live[k].time, live[k].seen_at) == Approx(9.98));
+        if (std::isnan(evening[k])) {
+            CHECK(std::isnan(live[k].axes[2].value()));
+        } else {
+            CHECK(live[k].axes[2].value() == evening[k]);
+            CHECK(live[k].temperature.value() == Approx(kProfile.temperature(-1981).value()).epsilon(1e-12));
+            ++finite;
+        }
+    }
+    CHECK(finite == 51);
+    // From 28 to 30 s the wave falls.
+    CHECK(live[10].shake.value() == Approx(0.5 * (wave(1414) - wave(1499))).margin(0.1));
+}
+
+TEST_CASE("all rates of the profile are thinned to 2 s with the same reach", "[live][thinning]") {
+    for (const auto& rate : kProfile.output_rates_hz) {
+        LiveThinning thinning(kProfile, rate.value);
+        std::vector<LiveSample> live;
+        for (std::int64_t i = 0; i < 60 * rate.value; ++i) {
+            PlacedSample sample = placed(0, 0.0, 0.0, 980000.0);
+            sample.time = after(static_cast<double>(i) / rate.value);
+            thinning.take(sample, live);
+        }
+        CAPTURE(rate.value);
+        REQUIRE(live.size() == 26);
+        CHECK(std::isnan(live[4].axes[2].value()));
+        CHECK(live[5].axes[2].value() == Approx(980000.0).margin(0.1));
+        CHECK(seconds_between(live[7].time, live[8].time) == Approx(2.0));
+    }
+}
+
+TEST_CASE("a missing sample costs what it touches, a long gap begins anew", "[live][thinning]") {
+    LiveThinning thinning(kProfile, 50);
+    std::vector<LiveSample> live;
+    for (std::int64_t i = 0; i < 6000; ++i)
+        if (i != 3000) thinning.take(placed(i, 0.0, 0.0, 980000.0), live);
+    REQUIRE(live.size() == 56);
+    int missing = 0;
+    for (std::size_t k = 5; k < live.size(); ++k) missing += std::isnan(live[k].axes[2].value());
+    CHECK(missing == 9);  // 60 s +- 9 s
+    live.clear();
+    for (std::int64_t i = 12000; i < 13000; ++i) thinning.take(placed(i, 0.0, 0.0, 980000.0), live);
+    REQUIRE(live.size() == 6);
+    CHECK(live[0].time == after(240.0));
+    CHECK(std::isnan(live[4].axes[2].value()));
+    CHECK_FALSE(std::isnan(live[5].axes[2].value()));
+}
+
+TEST_CASE("the record tells verdict and reading of what it was given", "[live]") {
+    LiveRecord record(kProfile, 50, {});
+    CHECK(record.verdict(kZero).state == VerdictState::no_data);
+    for (std::int64_t i = 0; i < 40 * 60 * 50; ++i) {
+        PlacedSample sample = placed(i, 0.0, 0.0, 980000.0);
+        sample.counts[3] += static_cast<std::int32_t>(i % 7) - 3;  // A temperature that is alive.
+        sample.counts[2] += static_cast<std::int32_t>(i % 5) - 2;
+        record.take(sample);
+    }
+    CHECK(record.verdict(after(2400.0)).state == VerdictState::stable);
+    const auto reading = record.reading(after(1200.0), after(2380.0), MilliGal(1.0));
+    REQUIRE(reading.value);
+    CHECK(reading.value->value() == Approx(980000.0).margin(0.06));
+    CHECK(reading.used_s == Approx(1172.0).margin(2.0));
+    CHECK(reading.is_good_enough);
+    CHECK(record.verdict(after(2420.0)).state == VerdictState::no_data);
+}
+
+TEST_CASE("tilt is told against a set-up, and which side to turn", "[live][level]") {
+    const auto mgal_of = [](double arcmin) {
+        return kMilliGalPerStandardGravity * std::sin(arcmin / 60.0 * std::numbers::pi / 180.0);
+    };
+    LiveRecord record(kProfile, 50, {});
+    for (std::int64_t i = 0; i < 6000; ++i)
+        record.take(placed(i, mgal_of(30.0), mgal_of(-20.0), 980000.0));
+    for (std::int64_t i = 6000; i < 6200; ++i)
+        record.take(placed(i, mgal_of(32.4), mgal_of(-20.9), 980000.0));
+    const auto level = record.level_against(kZero, after(120.0));
+    REQUIRE(level);
+    CHECK(level->tilt_arcmin[0] == Approx(2.4).margin(0.001));
+    CHECK(level->tilt_arcmin[1] == Approx(-0.9).margin(0.001));
+    CHECK_FALSE(level->is_within);
+    CHECK(level->advice == std::vector<std::string>{"lower the +x side by 2.4'"});
+    for (std::int64_t i = 6200; i < 6400; ++i)
+        record.take(placed(i, mgal_of(30.5), mgal_of(-20.9), 980000.0));
+    CHECK(record.level_against(kZero, after(120.0))->is_within);
+    CHECK_FALSE(record.level_against(after(500.0), after(600.0)));
+}
+
+TEST_CASE("oven values are kept for a day, every second one of a fast poll", "[live]") {
+    LiveRecord record(kProfile, 50, {});
+    for (int i = 0; i < 100; ++i) record.take(OvenPoint{after(i), DegC(42.0 + i), DegC(42.5)});
+    CHECK(record.oven_history(kZero, after(1000.0), 1000).size() == 50);
+    const auto few = record.oven_history(kZero, after(1000.0), 7);
+    REQUIRE(few.size() == 7);
+    CHECK(few[0].process_value == DegC(42.0));
+    CHECK(few[1].time == after(16.0));
+    record::OvenChunk lost;
+    lost.outcome = record::OvenOutcome::timed_out;
+    CHECK_FALSE(oven_point(lost, kZero));
+}
+
+}  // namespace
+}  // namespace a351::daemon
