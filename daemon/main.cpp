@@ -124,6 +124,8 @@ Status snapshot(const Config& config, const HostClock& clock, const SensorLink& 
     status.filter = config.sensor.filter;
     status.output_rate_hz = config.sensor.settings.output_rate_hz;
     status.declared_rate_hz = config.storage.declared_rate_hz;
+    if (const auto& unit = config.survey.calibration)
+        status.calibrated_serial_number = unit->serial_number;
     fill(status, link.status());
     if (oven) fill(status, oven->status());
     store.fill(status);

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <set>
 
+#include "daemon/config/unit_thresholds.hpp"
 #include "daemon/config/verdict_config.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/strict_toml.hpp"
@@ -226,10 +227,12 @@ SurveyConfig read_survey(TomlTable table) {
         }
         survey.sites = text::read_sites(file);
     }
-    survey.calibration = table.path_or_empty("calibration");
-    if (!survey.calibration.empty() && !std::filesystem::exists(survey.calibration)) {
-        table.refuse("calibration", "no such file: " + survey.calibration.string(),
-                     "a calibration of a351-correct, or \"\"");
+    if (const auto file = table.path_or_empty("calibration"); !file.empty()) {
+        if (!std::filesystem::exists(file)) {
+            table.refuse("calibration", "no such file: " + file.string(),
+                         "a calibration of a351-correct, or \"\"");
+        }
+        survey.calibration = corrector::read_calibration(file);
     }
     survey.planned = from_seconds(60.0 * table.number_or("occupation_min", 10.0, 1.0, 240.0));
     table.require_all_read();
@@ -267,7 +270,9 @@ Config read_config(const std::filesystem::path& file) {
     config.storage = read_storage(root.table("storage"), config.sensor.settings.output_rate_hz);
     config.page = read_page(root.table("page"));
     config.survey = read_survey(root.table("survey"));
-    config.verdict = read_verdict(root.table("verdict"));
+    const auto& unit = config.survey.calibration;
+    config.verdict =
+        read_verdict(root.table("verdict"), unit ? thresholds_for(*unit) : VerdictOptions{});
     root.require_all_read();
     return config;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "corrector/calibration/calibration.hpp"
 #include "daemon/config/listen_address.hpp"
 #include "daemon/source/oven_link.hpp"
 #include "daemon/source/port.hpp"
@@ -48,8 +49,8 @@ struct PageConfig {
 };
 
 struct SurveyConfig {
-    std::vector<text::Site> sites;                   ///< Empty when no file is named.
-    std::filesystem::path calibration;               ///< Empty when none is named.
+    std::vector<text::Site> sites;  ///< Empty when no file is named.
+    std::optional<corrector::Calibration> calibration;
     Nanoseconds planned = std::chrono::minutes(10);  ///< Length of an occupation.
 };
 

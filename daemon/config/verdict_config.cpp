@@ -47,8 +47,8 @@ constexpr Key kKeys[] = {
 
 }  // namespace
 
-VerdictOptions read_verdict(text::TomlTable table) {
-    VerdictOptions options;
+VerdictOptions read_verdict(text::TomlTable table, const VerdictOptions& defaults) {
+    VerdictOptions options = defaults;
     for (const Key& key : kKeys) {
         options.*key.value = table.number_or(key.name, options.*key.value, key.low, key.high);
     }

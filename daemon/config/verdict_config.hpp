@@ -5,8 +5,8 @@
 
 namespace a351::daemon {
 
-/// [verdict]: every threshold under its own name, with its default where it is absent.
+/// [verdict]: every threshold under its own name; `defaults` has those that are absent.
 /// @throws InputError  a value out of its range, or an unknown key.
-[[nodiscard]] VerdictOptions read_verdict(text::TomlTable table);
+[[nodiscard]] VerdictOptions read_verdict(text::TomlTable table, const VerdictOptions& defaults);
 
 }  // namespace a351::daemon

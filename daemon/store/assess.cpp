@@ -113,6 +113,13 @@ void fill(Status& status, const OvenLinkStatus& link) {
 void assess(Status& status) {
     assess_rate(status);
     if (status.oven) assess_oven(status, *status.oven);
+    const std::string& calibrated = status.calibrated_serial_number;
+    if (!calibrated.empty() && !status.serial_number.empty() &&
+        calibrated != status.serial_number) {
+        complain(status, Status::Level::warning,
+                 "the calibration is of unit " + printable(calibrated) + ", the sensor is " +
+                     status.serial_number + ": the verdict goes by another unit's behaviour");
+    }
     switch (status.timing_state) {
         case timing::TimingState::unlocked:
             complain(status, Status::Level::warning, "sample times are not known yet");

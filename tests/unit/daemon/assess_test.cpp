@@ -129,3 +129,20 @@ TEST_CASE("a rate that was measured over a day is compared with the declared one
     assess(status);
     CHECK(status.rate_advice.empty());
 }
+
+TEST_CASE("the calibration of another unit is a warning", "[daemon][assess]") {
+    Status status = healthy();
+    status.calibrated_serial_number = "00000042";
+    assess(status);
+    CHECK(status.level == Status::Level::good);  // Nobody knows the sensor's.
+    status.serial_number = "00000042";
+    assess(status);
+    CHECK(status.level == Status::Level::good);
+    status.serial_number = "00000043";
+    assess(status);
+    CHECK(status.level == Status::Level::warning);
+    CHECK(
+        status.reasons.at(0) ==
+        "the calibration is of unit 00000042, the sensor is 00000043: the verdict goes by another "
+        "unit's behaviour");
+}

@@ -1,6 +1,7 @@
 #include "daemon/config/config.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -206,4 +207,29 @@ TEST_CASE_METHOD(Fixture, "a link to the sensor's port is the sensor's port", "[
     CHECK_THAT(refusal(kStation + "[sensor]\nport = \"sensor\"\n" + kStorage +
                        "[oven]\nenabled = true\nport = \"oven\"\n"),
                Catch::Contains("oven.port = 'oven': the sensor's own"));
+}
+
+TEST_CASE_METHOD(Fixture, "a calibration gives the verdict the unit's own defaults",
+                 "[daemon][config]") {
+    corrector::Calibration unit;
+    unit.serial_number = "00000042";
+    unit.program = "test";
+    unit.valid_from = *parse_rfc3339("2026-03-01T00:00:00Z");
+    unit.thermal.emplace();
+    unit.thermal->values << -10.0, -15.0, 9.0, std::log(40.0), std::log(1800.0);
+    unit.warm_up = corrector::WarmUpGuidance{1.0, 9.0};
+    std::ofstream(directory.path() / "unit.toml") << corrector::to_toml(unit);
+    const Config config = read(kStation + kSensor + kStorage +
+                               "[survey]\ncalibration = \"unit.toml\"\n[verdict]\n"
+                               "slow_mgal_per_degc = -17\n");
+    CHECK(config.verdict.static_mgal_per_degc == -10.0);
+    CHECK(config.verdict.slow_mgal_per_degc == -17.0);  // What is given has the last word.
+    CHECK(config.verdict.rate_mgal_h_per_degc == 9.0);
+    CHECK(config.verdict.slow_lag_min == Approx(30.0));
+    // 36 mGal that are 1 after 9 h.
+    CHECK(36.0 * std::exp(-9.0 / config.verdict.warm_up_h) == Approx(1.0));
+
+    std::ofstream(directory.path() / "unit.toml") << "format = 2\n";
+    CHECK_THAT(refusal(kStation + kSensor + kStorage + "[survey]\ncalibration = \"unit.toml\"\n"),
+               Catch::Contains("unit.toml:1: format = 2"));
 }
