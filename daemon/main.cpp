@@ -176,7 +176,10 @@ sigset_t block_signals() {
 ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log,
                const sigset_t& signals, StatusLog& status_log) {
     ReadQueue reads;
-    LiveRecord live(*config.sensor.profile, config.sensor.settings.output_rate_hz, config.verdict);
+    VerdictOptions verdict = config.verdict;
+    const std::chrono::duration<double> shortest = clock.instrument_span(kShortestRealStale);
+    verdict.gap_s = std::max(verdict.gap_s, shortest.count());
+    LiveRecord live(*config.sensor.profile, config.sensor.settings.output_rate_hz, verdict);
     std::atomic<bool> is_recovered{false};
     Store store(record::posix_files(),
                 {.root = config.storage.root,

@@ -1,0 +1,71 @@
+"""What the daemon tells an operator at a benchmark: verdict and running value against the truth, over a crash too."""
+
+import datetime
+import signal
+import time
+
+from emulated_session import Session, wait_for
+from programs import BIN, Scratch, demand, run
+
+G_MGAL = 980665.0
+COUNTS_PER_G = 1 << 24
+
+
+def ctl(session, *order, check=True):
+    return run(BIN / "a351ctl", "--url", f"http://127.0.0.1:{session.port}", *order, check=check)
+
+
+def state(session):
+    return session.status().get("verdict", {}).get("state")
+
+
+def nanoseconds(utc):
+    whole = datetime.datetime.strptime(utc, "%Y-%m-%dT%H:%M:%S.%fZ").replace(tzinfo=datetime.timezone.utc)
+    return int(whole.timestamp() * 1000) * 10**6
+
+
+def mean_norm_mgal(rows):
+    return sum((x * x + y * y + z * z) ** 0.5 for _, x, y, z, *_ in rows) / len(rows) * G_MGAL / COUNTS_PER_G
+
+
+with Scratch() as scratch:
+    session = Session(scratch, speed=60)
+    wait_for("the temperature is not yet known long enough", lambda: state(session) == "settling", 20)
+    first = session.status()["verdict"]
+    demand(f"settling says why: {first['reasons'][0]}", first["reasons"][0].startswith("temperature known for"))
+    wait_for("stable", lambda: state(session) == "stable")
+
+    print(ctl(session, "start", "No.0").stdout, end="")
+    wait_for("a standard error", lambda: session.status()["occupation"]["reading"]["standard_error_mgal"], 30)
+    ctl(session, "target", "0.01")
+    demand("the target is not reached", not session.status()["occupation"]["reading"]["is_good_enough"])
+    demand("how long it will take is told", session.status()["occupation"]["reading"]["needed_s"] > 0)
+    ctl(session, "target", "5")
+    demand("a lesser target is", session.status()["occupation"]["reading"]["is_good_enough"])
+    wait_for("a further set-up is proposed", lambda: session.status()["occupation"]["propose_set_up"], 30)
+
+    used_s = session.status()["occupation"]["reading"]["used_s"]
+    session.daemon.send_signal(signal.SIGKILL)
+    session.daemon.wait()
+    session.daemon = session.start_daemon()
+    begun = time.monotonic()
+    wait_for("stable again", lambda: state(session) == "stable", 20)
+    demand(f"a killed daemon's verdict is back within 10 s: {time.monotonic() - begun:.1f} s",
+           time.monotonic() - begun < 10)
+    wait_for("the reading goes on", lambda: session.status()["occupation"]["reading"]["used_s"] > used_s, 20)
+    demand("and its target stands", session.status()["target_mgal"] == 5)
+
+    print(ctl(session, "stop").stdout, end="")
+    listed = ctl(session, "list").stdout.splitlines()
+    _, _, start, end, reading, *_ = listed[1].split()
+    session.order("silence seconds=100000")
+    wait_for("no data", lambda: state(session) == "no data", 10)
+    demand(f"no data says since when: {session.status()['verdict']['reasons']}",
+           session.status()["verdict"]["reasons"][0].startswith("last "))
+
+    session.sim.send_signal(signal.SIGTERM)
+    session.sim.wait(timeout=30)
+    between = [row for row in session.rows() if nanoseconds(start) <= row[0] < nanoseconds(end)]
+    true = mean_norm_mgal(between)
+    demand(f"the reading {reading} mGal is the mean of the {len(between)} samples that the sensor sent, {true:.2f}",
+           abs(float(reading) - true) < 1.0)
