@@ -1,11 +1,17 @@
 """What the daemon tells an operator at a benchmark: verdict and running value against the truth, over a crash too."""
 
+import atexit
 import datetime
+import json
+import random
+import shutil
 import signal
+import subprocess
 import time
+import urllib.request
 
 from emulated_session import Session, wait_for
-from programs import BIN, Scratch, demand, run
+from programs import BIN, Scratch, daemon_config, demand, rows, run
 
 G_MGAL = 980665.0
 COUNTS_PER_G = 1 << 24
@@ -44,16 +50,17 @@ with Scratch() as scratch:
     demand("a lesser target is", session.status()["occupation"]["reading"]["is_good_enough"])
     wait_for("a further set-up is proposed", lambda: session.status()["occupation"]["propose_set_up"], 30)
 
-    used_s = session.status()["occupation"]["reading"]["used_s"]
-    session.daemon.send_signal(signal.SIGKILL)
-    session.daemon.wait()
-    session.daemon = session.start_daemon()
-    begun = time.monotonic()
-    wait_for("stable again", lambda: state(session) == "stable", 20)
-    demand(f"a killed daemon's verdict is back within 10 s: {time.monotonic() - begun:.1f} s",
-           time.monotonic() - begun < 10)
-    wait_for("the reading goes on", lambda: session.status()["occupation"]["reading"]["used_s"] > used_s, 20)
-    demand("and its target stands", session.status()["target_mgal"] == 5)
+    for how in (signal.SIGKILL, signal.SIGTERM):
+        used_s = session.status()["occupation"]["reading"]["used_s"]
+        session.daemon.send_signal(how)
+        session.daemon.wait()
+        session.daemon = session.start_daemon()
+        begun = time.monotonic()
+        wait_for("stable again", lambda: state(session) == "stable", 30)
+        took_s = time.monotonic() - begun
+        demand(f"after {how.name} the verdict is back within 10 s: {took_s:.1f} s", took_s < 10)
+        wait_for("the reading goes on", lambda: session.status()["occupation"]["reading"]["used_s"] > used_s, 20)
+        demand("and its target stands", session.status()["target_mgal"] == 5)
 
     print(ctl(session, "stop").stdout, end="")
     listed = ctl(session, "list").stdout.splitlines()
@@ -69,3 +76,25 @@ with Scratch() as scratch:
     true = mean_norm_mgal(between)
     demand(f"the reading {reading} mGal is the mean of the {len(between)} samples that the sensor sent, {true:.2f}",
            abs(float(reading) - true) < 1.0)
+
+# What no journal tells any more is recalled from the archive.
+with Scratch() as scratch:
+    run(BIN / "a351-sim", "survey", "--scenario", "ideal", "--out", scratch / "data")
+    shutil.rmtree(scratch / "data" / "journal")
+    end = rows(scratch / "data" / "schedule.csv")[-1]["end_utc"]
+    port = random.randrange(20000, 32000)
+    (scratch / "a351d.toml").write_text(daemon_config(port))
+    daemon = subprocess.Popen([BIN / "a351d", "--config", "a351d.toml", "--clock", f"scaled:1@{end}"], cwd=scratch)
+    atexit.register(daemon.kill)
+
+    def readings():
+        try:
+            with urllib.request.urlopen(f"http://127.0.0.1:{port}/api/occupations", timeout=5) as reply:
+                return [one["reading"]["value_mgal"] for one in json.load(reply)["occupations"]]
+        except OSError:
+            return []
+
+    wait_for("the readings of the whole day", lambda: readings() and None not in readings(), 30)
+    print(f"recalled: {len(readings())} readings, {min(readings()):.1f} to {max(readings()):.1f} mGal")
+    daemon.terminate()
+    demand("the daemon ends cleanly", daemon.wait(timeout=30) == 0)
