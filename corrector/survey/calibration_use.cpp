@@ -21,18 +21,10 @@ const std::vector<Eigen::Index> kThermalPlaces{DayPriors::place_of(DayTerm::leve
                                                DayPriors::place_of(DayTerm::slow),
                                                DayPriors::place_of(DayTerm::fast), 0, 1};
 
-double axis_mean_g(const SurveyRow& row, std::string_view name) {
-    const std::optional<double> mean_g = row.detail(name);
-    if (!mean_g)
-        throw InputError("calibration: " + row.site + " (" + std::to_string(row.occupation) +
-                         ") has no " + std::string(name) + "; allowed: rows from records");
-    return *mean_g;
-}
-
 MilliGal tilt_effect(const SurveyRow& row, const std::optional<AxisBias>& bias) {
     if (!bias) return MilliGal(0.0);
-    return MilliGal(bias->values(0) * axis_mean_g(row, "mean_x_g") +
-                    bias->values(1) * axis_mean_g(row, "mean_y_g"));
+    return MilliGal(bias->values(0) * row.detail_for("calibration", "mean_x_g") +
+                    bias->values(1) * row.detail_for("calibration", "mean_y_g"));
 }
 
 bool is_contradicted(const std::optional<Disagreement>& test) {

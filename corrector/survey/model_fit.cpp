@@ -6,7 +6,6 @@
 #include <set>
 
 #include "corrector/survey/paper_correction.hpp"
-#include "protocol/core/input_error.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -95,13 +94,6 @@ std::optional<double> left_out_paper_error_mgal(std::vector<SurveyRow> rows,
     return errors_mgal({row}, drift_corrected_mgal({row}, corrected1, *step.drift)).front();
 }
 
-double axis_mean_g(const SurveyRow& row, std::string_view name) {
-    if (const std::optional<double> mean_g = row.detail(name)) return *mean_g;
-    throw InputError("model = " + std::string(kAxesModel.name) + ": " + row.site + " (" +
-                     std::to_string(row.occupation) + ") has no " + std::string(name) +
-                     "; allowed: rows from records, or another model");
-}
-
 bool takes_part(const LinearModel& model, const std::vector<SurveyRow>& rows,
                 std::string_view base) {
     constexpr std::size_t kFewestBaseStays = 3;
@@ -138,8 +130,9 @@ Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<Survey
                 seconds_between(origin, row.time) / kSecondsPerHour - kReferenceTime_h;
         }
         if (model.has_axes) {
-            columns(i, k++) = axis_mean_g(row, "mean_x_g");
-            columns(i, k) = axis_mean_g(row, "mean_y_g");
+            const std::string wanted_by = "model = " + std::string(kAxesModel.name);
+            columns(i, k++) = row.detail_for(wanted_by, "mean_x_g");
+            columns(i, k) = row.detail_for(wanted_by, "mean_y_g");
         }
     }
     return columns;

@@ -74,6 +74,12 @@ std::optional<double> SurveyRow::detail(std::string_view name) const {
     return std::nullopt;
 }
 
+double SurveyRow::detail_for(std::string_view wanted_by, std::string_view name) const {
+    if (const std::optional<double> value = detail(name)) return *value;
+    throw InputError(std::string(wanted_by) + ": " + site + " (" + std::to_string(occupation) +
+                     ") has no " + std::string(name) + "; allowed: rows from records");
+}
+
 std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
                                          const std::vector<text::Site>& sites) {
     const text::CsvTable table = text::read_csv(file);

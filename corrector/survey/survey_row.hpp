@@ -40,6 +40,10 @@ struct SurveyRow {
     /// Value of a detail; absent where the row has none of that name.
     [[nodiscard]] std::optional<double> detail(std::string_view name) const;
 
+    /// @param wanted_by  opens the message.
+    /// @throws InputError  it is absent: only rows from records have all.
+    [[nodiscard]] double detail_for(std::string_view wanted_by, std::string_view name) const;
+
     /// In the place of the one that has this name, if there is one.
     void set_detail(std::string_view name, std::optional<double> value);
 };
