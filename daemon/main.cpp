@@ -222,6 +222,7 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
          .latitude = config.station.latitude,
          .longitude = config.station.longitude,
          .events = [&] { return record::read_events(events).events; },
+         .assets = config.page.assets,
          .stale_after = std::max<Nanoseconds>(kStale, clock.instrument_span(kShortestRealStale))});
     for (const std::string& address : page.addresses()) log.info("page at http://{}", address);
     if (page.is_exposed()) log.warn("the page can be reached from other hosts");

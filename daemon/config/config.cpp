@@ -211,6 +211,11 @@ PageConfig read_page(TomlTable table) {
     if (!page.token.empty() && !is_token(page.token)) {
         table.refuse("token", "too weak", "16 or more visible ASCII characters, or \"\"");
     }
+    page.assets = table.path_or_empty("assets");
+    if (!page.assets.empty() && !std::filesystem::is_directory(page.assets)) {
+        table.refuse("assets", "no such directory: " + page.assets.string(),
+                     "a directory with the page's files, or \"\"");
+    }
     if (!page.listen.is_loopback && page.token.empty()) {
         table.refuse("listen", "others can connect there",
                      "an address of this host, or a token beside");

@@ -45,7 +45,8 @@ struct StorageConfig {
 struct PageConfig {
     ListenAddress listen;
     std::vector<std::string> hosts;
-    std::string token;  ///< Never empty where others than this host can connect.
+    std::string token;             ///< Never empty where others than this host can connect.
+    std::filesystem::path assets;  ///< Of the page's files; empty: those compiled in.
 };
 
 struct SurveyConfig {

@@ -6,7 +6,10 @@
 #include <span>
 
 #include "daemon/page/field_json.hpp"
+#include "daemon/page/history_json.hpp"
+#include "daemon/page/metrics.hpp"
 #include "daemon/page/order.hpp"
+#include "daemon/page/query.hpp"
 #include "daemon/page/status_json.hpp"
 #include "protocol/core/input_error.hpp"
 
@@ -17,8 +20,9 @@ using nlohmann::json;
 
 constexpr std::size_t kEventsPerAnswer = 1000;
 
-constexpr std::string_view kReadable[] = {"/",          "/api/status",      "/api/events",
-                                          "/api/sites", "/api/occupations", "/api/token"};
+constexpr std::string_view kReadable[] = {"/api/status",     "/api/events", "/api/sites",
+                                          "/metrics",        "/api/token",  "/api/history",
+                                          "/api/occupations"};
 constexpr std::string_view kChangeable[] = {"/api/occupation/start",
                                             "/api/occupation/stop",
                                             "/api/occupation/setup",
@@ -43,33 +47,10 @@ Response answer_of(const Outcome& outcome, const std::optional<RunningOccupation
                {"occupation", running ? to_json(*running, running->start) : json()}});
 }
 
-std::optional<std::string> percent_decoded(std::string_view text) {
-    const auto digit = [](char c) {
-        if (c >= '0' && c <= '9') return c - '0';
-        if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-        if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-        return -1;
-    };
-    std::string decoded;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] != '%') {
-            decoded += text[i];
-            continue;
-        }
-        if (i + 2 >= text.size()) return std::nullopt;
-        const int high = digit(text[i + 1]);
-        const int low = digit(text[i + 2]);
-        if (high < 0 || low < 0) return std::nullopt;
-        decoded += static_cast<char>(16 * high + low);
-        i += 2;
-    }
-    return decoded;
-}
-
 }  // namespace
 
 Api::Api(ApiSources sources, std::string token)
-    : sources_(std::move(sources)), token_(std::move(token)) {}
+    : sources_(std::move(sources)), token_(std::move(token)), assets_(sources_.assets, token_) {}
 
 Response Api::answer(const Request& request) noexcept {
     try {
@@ -77,12 +58,27 @@ Response Api::answer(const Request& request) noexcept {
     } catch (const InputError& error) {
         return refusal(400, error.what());
     } catch (const std::exception& error) {
-        ++failures_;
+        ++use_.failures;
         return refusal(500, error.what());
     } catch (...) {
-        ++failures_;
+        ++use_.failures;
         return refusal(500, "the daemon failed");
     }
+}
+
+std::optional<json> Api::status() noexcept {
+    try {
+        return status_now();
+    } catch (...) {
+        ++use_.failures;
+        return std::nullopt;
+    }
+}
+
+json Api::status_now() {
+    const Status status = sources_.status();
+    const auto field = field_status(sources_.occupations, sources_.live, status.now);
+    return to_json(status, sources_.occupations, field, sources_.live, sources_.stale_after);
 }
 
 Response Api::route(const Request& request) {
@@ -91,7 +87,7 @@ Response Api::route(const Request& request) {
     const auto path = target.substr(0, mark);
     const auto query = mark == std::string_view::npos ? "" : target.substr(mark + 1);
 
-    const bool is_readable = contains(kReadable, path);
+    const bool is_readable = contains(kReadable, path) || assets_.contains(path);
     if (!is_readable && !contains(kChangeable, path)) return refusal(404, "there is no such path");
     if (is_readable && (request.method == "GET" || request.method == "HEAD")) {
         return read(path, query);
@@ -107,12 +103,13 @@ Response Api::route(const Request& request) {
 
 Response Api::read(std::string_view path, std::string_view query) {
     if (path == "/api/events") return events_since(query);
+    if (path == "/api/history") {
+        return {.body = history_json(sources_.live, query, sources_.status().now)};
+    }
     if (!query.empty()) throw InputError("query: none is allowed here");
-    if (path == "/api/status") {
-        const Status status = sources_.status();
-        const auto field = field_status(sources_.occupations, sources_.live, status.now);
-        return ok(
-            to_json(status, sources_.occupations, field, sources_.live, sources_.stale_after));
+    if (path == "/api/status") return ok(status_now());
+    if (path == "/metrics") {
+        return {.content_type = kMetricsType, .body = metrics_of(status_now(), use_)};
     }
     if (path == "/api/sites") return sites_around();
     if (path == "/api/occupations") return occupations_so_far();
@@ -120,8 +117,7 @@ Response Api::read(std::string_view path, std::string_view query) {
         if (token_.empty()) return refusal(403, "the token is the one in [page] token");
         return ok({{"token", token_}});
     }
-    return {.content_type = "text/plain; charset=utf-8",
-            .body = "a351d answers under /api/status; there is no page here yet.\n"};
+    return assets_.answer(path);
 }
 
 /// Around the last occupation's site, or else the base.
@@ -151,12 +147,10 @@ Response Api::occupations_so_far() const {
 }
 
 Response Api::events_since(std::string_view query) {
+    const auto keys = parse_query(query, {"since"});
     std::optional<UtcTime> since;
-    constexpr std::string_view kKey = "since=";
-    if (!query.empty()) {
-        if (!query.starts_with(kKey)) throw InputError("query: allowed: since");
-        const auto text = percent_decoded(query.substr(kKey.size()));
-        if (text) since = parse_rfc3339(*text);
+    if (const auto given = keys.find("since"); given != keys.end()) {
+        since = parse_rfc3339(given->second);
         if (!since) {
             throw InputError("query: since: not an instant; allowed: RFC 3339 in UTC");
         }

@@ -2,21 +2,28 @@
 /// @file
 /// The HTTP interface as a function from request to response.  No sockets, no threads.
 ///
+/// GET  / and the other files of the page
 /// GET  /api/status /api/events?since=UTC /api/sites /api/occupations /api/token
+/// GET  /api/history?channel=NAME&from=UTC&to=UTC&points=N /metrics
 /// POST /api/occupation/start|stop|setup|discard|rename /api/note /api/target, with a JSON object
 ///      as body
 ///
-/// An answer is JSON; a refusal is {"error": one line}: 400 malformed, 403 and 421 security, 404,
-/// 405, 409 against a rule of the survey, 500 not on disk.  GET changes nothing.
+/// An answer under /api is JSON; a refusal is {"error": one line}: 400 malformed, 403 and 421
+/// security, 404, 405, 409 against a rule of the survey, 500 not on disk.  GET changes nothing.
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "daemon/live/live_record.hpp"
+#include "daemon/page/assets.hpp"
 #include "daemon/page/message.hpp"
+#include "daemon/page/page_use.hpp"
 #include "daemon/page/status.hpp"
 #include "daemon/survey/occupations.hpp"
 #include "protocol/core/utc_time.hpp"
@@ -33,6 +40,7 @@ struct ApiSources {
     std::vector<text::Site> sites = {};
     Degrees latitude = {}, longitude = {};               ///< Of the base, where a day begins.
     std::function<std::vector<record::Event>()> events;  ///< The whole event log, in file order.
+    std::filesystem::path assets = {};  ///< The page's files; empty: those compiled in.
 
     /// Instrument time without a sample after which the verdict is "no data".  On scaled time let
     /// it be no shorter than 0.5 s of real time.
@@ -47,9 +55,14 @@ public:
     /// For a request that has passed the Guard.  Never throws: an exception of a source is a 500.
     [[nodiscard]] Response answer(const Request& request) noexcept;
 
-    [[nodiscard]] std::uint64_t failures() const noexcept { return failures_; }
+    /// The body of GET /api/status; std::nullopt when a source failed.
+    [[nodiscard]] std::optional<nlohmann::json> status() noexcept;
+
+    /// What the server counts, and /metrics tells.
+    [[nodiscard]] PageUse& use() noexcept { return use_; }
 
 private:
+    [[nodiscard]] nlohmann::json status_now();
     [[nodiscard]] Response route(const Request& request);
     [[nodiscard]] Response read(std::string_view path, std::string_view query);
     [[nodiscard]] Response change(std::string_view path, const std::string& body);
@@ -59,7 +72,8 @@ private:
 
     ApiSources sources_;
     std::string token_;
-    std::uint64_t failures_ = 0;
+    Assets assets_;
+    PageUse use_;
 };
 
 }  // namespace a351::daemon

@@ -30,6 +30,13 @@ bool is_json(std::string_view content_type) {
     return end != std::string::npos && type.substr(0, end + 1) == "application/json";
 }
 
+bool asks_for_stream(const Request& request) {
+    for (const auto& protocol : request.values("Upgrade")) {
+        if (lower(protocol).find("websocket") != std::string::npos) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 Guard::Guard(std::uint16_t port, const std::vector<std::string>& hosts, std::string token)
@@ -48,16 +55,20 @@ std::optional<Response> Guard::refuse(const Request& request) const {
     if (host.size() != 1 || !is_listed(host.front())) {
         return refusal(421, "Host is not a name of this daemon; see [page] hosts");
     }
-    if (request.method == "GET" || request.method == "HEAD") return std::nullopt;
+    const bool is_read = request.method == "GET" || request.method == "HEAD";
+    const bool is_stream = asks_for_stream(request);
+    if (is_read && !is_stream) return std::nullopt;
 
     constexpr std::string_view kScheme = "http://";
-    for (const auto& origin : request.values("Origin")) {
+    const auto origins = request.values("Origin");
+    for (const auto& origin : origins) {
         if (!lower(origin).starts_with(kScheme) || !is_listed(origin.substr(kScheme.size()))) {
             return refusal(403, "Origin is not a name of this daemon");
         }
     }
+    if (is_read && !origins.empty()) return std::nullopt;
     const auto type = request.values("Content-Type");
-    if (type.size() != 1 || !is_json(type.front())) {
+    if (!is_read && (type.size() != 1 || !is_json(type.front()))) {
         return refusal(403, "Content-Type must be application/json");
     }
     const auto token = request.values("X-A351-Token");

@@ -24,7 +24,9 @@ public:
     /// The refusal, or std::nullopt for a request that may be answered:
     /// 421 Host missing, twice or not in the list;
     /// 403 anything but GET and HEAD: Origin not in the list, content type not application/json,
-    ///     or the header X-A351-Token missing or wrong.
+    ///     or the header X-A351-Token missing or wrong;
+    /// 403 GET with an upgrade to WebSocket, which no rule of the browser keeps from other sites:
+    ///     Origin not in the list, or none and the token missing or wrong.
     [[nodiscard]] std::optional<Response> refuse(const Request& request) const;
 
     [[nodiscard]] const std::string& token() const noexcept { return token_; }

@@ -8,6 +8,7 @@
 
 #include "daemon/page/asio.hpp"
 #include "daemon/page/guard.hpp"
+#include "daemon/page/live_stream.hpp"
 
 namespace a351::daemon {
 namespace {
@@ -20,12 +21,13 @@ using boost::system::error_code;
 
 constexpr std::uint32_t kHeaderLimit = 8 * 1024;
 constexpr std::uint64_t kBodyLimit = 16 * 1024;
+constexpr std::string_view kLivePath = "/live";
 constexpr std::chrono::seconds kLinger{1};
 constexpr std::chrono::milliseconds kAcceptPause{100};
 
 auto into(error_code& error) { return asio::redirect_error(asio::use_awaitable, error); }
 
-Request plain(const http::request<http::string_body>& message) {
+Request plain(const HttpRequest& message) {
     Request request;
     request.method = std::string(message.method_string());
     request.target = std::string(message.target());
@@ -62,30 +64,18 @@ std::optional<Response> complaint(error_code error) {
     return refusal(400, "not an HTTP request: " + error.message());
 }
 
-/// Counts a connection while it lives.
-class Seat {
-public:
-    explicit Seat(std::size_t& taken) noexcept : taken_(&taken) { ++taken; }
-    Seat(Seat&& other) noexcept : taken_(std::exchange(other.taken_, nullptr)) {}
-    Seat& operator=(Seat&&) = delete;
-    ~Seat() {
-        if (taken_) --*taken_;
-    }
-
-private:
-    std::size_t* taken_;
-};
-
 }  // namespace
 
 class Server::Impl {
 public:
     Impl(const ServerOptions& options, ApiSources sources)
-        : options_(options), listen_(options.listen), sources_(std::move(sources)) {
+        : options_(options), listen_(options.listen) {
         bind();
         const std::string token = options.token.empty() ? random_token() : options.token;
         guard_.emplace(port_, options.hosts, token);
-        api_.emplace(std::move(sources_), listen_.is_loopback ? token : std::string());
+        const LiveRecord& live = sources.live;
+        api_.emplace(std::move(sources), listen_.is_loopback ? token : std::string());
+        live_.emplace(io_, live, *api_, options.stream_patience);
     }
 
     ~Impl() { stop(); }
@@ -94,6 +84,7 @@ public:
         for (auto& acceptor : acceptors_) {
             asio::co_spawn(io_, accept_all(acceptor), asio::detached);
         }
+        asio::co_spawn(io_, live_->feed(), asio::detached);
         thread_ = std::thread([this] { io_.run(); });
     }
 
@@ -164,13 +155,14 @@ private:
 
     void welcome(tcp::socket socket) {
         // Those who are told to come back later hold a socket for a moment, too.
-        if (taken_ + turned_away_ >= 2 * options_.connection_limit) return;
+        auto& taken = api_->use().connections;
+        if (taken + turned_away_ >= 2 * options_.connection_limit) return;
         error_code ignored;
         socket.set_option(tcp::no_delay(true), ignored);
-        if (taken_ >= options_.connection_limit) {
+        if (taken >= options_.connection_limit) {
             asio::co_spawn(io_, turn_away(std::move(socket), Seat(turned_away_)), asio::detached);
         } else {
-            asio::co_spawn(io_, serve(std::move(socket), Seat(taken_)), asio::detached);
+            asio::co_spawn(io_, serve(std::move(socket), Seat(taken)), asio::detached);
         }
     }
 
@@ -196,15 +188,33 @@ private:
             }
             const auto& message = parser.get();
             const Request request = plain(message);
-            auto refused = guard_->refuse(request);
-            auto response = refused ? *std::move(refused) : api_->answer(request);
-            failures_ = api_->failures();
-            const auto reply = packed(std::move(response), message.version(), message.keep_alive(),
+            auto response = guard_->refuse(request);
+            if (!response && request.target == kLivePath) {
+                response = refuse_stream(message);
+                if (!response) {
+                    co_await live_->serve(std::move(stream), parser.release(),
+                                          Seat(api_->use().streams));
+                    co_return;
+                }
+            }
+            if (!response) response = api_->answer(request);
+            failures_ = api_->use().failures;
+            const auto reply = packed(*std::move(response), message.version(), message.keep_alive(),
                                       request.method == "HEAD");
             stream.expires_after(options_.request_limit);
             co_await http::async_write(stream, reply, into(error));
             if (error || !message.keep_alive()) co_return;
         }
+    }
+
+    [[nodiscard]] std::optional<Response> refuse_stream(const HttpRequest& message) {
+        if (!asks_for_websocket(message)) {
+            auto response = refusal(426, "this is a WebSocket");
+            response.headers.emplace_back("Upgrade", "websocket");
+            return response;
+        }
+        if (api_->use().streams < options_.stream_limit) return std::nullopt;
+        return refusal(503, "too many live streams");
     }
 
     /// Answers and closes.  What the client still sends is read and dropped for a moment, for
@@ -222,12 +232,12 @@ private:
 
     const ServerOptions options_;
     const ListenAddress listen_;
-    ApiSources sources_;
     std::optional<Guard> guard_;
+    // Coroutines end with io_, and free their seats in these.
     std::optional<Api> api_;
-    std::size_t taken_ = 0;
     std::size_t turned_away_ = 0;
     asio::io_context io_{1};
+    std::optional<LiveStream> live_;
     std::vector<tcp::acceptor> acceptors_;
     std::thread thread_;
 };

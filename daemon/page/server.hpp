@@ -3,7 +3,8 @@
 /// The web server of the daemon, on a thread of its own.
 ///
 ///     Server server({.listen = page.listen, .hosts = page.hosts, .token = page.token},
-///                   {.status = [&] { return ...; }, .occupations = occupations, .sites = sites,
+///                   {.status = [&] { return ...; }, .occupations = occupations, .live = live,
+///                    .sites = sites,
 ///                    .events = [&] { return record::read_events(root / "events").events; }});
 ///     for (const auto& address : server.addresses()) log->info("page at http://{}", address);
 ///     server.start();
@@ -31,6 +32,9 @@ struct ServerOptions {
 
     std::size_t connection_limit = 32;
     std::chrono::milliseconds request_limit{10'000};  ///< Real time to complete a request.
+    std::size_t stream_limit = 20;                    ///< Live ones, of the connections.
+    /// Real time after which a live viewer that takes or answers nothing is left.
+    std::chrono::milliseconds stream_patience{10'000};
 };
 
 class Server {

@@ -452,7 +452,7 @@ TEST_CASE("an exception of a source is a server error and is counted", "[daemon]
                 .events = []() -> std::vector<record::Event> { throw 1; }},
                "");
     CHECK(broken.answer(get("/api/status")).status == 500);
-    CHECK(broken.failures() == 1);
+    CHECK(broken.use().failures == 1);
     CHECK(broken.answer(get("/api/events")).status == 500);
-    CHECK(broken.failures() == 2);
+    CHECK(broken.use().failures == 2);
 }

@@ -39,6 +39,27 @@ public:
 
     void finish_sending() const { ::shutdown(socket_, SHUT_WR); }
 
+    /// The next `count` bytes; fewer when the connection ends or nothing comes for 20 s.
+    std::string take(std::size_t count) const {
+        std::string received(count, '\0');
+        std::size_t filled = 0;
+        while (filled < count) {
+            pollfd ready{socket_, POLLIN, 0};
+            if (::poll(&ready, 1, 20'000) <= 0) break;
+            const auto got = ::recv(socket_, received.data() + filled, count - filled, 0);
+            if (got <= 0) break;
+            filled += static_cast<std::size_t>(got);
+        }
+        received.resize(filled);
+        return received;
+    }
+
+    /// Bytes that the kernel keeps for a client that does not read; before anything comes.
+    void keep_few() const {
+        const int few = 4096;
+        ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &few, sizeof few);
+    }
+
     /// Everything up to the end of the connection; 20 s at most, so that a failure ends, too.
     std::string rest() const {
         std::string received;

@@ -7,62 +7,10 @@
 #include <thread>
 
 #include "protocol/core/input_error.hpp"
-#include "tests/unit/daemon/fake_recorder.hpp"
-#include "tests/unit/daemon/raw_client.hpp"
+#include "tests/unit/daemon/served.hpp"
 
 using namespace a351;
 using namespace a351::daemon;
-
-namespace {
-
-const std::string kToken = "0123456789abcdef0123456789abcdef";
-
-/// A real server on a free port of loopback.
-struct Served {
-    explicit Served(ServerOptions options = {}) : server(own(options), sources()) {
-        server.start();
-    }
-
-    static ServerOptions own(ServerOptions options) {
-        options.listen.port = 0;
-        options.token = kToken;
-        return options;
-    }
-    ApiSources sources() {
-        return {.status = [] { return Status{}; },
-                .occupations = occupations,
-                .live = live,
-                .sites = two_sites(),
-                .events = [] { return std::vector<record::Event>{}; }};
-    }
-
-    [[nodiscard]] std::string host() const {
-        return "Host: 127.0.0.1:" + std::to_string(server.port()) + "\r\n";
-    }
-    [[nodiscard]] std::string get(const std::string& path, const std::string& more = "") const {
-        return "GET " + path + " HTTP/1.1\r\n" + host() + more + "\r\n";
-    }
-    [[nodiscard]] std::string post(const std::string& body, const std::string& headers) const {
-        return "POST /api/note HTTP/1.1\r\n" + host() +
-               "Content-Length: " + std::to_string(body.size()) + "\r\n" + headers + "\r\n" + body;
-    }
-    [[nodiscard]] std::string answer(const std::string& request) const {
-        const RawClient client(server.port());
-        client.send(request);
-        return client.response();
-    }
-    [[nodiscard]] bool is_well() const { return status_of(answer(get("/api/status"))) == 200; }
-
-    FakeRecorder recorder;
-    Occupations occupations{recorder, two_sites(), {}};
-    LiveRecord live{*wire::find_profile("A351"), 50, {}};
-    Server server;
-};
-
-const std::string kJson = "Content-Type: application/json\r\n";
-const std::string kWithToken = "X-A351-Token: " + kToken + "\r\n";
-
-}  // namespace
 
 TEST_CASE("the server answers with the headers of a private interface", "[daemon][server]") {
     const Served served;

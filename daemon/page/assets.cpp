@@ -1,0 +1,74 @@
+#include "daemon/page/assets.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <fstream>
+#include <iterator>
+
+namespace a351::daemon {
+namespace {
+
+constexpr std::string_view kIndex = "index.html";
+constexpr std::string_view kTokenMark = "@TOKEN@";
+
+const Asset* find(std::string_view path) noexcept {
+    if (!path.starts_with('/')) return nullptr;
+    const auto name = path == "/" ? kIndex : path.substr(1);
+    const auto assets = compiled_assets();
+    const auto found = std::find_if(assets.begin(), assets.end(),
+                                    [&](const Asset& asset) { return asset.name == name; });
+    return found == assets.end() ? nullptr : &*found;
+}
+
+std::string content_type(std::string_view name) {
+    if (name.ends_with(".html")) return "text/html; charset=utf-8";
+    if (name.ends_with(".js")) return "text/javascript; charset=utf-8";
+    if (name.ends_with(".css")) return "text/css; charset=utf-8";
+    if (name.ends_with(".svg")) return "image/svg+xml";
+    return "application/octet-stream";
+}
+
+/// A configured token may hold any visible character.
+std::string as_html(std::string_view text) {
+    std::string html;
+    for (const char c : text) {
+        if (c == '&') {
+            html += "&amp;";
+        } else if (c == '<') {
+            html += "&lt;";
+        } else if (c == '"') {
+            html += "&quot;";
+        } else {
+            html += c;
+        }
+    }
+    return html;
+}
+
+}  // namespace
+
+Assets::Assets(std::filesystem::path directory, std::string_view token)
+    : directory_(std::move(directory)), token_(as_html(token)) {}
+
+bool Assets::contains(std::string_view path) const noexcept { return find(path) != nullptr; }
+
+Response Assets::answer(std::string_view path) const {
+    const Asset* const asset = find(path);
+    assert(asset);
+    Response response;
+    response.content_type = content_type(asset->name);
+    response.body = asset->bytes;
+    if (!directory_.empty()) {
+        if (std::ifstream file(directory_ / asset->name, std::ios::binary); file) {
+            response.body.assign(std::istreambuf_iterator<char>(file), {});
+        }
+    }
+    if (asset->name == kIndex) {
+        if (const auto at = response.body.find(kTokenMark); at != std::string::npos) {
+            response.body.replace(at, kTokenMark.size(), token_);
+        }
+    }
+    return response;
+}
+
+}  // namespace a351::daemon

@@ -1,0 +1,116 @@
+#include "daemon/page/history_json.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "daemon/page/query.hpp"
+#include "protocol/core/input_error.hpp"
+
+namespace a351::daemon {
+namespace {
+
+constexpr std::size_t kMostPoints = 4000;
+constexpr std::size_t kUsualPoints = 1000;
+constexpr Nanoseconds kUsualSpan = std::chrono::hours(24);
+constexpr std::array<std::string_view, kLiveChannelCount> kNames{"x", "y", "z", "temperature"};
+
+using Keys = std::map<std::string, std::string>;
+
+std::optional<UtcTime> instant(const Keys& keys, const std::string& key) {
+    const auto found = keys.find(key);
+    if (found == keys.end()) return std::nullopt;
+    const auto time = parse_rfc3339(found->second);
+    if (!time) {
+        throw InputError("query: key " + key + " = " + found->second +
+                         ": not an instant; allowed: RFC 3339 such as 2026-01-31T09:30:00Z");
+    }
+    return time;
+}
+
+std::size_t point_count(const Keys& keys) {
+    const auto found = keys.find("points");
+    if (found == keys.end()) return kUsualPoints;
+    const auto& text = found->second;
+    std::size_t count = 0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), count);
+    if (read.ec != std::errc() || read.ptr != text.data() + text.size() || count < 1 ||
+        count > kMostPoints) {
+        throw InputError("query: key points = " + text + "; allowed: 1 to " +
+                         std::to_string(kMostPoints));
+    }
+    return count;
+}
+
+double unix_ms(UtcTime time) {
+    return std::chrono::duration<double, std::milli>(time.time_since_epoch()).count();
+}
+
+/// `[t_ms, first, second]` in the fewest digits that bring the float back; NaN is null.
+void append_point(std::string& text, UtcTime time, std::array<float, 2> values) {
+    text += text.ends_with('[') ? "[" : ",[";
+    text += std::to_string(std::llround(unix_ms(time)));
+    for (const float value : values) {
+        text += ',';
+        std::array<char, 32> digits{};
+        const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+        text += std::isfinite(value) ? std::string_view(digits.data(), end) : "null";
+    }
+    text += ']';
+}
+
+std::string body(std::string_view channel, std::string_view unit, double interval_s,
+                 const std::string& points) {
+    const nlohmann::json head = {{"channel", channel}, {"unit", unit}, {"interval_s", interval_s}};
+    std::string text = head.dump();
+    text.pop_back();
+    return text + ",\"points\":" + points + "]}\n";
+}
+
+std::string oven_body(const std::vector<OvenPoint>& found) {
+    std::string points = "[";
+    double interval_s = 0.0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+        const auto& value = found[i].process_value;
+        append_point(points, found[i].time,
+                     {value ? static_cast<float>(value->value()) : kUnknown,
+                      static_cast<float>(found[i].set_point.value())});
+        if (i == 0) continue;
+        const double step_s = seconds_between(found[i - 1].time, found[i].time);
+        interval_s = i == 1 ? step_s : std::min(interval_s, step_s);
+    }
+    return body("oven", "degC", interval_s, points);
+}
+
+}  // namespace
+
+std::string history_json(const LiveRecord& live, std::string_view query, UtcTime now) {
+    const auto keys = parse_query(query, {"channel", "from", "to", "points"});
+    const UtcTime to = instant(keys, "to").value_or(now);
+    const UtcTime from = instant(keys, "from").value_or(to - kUsualSpan);
+    if (from >= to) throw InputError("query: key from: not before to");
+    const std::size_t most = point_count(keys);
+
+    const auto wanted = keys.find("channel");
+    if (wanted == keys.end()) throw InputError("query: key channel is missing");
+    if (wanted->second == "oven") return oven_body(live.oven_history(from, to, most));
+    const auto name = std::find(kNames.begin(), kNames.end(), wanted->second);
+    if (name == kNames.end()) {
+        throw InputError("query: key channel = " + wanted->second +
+                         "; allowed: x, y, z, temperature, oven");
+    }
+    const auto channel = static_cast<LiveChannel>(name - kNames.begin());
+    const auto found = live.history(channel, from, to, most);
+    std::string points = "[";
+    for (const auto& one : found) append_point(points, one.time, {one.low, one.high});
+    return body(*name, channel == LiveChannel::temperature ? "degC" : "mg",
+                found.empty() ? 0.0 : found.front().interval_s, points);
+}
+
+}  // namespace a351::daemon

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+
+#include "daemon/live/recent_samples.hpp"
+
+namespace a351::daemon {
+
+/// A message of the live stream, encoded once for all who get it.
+struct LiveMessage {
+    bool is_text = false;
+    std::string bytes;
+};
+
+/// A block in the binary form of the live stream, little endian:
+///
+///     offset 0   u8   version, 1
+///            1   u8   kind, 1: samples
+///            2   u16  mask of the channels: bit 0 x, 1 y, 2 z, 3 temperature
+///            4   u32  count of samples
+///            8   i64  index of the first sample in its session
+///           16   f64  its Unix time, ms
+///           24   f64  interval, ms
+///           32   i32  of each channel in the mask, lowest bit first, `count` values in counts
+[[nodiscard]] std::string encoded(const LiveBlock& block);
+
+inline constexpr std::size_t kLiveHeaderSize = 32;
+inline constexpr std::size_t kLargestLiveMessage = 64 * 1024;
+inline constexpr std::size_t kMostSamplesPerMessage =
+    (kLargestLiveMessage - kLiveHeaderSize) / (kLiveChannelCount * sizeof(std::int32_t));
+
+/// The newest messages, for viewers that each read on from where they were.  Memory is bounded
+/// however slowly they read: who falls behind misses some, and holds up nobody.
+class LiveMessages {
+public:
+    void push(LiveMessage message);
+
+    /// Messages pushed so far: the position of a viewer that wants only what is to come.
+    [[nodiscard]] std::uint64_t end() const noexcept { return end_; }
+
+    /// The message at `position`, which moves behind it, or the oldest that is left; adds to
+    /// `missed` how many were not.  Null: nothing new.
+    [[nodiscard]] std::shared_ptr<const LiveMessage> next(std::uint64_t& position,
+                                                          std::uint64_t& missed) const;
+
+private:
+    std::deque<std::shared_ptr<const LiveMessage>> messages_;
+    std::size_t byte_count_ = 0;
+    std::uint64_t end_ = 0;
+};
+
+/// Six seconds at 50 Hz, one and a half at 50 000 samples/s.
+inline constexpr std::size_t kMostMessagesKept = 64;
+inline constexpr std::size_t kMostBytesKept = 1024 * 1024;
+
+}  // namespace a351::daemon

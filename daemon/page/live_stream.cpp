@@ -1,0 +1,177 @@
+#include "daemon/page/live_stream.hpp"
+
+#include <algorithm>
+#include <boost/beast/websocket.hpp>
+#include <nlohmann/json.hpp>
+
+#include "daemon/page/guard.hpp"
+
+namespace a351::daemon {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace websocket = boost::beast::websocket;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+constexpr std::chrono::milliseconds kStep{100};
+constexpr std::chrono::seconds kStatusStep{1};
+constexpr std::chrono::seconds kLinger{1};
+constexpr std::uint64_t kPastSeconds = 60;
+constexpr std::size_t kLargestFromClient = 4 * 1024;
+/// Left to itself the kernel takes megabytes for a viewer that does not read.
+constexpr int kSendBuffer = 128 * 1024;
+
+auto into(error_code& error) { return asio::redirect_error(asio::use_awaitable, error); }
+
+LiveMessage status_message(const nlohmann::json& status) {
+    return {.is_text = true,
+            .bytes = "{\"status\":" +
+                     status.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "}"};
+}
+
+/// Verdict, level, link and occupation, without what changes all the time.
+std::string urgent_part(const nlohmann::json& status) {
+    const auto& occupation = status.at("occupation");
+    auto part = nlohmann::json::array({status.at("level"), status.at("verdict").at("state"),
+                                       status.at("device").at("state"), occupation.is_null()});
+    for (const char* key : {"site", "number", "operator", "note", "start", "set_up"}) {
+        if (occupation.contains(key)) part.push_back(occupation.at(key));
+    }
+    return part.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace
+
+bool asks_for_websocket(const HttpRequest& request) { return websocket::is_upgrade(request); }
+
+class LiveStream::Viewer {
+public:
+    Viewer(beast::tcp_stream stream, std::chrono::milliseconds patience)
+        : deadline_(stream.get_executor()), socket_(std::move(stream)) {
+        error_code ignored;
+        beast::get_lowest_layer(socket_).socket().set_option(
+            asio::socket_base::send_buffer_size(kSendBuffer), ignored);
+        beast::get_lowest_layer(socket_)
+            .expires_never();  // From here on the WebSocket has its own.
+        socket_.set_option(websocket::stream_base::timeout{
+            .handshake_timeout = patience, .idle_timeout = patience, .keep_alive_pings = true});
+        socket_.set_option(websocket::stream_base::decorator([](websocket::response_type& reply) {
+            for (const auto& [name, value] : security_headers()) reply.set(name, value);
+        }));
+        socket_.read_message_max(kLargestFromClient);
+        socket_.auto_fragment(false);
+    }
+
+    /// Leaves the connection at once if that time passes before the next call.
+    static void give(const std::shared_ptr<Viewer>& viewer, std::chrono::milliseconds time) {
+        viewer->deadline_.expires_after(time);
+        viewer->deadline_.async_wait([viewer](error_code error) {
+            if (!error) beast::get_lowest_layer(viewer->socket_).close();
+        });
+    }
+
+    asio::steady_timer deadline_;
+    websocket::stream<beast::tcp_stream> socket_;
+    bool is_over_ = false;
+};
+
+LiveStream::LiveStream(asio::io_context& io, const LiveRecord& live, Api& api,
+                       std::chrono::milliseconds patience)
+    : live_(live),
+      api_(api),
+      patience_(patience),
+      news_(io, asio::steady_timer::time_point::max()) {}
+
+asio::awaitable<void> LiveStream::feed() {
+    asio::steady_timer step(co_await asio::this_coro::executor);
+    for (;;) {
+        error_code error;
+        step.expires_after(kStep);
+        co_await step.async_wait(into(error));
+        if (api_.use().streams == 0) {
+            cursor_ = live_.end();
+            continue;
+        }
+        take_samples();
+        take_status();
+    }
+}
+
+void LiveStream::take_samples() {
+    while (const auto block = live_.block_from(cursor_, kMostSamplesPerMessage)) {
+        messages_.push({.bytes = encoded(*block)});
+    }
+    news_.cancel();
+}
+
+void LiveStream::take_status() {
+    const auto status = api_.status();
+    if (!status) return;
+    const auto now = std::chrono::steady_clock::now();
+    auto urgent = urgent_part(*status);
+    if (urgent == told_ && now < next_status_) return;
+    told_ = std::move(urgent);
+    next_status_ = now + kStatusStep;
+    messages_.push(status_message(*status));
+    news_.cancel();
+}
+
+asio::awaitable<void> LiveStream::serve(beast::tcp_stream stream, HttpRequest request, Seat) {
+    const auto viewer = std::make_shared<Viewer>(std::move(stream), patience_);
+    error_code error;
+    co_await viewer->socket_.async_accept(request, into(error));
+    if (error) co_return;
+    asio::co_spawn(co_await asio::this_coro::executor, write_all(viewer), asio::detached);
+    beast::flat_buffer unread;
+    while (!error) {
+        co_await viewer->socket_.async_read(unread, into(error));
+        unread.clear();
+    }
+    viewer->is_over_ = true;
+    viewer->deadline_.cancel();
+    news_.cancel();
+}
+
+asio::awaitable<void> LiveStream::write_all(std::shared_ptr<Viewer> viewer) {
+    // What came since the last step goes to the viewers there are; this one has it from the past.
+    take_samples();
+    std::uint64_t position = messages_.end();
+    const std::uint64_t present = cursor_;
+    std::uint64_t past =
+        present - std::min(present, kPastSeconds * static_cast<std::uint64_t>(live_.rate_hz()));
+    error_code error;
+    std::shared_ptr<const LiveMessage> message;
+    if (const auto status = api_.status()) {
+        message = std::make_shared<const LiveMessage>(status_message(*status));
+    }
+    while (!viewer->is_over_) {
+        if (message) {
+            Viewer::give(viewer, patience_);
+            viewer->socket_.text(message->is_text);
+            co_await viewer->socket_.async_write(asio::buffer(message->bytes), into(error));
+            viewer->deadline_.cancel();
+            if (error) break;
+        }
+        message.reset();
+        if (past < present) {
+            const auto block = live_.block_from(
+                past, std::min<std::uint64_t>(kMostSamplesPerMessage, present - past));
+            // A viewer so slow that its past is gone has it from the messages, as far as it can.
+            if (block && past <= present) {
+                message =
+                    std::make_shared<const LiveMessage>(LiveMessage{.bytes = encoded(*block)});
+            } else {
+                past = present;
+            }
+            continue;
+        }
+        message = messages_.next(position, api_.use().messages_dropped);
+        if (!message) co_await news_.async_wait(into(error));
+    }
+    // The reader ends by the same error, or by the close that follows a client's offence.
+    if (!viewer->is_over_) Viewer::give(viewer, kLinger);
+}
+
+}  // namespace a351::daemon

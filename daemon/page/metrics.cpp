@@ -1,0 +1,147 @@
+#include "daemon/page/metrics.hpp"
+
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+namespace a351::daemon {
+namespace {
+
+using nlohmann::json;
+
+using Labels = std::initializer_list<std::pair<std::string_view, std::string>>;
+
+constexpr std::string_view kStates[] = {"no data", "warming up", "settling", "stable", "disturbed"};
+constexpr std::string_view kLevels[] = {"good", "warning", "fault"};
+/// The one among the counters that also falls.
+constexpr std::string_view kWaiting = "archive_records_waiting";
+
+class Text {
+public:
+    /// Begins a metric; its samples follow.
+    void metric(std::string_view name, std::string_view type, std::string_view help) {
+        name_ = name;
+        text_ += "# HELP " + name_ + " ";
+        text_ += help;
+        text_ += "\n# TYPE " + name_ + " ";
+        text_ += type;
+        text_ += '\n';
+    }
+    /// A value that is no number is none.
+    void sample(const json& value, Labels labels = {}, double scale = 1.0) {
+        if (!value.is_number()) return;
+        text_ += name_;
+        char mark = '{';
+        for (const auto& [key, label] : labels) {
+            text_ += mark;
+            text_ += key;
+            text_ += "=\"" + escaped(label) + '"';
+            mark = ',';
+        }
+        if (labels.size() > 0) text_ += '}';
+        text_ += ' ' + (scale == 1.0 ? value : json(scale * value.get<double>())).dump() + '\n';
+    }
+    void gauge(std::string_view name, std::string_view help, const json& value,
+               double scale = 1.0) {
+        metric(name, "gauge", help);
+        sample(value, {}, scale);
+    }
+
+    std::string text_;
+
+private:
+    static std::string escaped(std::string_view label) {
+        std::string text;
+        for (const char c : label) {
+            if (c == '\\' || c == '"') text += '\\';
+            text += c == '\n' ? std::string("\\n") : std::string(1, c);
+        }
+        return text;
+    }
+
+    std::string name_;
+};
+
+json at(const json& status, const char* pointer) {
+    return status.value(json::json_pointer(pointer), json());
+}
+
+void tell_state(Text& text, const json& status) {
+    text.metric("a351_up", "gauge", "1 as long as the daemon answers.");
+    text.sample(1, {{"version", at(status, "/version").get<std::string>()}});
+    text.metric("a351_level", "gauge", "1 for the level that a351ctl status exits with.");
+    for (const auto level : kLevels) {
+        text.sample(at(status, "/level") == level ? 1 : 0, {{"level", std::string(level)}});
+    }
+    text.metric("a351_verdict", "gauge", "1 for the verdict that holds.");
+    for (const auto state : kStates) {
+        text.sample(at(status, "/verdict/state") == state ? 1 : 0, {{"state", std::string(state)}});
+    }
+    text.gauge("a351_occupation_running", "1 while an occupation runs.",
+               at(status, "/occupation").is_object() ? 1 : 0);
+}
+
+void tell_record(Text& text, const json& status) {
+    text.metric("a351_index", "gauge",
+                "Index of the last sample of the session, by how safe it is.");
+    for (const char* stage : {"received", "journaled", "archived"}) {
+        text.sample(status.value(stage, json()), {{"stage", stage}});
+    }
+    text.gauge("a351_sample_age_seconds", "Age of the last sample, instrument time.",
+               at(status, "/sample/age_s"));
+    text.gauge("a351_timing_uncertainty_seconds", "Of the time of the last sample.",
+               at(status, "/timing/uncertainty_ms"), 1e-3);
+    text.gauge("a351_measured_rate_hertz", "Of the sensor.",
+               at(status, "/timing/rate/measured_hz"));
+
+    text.metric("a351_counter_total", "counter",
+                "What the daemon counts since its start, by kind.");
+    for (const auto& [kind, count] : status.at("counters").items()) {
+        if (kind != kWaiting) text.sample(count, {{"kind", kind}});
+    }
+    text.gauge("a351_archive_records_waiting", "Records that could not be written yet.",
+               status.at("counters").value(kWaiting, json()));
+}
+
+void tell_surroundings(Text& text, const json& status) {
+    text.metric("a351_temperature_celsius", "gauge", "By where it is measured, or asked for.");
+    text.sample(at(status, "/sample/temperature_degc"), {{"at", "sensor"}});
+    text.sample(at(status, "/oven/process_value_degc"), {{"at", "oven"}});
+    text.sample(at(status, "/oven/set_point_degc"), {{"at", "set_point"}});
+    text.gauge("a351_oven_heating_ratio", "Part of the heater's power.",
+               at(status, "/oven/heating_percent"), 1e-2);
+    text.metric("a351_oven_polls_total", "counter",
+                "Questions to the oven's controller, by outcome.");
+    const auto polls = at(status, "/oven/polls");
+    for (const auto& [outcome, count] : polls.items()) {
+        text.sample(count, {{"outcome", outcome}});
+    }
+    text.gauge("a351_disk_free_bytes", "What may still be written.",
+               at(status, "/disk/free_bytes"));
+    text.gauge("a351_longest_sync_seconds", "Longest time the journal waited for the disk.",
+               at(status, "/disk/longest_sync_ms"), 1e-3);
+}
+
+void tell_use(Text& text, const PageUse& use) {
+    text.gauge("a351_page_connections", "Open to the page, live streams among them.",
+               use.connections);
+    text.gauge("a351_page_streams", "Open live streams.", use.streams);
+    text.metric("a351_page_messages_dropped_total", "counter",
+                "Not sent to a viewer that read too slowly.");
+    text.sample(use.messages_dropped);
+    text.metric("a351_page_failures_total", "counter", "Answers that failed within the daemon.");
+    text.sample(use.failures);
+}
+
+}  // namespace
+
+std::string metrics_of(const json& status, const PageUse& use) {
+    Text text;
+    tell_state(text, status);
+    tell_record(text, status);
+    tell_surroundings(text, status);
+    tell_use(text, use);
+    return std::move(text.text_);
+}
+
+}  // namespace a351::daemon

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace a351::daemon {
+
+/// The part of a target behind its question mark: key=value joined by &, values percent-encoded.
+/// @param allowed  keys that may be given.
+/// @throws InputError  a key that is not allowed or given twice, or a broken encoding; names it.
+[[nodiscard]] std::map<std::string, std::string> parse_query(
+    std::string_view query, const std::vector<std::string>& allowed);
+
+}  // namespace a351::daemon

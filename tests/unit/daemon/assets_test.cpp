@@ -1,0 +1,78 @@
+#include "daemon/page/assets.hpp"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <iterator>
+
+#include "tests/unit/daemon/temporary_directory.hpp"
+
+using namespace a351;
+using namespace a351::daemon;
+
+namespace {
+
+std::string body_of(const Assets& assets, const std::string& path) {
+    REQUIRE(assets.contains(path));
+    return assets.answer(path).body;
+}
+
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("the page and all it loads are compiled in", "[daemon][page]") {
+    const Assets assets({}, "sesame");
+    const auto index = assets.answer("/");
+    CHECK(index.content_type == "text/html; charset=utf-8");
+    CHECK(has(index.body, R"(<meta name="a351-token" content="sesame">)"));
+    CHECK_FALSE(has(index.body, "@TOKEN@"));
+    CHECK(index.body == body_of(assets, "/index.html"));
+    CHECK(assets.answer("/page.js").content_type == "text/javascript; charset=utf-8");
+    CHECK(assets.answer("/page.css").content_type == "text/css; charset=utf-8");
+    CHECK(has(body_of(assets, "/dygraph.min.js"), "Dygraph"));
+    CHECK(has(body_of(assets, "/dygraph.css"), ".dygraph-"));
+
+    // Whatever the page names as its own is there.
+    const auto& page = index.body;
+    for (const std::string mark : {"src=\"/", "href=\"/"}) {
+        for (auto at = page.find(mark); at != std::string::npos; at = page.find(mark, at + 1)) {
+            const auto begin = at + mark.size() - 1;
+            const auto path = page.substr(begin, page.find('"', begin) - begin);
+            CAPTURE(path);
+            CHECK(assets.contains(path));
+        }
+    }
+    // What the content security policy forbids would not run.
+    CHECK_FALSE(has(page, "<script>"));
+    CHECK_FALSE(has(page, " style="));
+    CHECK_FALSE(has(page, " onclick="));
+}
+
+TEST_CASE("compiled files are the files, to the byte", "[daemon][page]") {
+    const Assets assets({}, "");
+    std::ifstream file("/usr/share/javascript/dygraphs/dygraph.min.js", std::ios::binary);
+    REQUIRE(file);
+    const std::string bytes(std::istreambuf_iterator<char>(file), {});
+    CHECK((body_of(assets, "/dygraph.min.js") == bytes));
+}
+
+TEST_CASE("a token of any characters stays within its attribute", "[daemon][page]") {
+    const Assets assets({}, R"("><script>&)");
+    CHECK(has(body_of(assets, "/"), R"(content="&quot;>&lt;script>&amp;")"));
+}
+
+TEST_CASE("a directory replaces files of known names and opens no others", "[daemon][page]") {
+    const TemporaryDirectory directory;
+    std::ofstream(directory.path() / "page.js") << "changed";
+    std::ofstream(directory.path() / "secret.js") << "secret";
+    const Assets assets(directory.path(), "");
+    CHECK(body_of(assets, "/page.js") == "changed");
+    CHECK(body_of(assets, "/page.css") == body_of(Assets({}, ""), "/page.css"));
+    for (const char* path : {"/secret.js", "/../page.js", "/./page.js", "//page.js", "page.js", "",
+                             "/page.js/", "/page.js%00", "/PAGE.JS", "/etc/passwd"}) {
+        CAPTURE(path);
+        CHECK_FALSE(assets.contains(path));
+    }
+}

@@ -1,0 +1,121 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "daemon/page/history_json.hpp"
+#include "protocol/core/input_error.hpp"
+#include "tests/unit/daemon/live_records.hpp"
+
+using namespace a351;
+using namespace a351::daemon;
+using nlohmann::json;
+
+namespace {
+
+std::int64_t ms_of(UtcTime time) {
+    return std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch()).count();
+}
+
+}  // namespace
+
+TEST_CASE("a history is least and largest value of each interval, with its unit",
+          "[daemon][history]") {
+    LiveRecord live = quiet_live_record();
+    take_samples(live, 0, 1000);  // 20 s.
+    const auto& profile = live.profile();
+    for (const auto& [name, channel] : {std::pair("x", 0), std::pair("y", 1), std::pair("z", 2)}) {
+        const auto answer =
+            json::parse(history_json(live, std::string("channel=") + name, minute(1)));
+        CHECK(answer["channel"] == name);
+        CHECK(answer["unit"] == "mg");
+        CHECK(answer["interval_s"] == 2.0);
+        REQUIRE(answer["points"].size() == 10);
+        for (int bin = 0; bin < 10; ++bin) {
+            const auto& point = answer["points"][static_cast<std::size_t>(bin)];
+            CHECK(point[0] == ms_of(kMorning) + 2000 * bin);
+            const auto mg = [&](int index) {
+                return 1e3 * profile.acceleration(1000 * channel + index).value();
+            };
+            CHECK(point[1].get<double>() == Approx(mg(100 * bin)).epsilon(1e-6));
+            CHECK(point[2].get<double>() == Approx(mg(100 * bin + 99)).epsilon(1e-6));
+        }
+    }
+    const auto warm = json::parse(history_json(live, "channel=temperature", minute(1)));
+    CHECK(warm["unit"] == "degC");
+    const double first = profile.temperature(3000).value(),
+                 last = profile.temperature(3099).value();
+    CHECK(warm["points"][0][1].get<double>() == Approx(std::min(first, last)).epsilon(1e-6));
+    CHECK(warm["points"][0][2].get<double>() == Approx(std::max(first, last)).epsilon(1e-6));
+}
+
+TEST_CASE("a gap in the record is missing points", "[daemon][history]") {
+    LiveRecord live = quiet_live_record();
+    take_samples(live, 0, 500);
+    take_samples(live, 1000, 1500);
+    const auto points = json::parse(history_json(live, "channel=z", minute(1)))["points"];
+    REQUIRE(points.size() == 10);
+    CHECK(points[4][0] == ms_of(instant_of(400)));
+    CHECK(points[5][0] == ms_of(instant_of(1000)));
+}
+
+TEST_CASE("a history has no more points than asked for, within the times asked for",
+          "[daemon][history]") {
+    LiveRecord live = quiet_live_record();
+    take_samples(live, 0, 50 * 120);
+    const auto points = [&](const std::string& query) {
+        const auto answer = json::parse(history_json(live, "channel=x" + query, minute(5)));
+        return answer["points"];
+    };
+    CHECK(points("").size() == 60);
+    CHECK(points("&points=4000").size() == 60);
+    CHECK(points("&points=7").size() <= 7);
+    CHECK(points("&points=1").size() == 1);
+    CHECK(points("&from=2026-03-14T08:01:00Z").size() == 30);
+    CHECK(points("&from=2026-03-14T08%3A00%3A10Z&to=2026-03-14T17:00:20%2B09:00").size() == 5);
+    CHECK(points("&to=2026-03-14T08:00:00Z").empty());
+    const auto late = json::parse(history_json(
+        live, "channel=x", kMorning + std::chrono::hours(24) + std::chrono::minutes(1)));
+    CHECK(late["points"].size() == 30);
+}
+
+TEST_CASE("the oven's history is process value and set point", "[daemon][history]") {
+    LiveRecord live = quiet_live_record();
+    CHECK(json::parse(history_json(live, "channel=oven", minute(1)))["points"].empty());
+    live.take(OvenPoint{kMorning, DegC(42.25), DegC(42.5)});
+    live.take(OvenPoint{kMorning + std::chrono::seconds(3), std::nullopt, DegC(42.5)});
+    live.take(OvenPoint{kMorning + std::chrono::seconds(13), DegC(42.75), DegC(43.0)});
+    const auto answer = json::parse(history_json(live, "channel=oven", minute(1)));
+    CHECK(answer["unit"] == "degC");
+    CHECK(answer["interval_s"] == 3.0);
+    const auto begin = ms_of(kMorning);
+    CHECK(answer["points"] == json::array({json::array({begin, 42.25, 42.5}),
+                                           json::array({begin + 3000, nullptr, 42.5}),
+                                           json::array({begin + 13000, 42.75, 43.0})}));
+}
+
+TEST_CASE("a question that is no question of history is refused by its key", "[daemon][history]") {
+    LiveRecord live = quiet_live_record();
+    const auto trouble = [&](const std::string& query) {
+        try {
+            (void)history_json(live, query, minute(1));
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("none");
+    };
+    CHECK(trouble("channel=x") == "none");
+    for (const auto& [query, part] :
+         {std::pair("", "channel"), std::pair("channel=w", "channel = w"),
+          std::pair("channel=x&points=0", "points = 0; allowed: 1 to 4000"),
+          std::pair("channel=x&points=4001", "points"), std::pair("channel=x&points=-1", "points"),
+          std::pair("channel=x&points=1e3", "points"), std::pair("channel=x&points=", "points"),
+          std::pair("channel=x&points=99999999999999999999", "points"),
+          std::pair("channel=x&from=noon", "from = noon"), std::pair("channel=x&to=", "to = "),
+          std::pair("channel=x&from=2026-03-14T09:00:00Z&to=2026-03-14T09:00:00Z", "from"),
+          std::pair("channel=x&channel=y", "twice"), std::pair("channel=x&rate=1", "rate"),
+          std::pair("channel=%zz", "encoding"), std::pair("channel=%4", "encoding"),
+          std::pair("channel", "channel"), std::pair("&channel=x", "key ")}) {
+        CAPTURE(query, trouble(query));
+        CHECK(trouble(query).find(part) != std::string::npos);
+        CHECK(trouble(query).find('\n') == std::string::npos);
+    }
+}

@@ -1,0 +1,139 @@
+#include "daemon/page/metrics.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "daemon/page/api.hpp"
+#include "tests/unit/daemon/live_records.hpp"
+
+using namespace a351;
+using namespace a351::daemon;
+
+namespace {
+
+std::string metrics_of(const Status& status, const PageUse& use = {}) {
+    FakeRecorder recorder;
+    Occupations occupations(recorder, two_sites(), {});
+    LiveRecord live = quiet_live_record();
+    Api api({.status = [&] { return status; },
+             .occupations = occupations,
+             .live = live,
+             .sites = {},
+             .events = [] { return std::vector<record::Event>{}; }},
+            "");
+    api.use() = use;
+    const auto answer = api.answer({"GET", "/metrics", {}, ""});
+    CHECK(answer.status == 200);
+    CHECK(answer.content_type == "text/plain; version=0.0.4; charset=utf-8");
+    return answer.body;
+}
+
+bool has_line(const std::string& text, const std::string& line) {
+    const bool is_there = ('\n' + text).find('\n' + line + '\n') != std::string::npos;
+    UNSCOPED_INFO("sought: " << line);
+    return is_there;
+}
+
+Status busy() {
+    Status status;
+    status.level = Status::Level::warning;
+    status.version = "1.2";
+    status.now = minute(60) + std::chrono::milliseconds(250);
+    status.last_sample = minute(60);
+    status.received = 1000;
+    status.journaled = 990;
+    status.temperature = DegC(42.5);
+    status.timing_uncertainty = std::chrono::microseconds(1500);
+    status.counters.gaps = 3;
+    status.more_counters["odd \"\\\nkind"] = 4;
+    status.more_counters["archive_records_waiting"] = 5;
+    status.disk_free_bytes = 123456789;
+    status.longest_sync = std::chrono::milliseconds(250);
+    status.oven =
+        OvenStatus{.state = "answering",
+                   .trouble = "",
+                   .port = "",
+                   .values = oven::ControllerValues{DegC(42.25), DegC(42.5), Percent(25.0), 0},
+                   .decimals = 1,
+                   .age = std::chrono::milliseconds(1500),
+                   .is_stale = false,
+                   .polls = {{"answered", 7}}};
+    return status;
+}
+
+}  // namespace
+
+TEST_CASE("metrics carry the status in base units", "[daemon][metrics]") {
+    PageUse use;
+    use.connections = 9;
+    use.streams = 4;
+    use.messages_dropped = 17;
+    const auto text = metrics_of(busy(), use);
+    CAPTURE(text);
+    for (const char* line : {R"(a351_up{version="1.2"} 1)",
+                             R"(a351_level{level="good"} 0)",
+                             R"(a351_level{level="warning"} 1)",
+                             R"(a351_index{stage="received"} 1000)",
+                             R"(a351_index{stage="journaled"} 990)",
+                             "a351_sample_age_seconds 0.25",
+                             "a351_timing_uncertainty_seconds 0.0015",
+                             R"(a351_counter_total{kind="gaps"} 3)",
+                             R"(a351_counter_total{kind="odd \"\\\nkind"} 4)",
+                             "a351_archive_records_waiting 5",
+                             R"(a351_temperature_celsius{at="sensor"} 42.5)",
+                             R"(a351_temperature_celsius{at="oven"} 42.25)",
+                             R"(a351_temperature_celsius{at="set_point"} 42.5)",
+                             "a351_oven_heating_ratio 0.25",
+                             R"(a351_oven_polls_total{outcome="answered"} 7)",
+                             "a351_disk_free_bytes 123456789",
+                             "a351_longest_sync_seconds 0.25",
+                             "a351_page_connections 9",
+                             "a351_page_streams 4",
+                             "a351_page_messages_dropped_total 17",
+                             "a351_page_failures_total 0",
+                             "a351_occupation_running 0"}) {
+        CHECK(has_line(text, line));
+    }
+    CHECK(text.find("archived") == std::string::npos);  // None yet.
+    CHECK(text.find("archive_records_waiting\"") == std::string::npos);
+}
+
+TEST_CASE("before the first sample metrics say no data and invent nothing", "[daemon][metrics]") {
+    const auto text = metrics_of({});
+    CAPTURE(text);
+    CHECK(has_line(text, R"(a351_verdict{state="no data"} 1)"));
+    CHECK(has_line(text, R"(a351_verdict{state="stable"} 0)"));
+    CHECK(text.find("null") == std::string::npos);
+    for (const char* name :
+         {"\na351_sample_age_seconds ", "\na351_index{", "\na351_disk_free_bytes "}) {
+        CHECK(text.find(name) == std::string::npos);
+    }
+}
+
+TEST_CASE("metrics are in the text format: each declared once, before its samples",
+          "[daemon][metrics]") {
+    // Names and labels as the page "Exposition formats" of Prometheus defines them.
+    const std::regex sample(
+        R"re(([a-zA-Z_:][a-zA-Z0-9_:]*)(\{[a-z_]+="([^"\\]|\\["\\n])*"\})? -?[0-9.e+-]+)re");
+    std::set<std::string> declared;
+    std::string name;
+    std::istringstream lines(metrics_of(busy()));
+    for (std::string line; std::getline(lines, line);) {
+        CAPTURE(line);
+        if (line.starts_with("# HELP ")) {
+            name = line.substr(7, line.find(' ', 7) - 7);
+            CHECK(declared.insert(name).second);
+        } else if (line.starts_with("# TYPE ")) {
+            CHECK((line == "# TYPE " + name + " gauge" || line == "# TYPE " + name + " counter"));
+            CHECK(line.ends_with("counter") == name.ends_with("_total"));
+        } else {
+            std::smatch parts;
+            REQUIRE(std::regex_match(line, parts, sample));
+            CHECK(parts[1] == name);
+        }
+    }
+    CHECK(declared.size() > 15);
+}
