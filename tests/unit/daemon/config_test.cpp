@@ -82,7 +82,7 @@ TEST_CASE_METHOD(Fixture, "every key that is documented is accepted and read", "
         "[oven]\nenabled=true\nport=\"o\"\nbaud=19200\nparity=\"N\"\nunit=7\npoll_s=2.5\ndecimals="
         "2\n"
         "[storage]\nroot=\"/var/lib/a351\"\ndeclared_rate_hz=100.0005\njournal_keep_days=0\n"
-        "[page]\nlisten=\"127.0.0.1:0\"\nhosts=[\"box\"]\ntoken=\"sixteen-or-longer\"\n"
+        "[page]\nlisten=\"127.0.0.1:0\"\nhosts=[\"box\"]\ntoken=\"sixteen-or-longer\"\nassets=\".\"\n"
         "[survey]\nsites=\"sites.csv\"\ncalibration=\"\"\n"
         "[verdict]\nslope_degc_per_h=0.4\nknock_gal=3\n");
     CHECK(config.station.codes == record::StationCodes{"JP", "TKB", "", {"Z", "1", "2"}});
@@ -97,6 +97,7 @@ TEST_CASE_METHOD(Fixture, "every key that is documented is accepted and read", "
     CHECK(config.oven->decimals == 2);
     CHECK(config.storage.declared_rate_hz == 100.0005);
     CHECK(config.storage.root == "/var/lib/a351");
+    CHECK(std::filesystem::equivalent(config.page.assets, directory.path()));
     REQUIRE(config.survey.sites.size() == 1);
     VerdictOptions verdict;
     verdict.slope_degc_per_h = 0.4;
@@ -152,6 +153,8 @@ TEST_CASE_METHOD(Fixture,
     CHECK(refusal(before_oven + "unit = 0\n") ==
           "a351d.toml:10: oven.unit = 0: out of range; allowed: a whole number from 1 to 99");
     CHECK_THAT(refusal(before_oven + "poll_s = 0\n"), Catch::Contains("oven.poll_s = 0"));
+    CHECK_THAT(refusal(kStation + kSensor + kStorage + "[page]\nassets = \"none\"\n"),
+               Catch::Contains("page.assets = 'none': no such directory: none; allowed: "));
     CHECK(refusal(kStation + kSensor + kStorage + "[survey]\nsites = \"no.csv\"\n") ==
           "a351d.toml:10: survey.sites = 'no.csv': no such file: no.csv; allowed: a CSV of sites, "
           "or \"\"");
