@@ -1,5 +1,99 @@
-const stream = new WebSocket(`ws://${location.host}/live`);
-stream.onmessage = ({ data }) => {
-    if (typeof data !== "string") return;
-    document.getElementById("verdict").textContent = JSON.parse(data).status.verdict.state;
+// The live page: joins stream, panels and charts, and says when what they show is old.
+
+import { Charts } from "./charts.js";
+import { by_id, set_text, show } from "./dom.js";
+import { number, time_of_day, visible } from "./format.js";
+import { show_health } from "./health.js";
+import { OccupationPanel } from "./occupation.js";
+import { Minute } from "./samples.js";
+import { Stream } from "./stream.js";
+import { show_level, show_verdict } from "./verdict.js";
+
+const kRedraw_ms = 200;
+const kStale_s = 3;
+
+const minute = new Minute();
+const charts = new Charts(minute);
+const panel = new OccupationPanel();
+const page = { redraw_ms: NaN, longest_redraw_ms: NaN, connected_s: 0, losses: 0 };
+let status = null;
+let is_connected = false;
+let connected_at_ms = 0;
+let newest_ms = null; // Instrument time of the newest sample known ...
+let advanced_at_ms = performance.now(); // ... and when it came to be known, by this page's clock.
+
+function advance_to(sample_ms) {
+    if (newest_ms !== null && sample_ms <= newest_ms) return;
+    newest_ms = sample_ms;
+    advanced_at_ms = performance.now();
+}
+
+const stream = {
+    opened() {
+        is_connected = true;
+        connected_at_ms = performance.now();
+        newest_ms = null;
+        minute.clear();
+    },
+    lost() {
+        if (is_connected) ++page.losses;
+        is_connected = false;
+        refresh();
+    },
+    status(said) {
+        status = said;
+        if (status.live) minute.configure(status.live);
+        if (status.sample) {
+            const is_first = newest_ms === null;
+            advance_to(Date.parse(status.sample.utc));
+            // What was old already when the page came to know it.
+            if (is_first) advanced_at_ms -= 1000 * status.sample.age_s;
+        }
+        panel.show(status);
+        page.connected_s = (performance.now() - connected_at_ms) / 1000;
+        show_health(status, page);
+        refresh();
+    },
+    block(block) {
+        minute.append(block);
+        if (minute.newest_ms !== null) advance_to(minute.newest_ms);
+    },
 };
+
+/** Age, verdict and banner: what must never look fresher than it is. */
+function refresh() {
+    const age_s = (performance.now() - advanced_at_ms) / 1000;
+    const is_stale = !is_connected || age_s > kStale_s;
+    document.body.classList.toggle("stale", is_stale);
+    show("banner", is_stale);
+    if (is_stale) {
+        set_text("banner-word", is_connected ? "STALE: no new data." : "CONNECTION LOST: trying again.");
+        set_text("banner-age", `What is shown is ${number(age_s, 0)} s old.`);
+    }
+    set_text("age", `${number(age_s, 1)} s old`);
+    if (!status) return;
+    set_text("clock", `${status.now.slice(0, 10)} ${time_of_day(status.now)} UTC`);
+    const is_good = status.level === "good";
+    show("trouble", !is_good);
+    if (!is_good) {
+        by_id("trouble").dataset.level = status.level;
+        set_text("trouble", `${status.level.toUpperCase()}: ${visible(status.reasons.join("; "))}`);
+    }
+    const word = show_verdict(status.verdict, is_stale && status.verdict.state !== "no data" ? age_s : null);
+    show_level(status.tilt ?? null);
+    const title = `${word}${status.occupation ? ` · ${visible(status.occupation.site).slice(0, 40)}` : ""} · a351`;
+    if (document.title !== title) document.title = title;
+}
+
+/** Five times a second: enough for the eye, little for the battery. */
+function redraw() {
+    refresh();
+    if (document.hidden) return;
+    const begin_ms = performance.now();
+    charts.draw(status ? Date.parse(status.now) : null);
+    page.redraw_ms = performance.now() - begin_ms;
+    page.longest_redraw_ms = Math.max(page.redraw_ms, page.longest_redraw_ms || 0);
+}
+
+new Stream(stream);
+setInterval(redraw, kRedraw_ms);

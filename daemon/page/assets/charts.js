@@ -1,0 +1,186 @@
+// The strips of acceleration and temperature: the last minute as it comes, hours from the history.
+
+import { get } from "./api.js";
+import { by_id, set_text, show } from "./dom.js";
+import { number } from "./format.js";
+import { kMgalPerMg, kMinute_ms } from "./samples.js";
+
+const kHour_s = 3600;
+const kNames = { x: "x", y: "y", z: "z", norm: "norm", temperature: "sensor", oven: "oven" };
+const kInk = ["#003f87", "#a33b00"];
+
+// The legend is not shown, and sets a style in a way that the page's policy forbids.
+Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
+
+/** A chart of dygraphs in its box; `is_envelope` takes rows [ms, [low, mid, high]]. */
+function new_chart(box, labels, is_envelope) {
+    return new Dygraph(box, [[0, ...labels.slice(1).map(() => (is_envelope ? [null, null, null] : null))]], {
+        labels,
+        labelsUTC: true,
+        customBars: is_envelope,
+        connectSeparatedPoints: false,
+        colors: kInk,
+        strokeWidth: 1.5,
+        fillAlpha: 0.45,
+        highlightCircleSize: 0,
+        interactionModel: {},
+        yRangePad: 4,
+        gridLineColor: "#c8c8c8",
+        axisLabelFontSize: 14,
+        axisLineColor: "#000",
+        axes: {
+            x: { pixelsPerLabel: 80, ticker: Dygraph.dateTicker, axisLabelFormatter: Dygraph.dateAxisLabelFormatter },
+            y: { axisLabelWidth: 64, pixelsPerLabel: 22 },
+        },
+    });
+}
+
+/** Bins [ms, low, high] as rows about `mean`, with an empty row wherever a bin is missing. */
+function envelope_rows(points, interval_ms, factor, mean) {
+    const rows = [];
+    let expected_ms = null;
+    for (const [time_ms, low, high] of points) {
+        if (expected_ms !== null && time_ms > expected_ms + 0.5 * interval_ms) {
+            rows.push([expected_ms, [null, null, null]]);
+        }
+        const [a, b] = [factor * (low - mean), factor * (high - mean)];
+        rows.push([time_ms, [a, 0.5 * (a + b), b]]);
+        expected_ms = time_ms + interval_ms;
+    }
+    return rows;
+}
+
+/** Process value and set point; empty where the oven did not answer for three intervals. */
+function oven_rows(points, interval_ms) {
+    const rows = [];
+    for (const point of points) {
+        const before = rows.length ? rows[rows.length - 1][0] : point[0];
+        if (point[0] - before > 3 * interval_ms) rows.push([before + interval_ms, null, null]);
+        rows.push(point);
+    }
+    return rows;
+}
+
+export class Charts {
+    constructor(minute) {
+        this.minute = minute;
+        this.charts = {};
+        this.spans_s = { signal: 60, warmth: kHour_s };
+        this.in_view = new Set();
+        this.asked_ms = { signal: -Infinity, warmth: -Infinity };
+        const watch = new IntersectionObserver((entries) => {
+            for (const entry of entries) {
+                if (entry.isIntersecting) this.in_view.add(entry.target.id);
+                else this.in_view.delete(entry.target.id);
+            }
+        });
+        for (const name of Object.keys(kNames)) watch.observe(by_id(`chart-${name}`));
+        for (const group of ["signal", "warmth"]) {
+            by_id(`${group}-span`).addEventListener("change", (event) => {
+                this.spans_s[group] = Number(event.target.value);
+                this.asked_ms[group] = -Infinity;
+                for (const name of this.names(group)) this.clear(name);
+                show("figure-norm", this.spans_s.signal === 60);
+            });
+        }
+    }
+
+    names(group) {
+        return group === "signal" ? ["x", "y", "z", "norm"] : ["temperature", "oven"];
+    }
+
+    clear(name) {
+        this.charts[name]?.destroy();
+        delete this.charts[name];
+        set_text(`caption-${name}`, `${kNames[name]}: –`);
+    }
+
+    /** Draws what is in view.  @param now_ms  instrument time. */
+    draw(now_ms) {
+        if (this.spans_s.signal === 60) this.draw_minute();
+        for (const group of ["signal", "warmth"]) {
+            const span_s = this.spans_s[group];
+            // A bin of the history is a few seconds for an hour, a minute or so for a day.
+            const period_ms = span_s > kHour_s ? 60000 : 5000;
+            if (span_s === 60 || now_ms === null || performance.now() - this.asked_ms[group] < period_ms) continue;
+            if (!this.names(group).some((name) => this.in_view.has(`chart-${name}`))) continue;
+            this.asked_ms[group] = performance.now();
+            this.ask(group, now_ms, span_s);
+        }
+    }
+
+    draw_minute() {
+        const end_ms = this.minute.newest_ms;
+        if (end_ms === null) return;
+        for (const name of this.names("signal")) {
+            if (!this.in_view.has(`chart-${name}`)) continue;
+            const shown = this.minute.shown(name, by_id(`chart-${name}`).clientWidth || 300);
+            this.update(name, ["UTC", name], false, shown.rows, end_ms - kMinute_ms, end_ms);
+            const mean = name === "norm" ? `${number(shown.mean, 1)} mGal` : `${number(shown.mean, 3)} mg`;
+            set_text(`caption-${name}`, `${name}: mean ${mean}, ${number(shown.low, 0)} to +${number(shown.high, 0)} mGal`);
+        }
+    }
+
+    async ask(group, now_ms, span_s) {
+        const from_ms = now_ms - 1000 * span_s;
+        for (const name of this.names(group)) {
+            if (name === "norm") continue; // Not in the history.
+            let history;
+            try {
+                history = await get("/api/history", {
+                    channel: name,
+                    from: new Date(from_ms).toISOString(),
+                    to: new Date(now_ms).toISOString(),
+                    points: Math.max(100, Math.min(2000, by_id(`chart-${name}`).clientWidth)),
+                });
+            } catch (error) {
+                set_text(`caption-${name}`, `${kNames[name]}: ${error.message}`);
+                continue;
+            }
+            if (span_s !== this.spans_s[group]) return;
+            if (name === "oven") this.draw_oven(history, from_ms, now_ms);
+            else this.draw_envelope(name, history, from_ms, now_ms);
+        }
+    }
+
+    draw_envelope(name, history, from_ms, to_ms) {
+        const points = history.points;
+        if (points.length === 0) {
+            set_text(`caption-${name}`, `${kNames[name]}: no data in this span`);
+            return;
+        }
+        let sum = 0;
+        let low = Infinity;
+        let high = -Infinity;
+        for (const [, a, b] of points) {
+            sum += 0.5 * (a + b);
+            low = Math.min(low, a);
+            high = Math.max(high, b);
+        }
+        const mean = sum / points.length;
+        const is_axis = name !== "temperature";
+        const rows = envelope_rows(points, 1000 * history.interval_s, is_axis ? kMgalPerMg : 1, is_axis ? mean : 0);
+        this.update(name, ["UTC", name], true, rows, from_ms, to_ms);
+        set_text(`caption-${name}`, is_axis
+            ? `${name}: mean ${number(mean, 3)} mg, ${number(kMgalPerMg * (low - mean), 0)} to +${number(kMgalPerMg * (high - mean), 0)} mGal`
+            : `sensor: ${number(low, 3)} to ${number(high, 3)} °C`);
+    }
+
+    draw_oven(history, from_ms, to_ms) {
+        if (history.points.length === 0) {
+            set_text("caption-oven", "oven: no data in this span");
+            return;
+        }
+        const rows = oven_rows(history.points, 1000 * history.interval_s);
+        this.update("oven", ["UTC", "oven", "set point"], false, rows, from_ms, to_ms);
+        const [, value, set_point] = history.points[history.points.length - 1];
+        set_text("caption-oven", `oven: ${number(value, 1)} °C (blue), set point ${number(set_point, 1)} °C (brown, dashed)`);
+    }
+
+    update(name, labels, is_envelope, rows, from_ms, to_ms) {
+        const chart = (this.charts[name] ??= new_chart(by_id(`chart-${name}`), labels, is_envelope));
+        const options = { file: rows, dateWindow: [from_ms, to_ms] };
+        if (labels.length > 2) options.series = { [labels[2]]: { strokePattern: [6, 4] } };
+        chart.updateOptions(options);
+    }
+}

@@ -1,0 +1,35 @@
+// Texts into the document.  Only text nodes are made, never markup.
+
+const found = new Map();
+
+/** The element of that id; all of them are in index.html from the start. */
+export function by_id(id) {
+    if (!found.has(id)) found.set(id, document.getElementById(id));
+    return found.get(id);
+}
+
+/** Touches the document only for a change: a live region is read out once per change. */
+export function set_text(id, text) {
+    const element = by_id(id);
+    if (element.textContent !== text) element.textContent = text;
+}
+
+export function show(id, is_shown) {
+    by_id(id).hidden = !is_shown;
+}
+
+export function make(tag, text, class_name = "") {
+    const element = document.createElement(tag);
+    element.textContent = text;
+    if (class_name) element.className = class_name;
+    return element;
+}
+
+/** Items of a list; [text, class] each. */
+export function set_items(id, items) {
+    const list = by_id(id);
+    const key = JSON.stringify(items);
+    if (list.dataset.shown === key) return;
+    list.dataset.shown = key;
+    list.replaceChildren(...items.map(([text, class_name]) => make("li", text, class_name)));
+}

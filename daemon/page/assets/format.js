@@ -1,0 +1,53 @@
+// Numbers, times and foreign texts as the page shows them.
+
+/** With a true minus sign; a dash for what is not known. */
+export function number(value, digits = 2) {
+    if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+    return value.toFixed(digits).replace("-", "−");
+}
+
+/** At most three significant digits. */
+export function significant(value) {
+    if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+    return String(Number(value.toPrecision(3))).replace("-", "−");
+}
+
+/** With its sign, for a tilt. */
+export function signed(value, digits = 1) {
+    const text = number(value, digits);
+    return value > 0 ? "+" + text : text;
+}
+
+/** "degC" of the daemon as printed. */
+export function unit(name) {
+    return name.replace("degC", "°C");
+}
+
+/** Seconds as 45 s, 3 min 20 s or 2 h 05 min. */
+export function duration(seconds) {
+    if (seconds === null || seconds === undefined || !Number.isFinite(seconds)) return "–";
+    const s = Math.max(0, Math.round(seconds));
+    if (s < 60) return `${s} s`;
+    if (s < 3600) return `${Math.floor(s / 60)} min ${String(s % 60).padStart(2, "0")} s`;
+    return `${Math.floor(s / 3600)} h ${String(Math.floor((s % 3600) / 60)).padStart(2, "0")} min`;
+}
+
+/** Time of day of an RFC 3339 text in UTC. */
+export function time_of_day(rfc3339) {
+    return rfc3339 ? rfc3339.slice(11, 19) : "–";
+}
+
+/** Data volume in decimal units. */
+export function volume(bytes) {
+    if (bytes === null || bytes === undefined) return "–";
+    return bytes >= 1e9 ? `${number(bytes / 1e9, 1)} GB` : `${number(bytes / 1e6, 0)} MB`;
+}
+
+/** A text of unknown origin: control characters get a visible sign, those that turn the
+    direction of writing are taken out of action. */
+export function visible(text) {
+    return String(text ?? "")
+        .replace(/[\u0000-\u001f]/g, (c) => String.fromCharCode(0x2400 + c.charCodeAt(0)))
+        .replace(/\u007f/g, "\u2421")
+        .replace(/[\u0080-\u009f\u200e\u200f\u2028-\u202e\u2066-\u2069]/g, "\ufffd");
+}

@@ -1,0 +1,245 @@
+// The occupation that runs, how to begin and end one, and those of the day.
+
+import { get, post } from "./api.js";
+import { by_id, make, set_items, set_text, show } from "./dom.js";
+import { duration, number, time_of_day, visible } from "./format.js";
+
+const kDay_ms = 24 * 3600 * 1000;
+
+function distance_text(metres) {
+    if (metres === null || metres === undefined) return "";
+    return metres < 1000 ? `, ${number(metres, 0)} m` : `, ${number(metres / 1000, 1)} km`;
+}
+
+/** "±" with what is known of it. */
+function reading_text(reading) {
+    if (!reading || reading.value_mgal === null) return "–";
+    return reading.standard_error_mgal === null ? number(reading.value_mgal, 2)
+        : `${number(reading.value_mgal, 2)} ± ${number(reading.standard_error_mgal, 2)}`;
+}
+
+export class OccupationPanel {
+    constructor() {
+        this.sites = [];
+        this.list = [];
+        this.running = null;
+        this.last_key = null; // Of the occupation that lists were last read for.
+        this.target_mgal = null;
+        this.now_ms = 0;
+        by_id("start-operator").value = localStorage.getItem("operator") ?? "";
+        this.listen();
+    }
+
+    listen() {
+        const on_submit = (id, act) => by_id(id).addEventListener("submit", (event) => {
+            event.preventDefault();
+            act();
+        });
+        on_submit("start-form", () => this.start());
+        on_submit("target-form", () => this.set_target());
+        on_submit("note-form", () => this.write_note());
+        on_submit("rename-form", () => this.rename());
+        by_id("start-site").addEventListener("change", () => this.warn_of_repeat());
+        by_id("start-name").addEventListener("input", () => this.warn_of_repeat());
+        by_id("stop").addEventListener("click", () => this.order("/api/occupation/stop", {}));
+        by_id("setup").addEventListener("click", () => this.order("/api/occupation/setup", {}));
+        for (const id of ["discard", "discard-last"]) by_id(id).addEventListener("click", () => this.ask_discard());
+        by_id("confirm-no").addEventListener("click", () => by_id("confirm").close());
+        by_id("confirm-yes").addEventListener("click", () => {
+            by_id("confirm").close();
+            this.order("/api/occupation/discard", {});
+        });
+        for (const button of document.querySelectorAll("button.rename")) {
+            button.addEventListener("click", () => this.ask_rename());
+        }
+        by_id("rename-no").addEventListener("click", () => by_id("rename").close());
+    }
+
+    /** An order to the daemon; its answer is shown whatever it is.  @return whether it was done. */
+    async order(path, body) {
+        by_id("answer").classList.remove("error");
+        set_text("answer", "…");
+        try {
+            set_text("answer", visible((await post(path, body)).message));
+            this.last_key = null;
+            return true;
+        } catch (error) {
+            by_id("answer").classList.add("error");
+            set_text("answer", `Not done: ${visible(error.message)}`);
+            return false;
+        }
+    }
+
+    chosen(kind) {
+        return this.sites.length ? by_id(`${kind}-site`).value : by_id(`${kind}-name`).value;
+    }
+
+    async start() {
+        const site = this.chosen("start");
+        if (!site) return;
+        const operator = by_id("start-operator").value;
+        localStorage.setItem("operator", operator.slice(0, 1000));
+        if (await this.order("/api/occupation/start", { site, operator, note: by_id("start-note").value })) {
+            by_id("start-site").value = by_id("start-name").value = by_id("start-note").value = "";
+        }
+    }
+
+    async set_target() {
+        const target_mgal = Number(by_id("target").value.replace(",", "."));
+        if (!(target_mgal > 0)) {
+            by_id("answer").classList.add("error");
+            set_text("answer", "Not done: the target is a number of mGal above 0");
+            return;
+        }
+        await this.order("/api/target", { target_mgal });
+    }
+
+    async write_note() {
+        if (by_id("note").value && await this.order("/api/note", { note: by_id("note").value })) by_id("note").value = "";
+    }
+
+    /** The occupation that discard and rename speak of: the running one, else the last. */
+    meant() {
+        return this.running ?? this.list.findLast((one) => !one.discarded);
+    }
+
+    ask_discard() {
+        const one = this.meant();
+        if (!one) return;
+        set_text("confirm-text", this.running
+            ? `Discard the running occupation at ${visible(one.site)}, ${duration(one.running_s)} old?`
+            : `Discard the last occupation, at ${visible(one.site)}, ${time_of_day(one.set_ups[0].start)} UTC?`);
+        by_id("confirm").showModal();
+    }
+
+    ask_rename() {
+        const one = this.meant();
+        if (!one) return;
+        set_text("rename-text", `The occupation called ${visible(one.site)} was at another site:`);
+        by_id("rename").showModal();
+    }
+
+    async rename() {
+        const site = this.chosen("rename");
+        if (!site) return;
+        by_id("rename").close();
+        await this.order("/api/occupation/rename", { site });
+    }
+
+    /** Sites and occupations, again after each change of them. */
+    async read_lists() {
+        try {
+            const [sites, list] = await Promise.all([get("/api/sites"), get("/api/occupations")]);
+            this.sites = sites.sites;
+            this.list = list.occupations;
+        } catch (error) {
+            this.last_key = null; // Asked again with the next status.
+            return;
+        }
+        for (const kind of ["start", "rename"]) this.fill_sites(kind);
+        this.show_day();
+        this.warn_of_repeat();
+    }
+
+    fill_sites(kind) {
+        const select = by_id(`${kind}-site`);
+        const has_list = this.sites.length > 0;
+        select.hidden = !has_list;
+        select.required = has_list && kind === "start";
+        by_id(`${kind}-name`).hidden = has_list;
+        const chosen = select.value;
+        const first = make("option", "choose …");
+        first.value = "";
+        select.replaceChildren(first, ...this.sites.map((site) => {
+            const option = make("option", visible(site.site).slice(0, 200) + distance_text(site.distance_m));
+            option.value = site.site;
+            return option;
+        }));
+        select.value = chosen;
+        if (select.selectedIndex < 0) select.value = "";
+    }
+
+    warn_of_repeat() {
+        const site = this.chosen("start");
+        const before = site ? this.today().filter((one) => one.site === site && !one.discarded) : [];
+        show("start-warning", before.length > 0);
+        if (before.length) {
+            set_text("start-warning", `This site was occupied at ${before
+                .map((one) => time_of_day(one.set_ups[0].start)).join(", ")} UTC: is it the right one?`);
+        }
+    }
+
+    today() {
+        return this.list.filter((one) => Date.parse(one.set_ups[0].start) > this.now_ms - kDay_ms);
+    }
+
+    show_day() {
+        const today = this.today().reverse(); // The newest first.
+        by_id("day-rows").replaceChildren(...today.map((one) => {
+            const row = document.createElement("tr");
+            const seconds = one.set_ups.reduce((sum, s) => sum + (Date.parse(s.end) - Date.parse(s.start)) / 1000, 0);
+            const remark = [one.discarded ? "discarded" : one.used === false || one.used === 0 ? "not used" : "",
+                one.set_ups.length > 1 ? `${one.set_ups.length} set-ups` : "", visible(one.note)].filter(Boolean).join("; ");
+            if (one.discarded) row.className = "discarded";
+            row.append(make("td", `${visible(one.site)} (${one.number})`, "foreign"),
+                make("td", time_of_day(one.set_ups[0].start)), make("td", duration(seconds)),
+                make("td", reading_text(one.reading)), make("td", remark, "foreign"));
+            return row;
+        }));
+        show("day-empty", today.length === 0);
+        this.show_last_buttons();
+    }
+
+    show_last_buttons() {
+        show("last-buttons", !this.running && this.list.some((one) => !one.discarded));
+    }
+
+    /** @param status  the daemon's, whole. */
+    show(status) {
+        this.running = status.occupation;
+        this.now_ms = Date.parse(status.now);
+        const key = JSON.stringify([this.running?.site, this.running?.start, this.running?.set_up]);
+        if (key !== this.last_key) {
+            this.last_key = key;
+            this.read_lists();
+        }
+        show("start-form", !this.running);
+        show("running", this.running !== null);
+        this.show_last_buttons();
+        const target = by_id("target");
+        if (status.target_mgal !== this.target_mgal && document.activeElement !== target) {
+            this.target_mgal = status.target_mgal;
+            target.value = number(status.target_mgal, 2);
+        }
+        if (this.running) this.show_running(this.running);
+    }
+
+    show_running(one) {
+        set_text("run-site", visible(one.site));
+        set_text("run-stay", `stay ${one.number}, since ${time_of_day(one.start)} UTC`);
+        set_text("run-time", `running ${duration(one.running_s)}`);
+        set_text("run-remark", [one.operator && `Operator: ${visible(one.operator)}`, one.note && `Note: ${visible(one.note)}`]
+            .filter(Boolean).join("\n"));
+        const reading = one.reading;
+        set_text("run-value", reading ? `${reading_text(reading)} mGal` : "–");
+        set_text("run-judgement", this.judgement(reading));
+        by_id("run-judgement").className = reading?.is_good_enough ? "good" : "";
+        set_text("run-used", reading ? `${duration(reading.used_s)} used, ${duration(reading.left_out_s)} left out` +
+            (one.set_ups > 1 ? `; set-up ${one.set_ups} since ${time_of_day(one.set_up)} UTC` : "") : "");
+        const is_proposed = Boolean(one.propose_set_up);
+        show("run-propose", is_proposed);
+        by_id("setup").classList.toggle("proposed", is_proposed);
+        const warnings = one.warnings ?? [];
+        show("run-warnings", warnings.length > 0);
+        set_items("run-warnings", warnings.map((text) => [`⚠ ${visible(text)}`, ""]));
+    }
+
+    judgement(reading) {
+        if (!reading) return "";
+        const target = `target ${number(reading.target_mgal, 2)} mGal`;
+        if (reading.is_good_enough) return `✓ GOOD ENOUGH (${target})`;
+        if (reading.needed_s === null) return `not yet good enough (${target}); time needed not known yet`;
+        return reading.needed_s > 0 ? `still about ${duration(reading.needed_s)} needed (${target})`
+            : `error below the ${target}; waits for a stable verdict`;
+    }
+}
