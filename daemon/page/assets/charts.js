@@ -2,7 +2,7 @@
 
 import { get } from "./api.js";
 import { by_id, set_text, show } from "./dom.js";
-import { number } from "./format.js";
+import { number, signed, time_of_day } from "./format.js";
 import { kMgalPerMg, kMinute_ms } from "./samples.js";
 
 const kHour_s = 3600;
@@ -29,7 +29,12 @@ function new_chart(box, labels, is_envelope) {
         axisLabelFontSize: 14,
         axisLineColor: "#000",
         axes: {
-            x: { pixelsPerLabel: 80, ticker: Dygraph.dateTicker, axisLabelFormatter: Dygraph.dateAxisLabelFormatter },
+            x: {
+                axisLabelWidth: 76,
+                pixelsPerLabel: 90,
+                ticker: Dygraph.dateTicker,
+                axisLabelFormatter: Dygraph.dateAxisLabelFormatter,
+            },
             y: { axisLabelWidth: 64, pixelsPerLabel: 22 },
         },
     });
@@ -61,6 +66,10 @@ function oven_rows(points, interval_ms) {
     return rows;
 }
 
+function range_text(low_mgal, high_mgal) {
+    return `${signed(low_mgal, 0)} to ${signed(high_mgal, 0)} mGal`;
+}
+
 export class Charts {
     constructor(minute) {
         this.minute = minute;
@@ -81,6 +90,7 @@ export class Charts {
                 this.asked_ms[group] = -Infinity;
                 for (const name of this.names(group)) this.clear(name);
                 show("figure-norm", this.spans_s.signal === 60);
+                show("signal-end", this.spans_s.signal === 60);
             });
         }
     }
@@ -112,12 +122,13 @@ export class Charts {
     draw_minute() {
         const end_ms = this.minute.newest_ms;
         if (end_ms === null) return;
+        set_text("signal-end", `to ${time_of_day(new Date(end_ms).toISOString(), 2)} UTC`);
         for (const name of this.names("signal")) {
             if (!this.in_view.has(`chart-${name}`)) continue;
             const shown = this.minute.shown(name, by_id(`chart-${name}`).clientWidth || 300);
             this.update(name, ["UTC", name], false, shown.rows, end_ms - kMinute_ms, end_ms);
             const mean = name === "norm" ? `${number(shown.mean, 1)} mGal` : `${number(shown.mean, 3)} mg`;
-            set_text(`caption-${name}`, `${name}: mean ${mean}, ${number(shown.low, 0)} to +${number(shown.high, 0)} mGal`);
+            set_text(`caption-${name}`, `${name}: mean ${mean}, ${range_text(shown.low, shown.high)}`);
         }
     }
 
@@ -162,7 +173,7 @@ export class Charts {
         const rows = envelope_rows(points, 1000 * history.interval_s, is_axis ? kMgalPerMg : 1, is_axis ? mean : 0);
         this.update(name, ["UTC", name], true, rows, from_ms, to_ms);
         set_text(`caption-${name}`, is_axis
-            ? `${name}: mean ${number(mean, 3)} mg, ${number(kMgalPerMg * (low - mean), 0)} to +${number(kMgalPerMg * (high - mean), 0)} mGal`
+            ? `${name}: mean ${number(mean, 3)} mg, ${range_text(kMgalPerMg * (low - mean), kMgalPerMg * (high - mean))}`
             : `sensor: ${number(low, 3)} to ${number(high, 3)} °C`);
     }
 
@@ -174,7 +185,8 @@ export class Charts {
         const rows = oven_rows(history.points, 1000 * history.interval_s);
         this.update("oven", ["UTC", "oven", "set point"], false, rows, from_ms, to_ms);
         const [, value, set_point] = history.points[history.points.length - 1];
-        set_text("caption-oven", `oven: ${number(value, 1)} °C (blue), set point ${number(set_point, 1)} °C (brown, dashed)`);
+        set_text("caption-oven",
+            `oven: ${number(value, 1)} °C (blue), set point ${number(set_point, 1)} °C (brown, dashed)`);
     }
 
     update(name, labels, is_envelope, rows, from_ms, to_ms) {

@@ -32,9 +32,9 @@ export function duration(seconds) {
     return `${Math.floor(s / 3600)} h ${String(Math.floor((s % 3600) / 60)).padStart(2, "0")} min`;
 }
 
-/** Time of day of an RFC 3339 text in UTC. */
-export function time_of_day(rfc3339) {
-    return rfc3339 ? rfc3339.slice(11, 19) : "–";
+/** Time of day of an RFC 3339 text in UTC, its milliseconds cut to `decimals` places. */
+export function time_of_day(rfc3339, decimals = 0) {
+    return rfc3339 ? rfc3339.slice(11, 19 + (decimals ? 1 + decimals : 0)) : "–";
 }
 
 /** Data volume in decimal units. */

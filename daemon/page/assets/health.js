@@ -16,8 +16,8 @@ function behind(newest, kept, rate_hz) {
 
 function timing_text(timing) {
     const rate = timing.rate;
-    const measured = rate.measured_hz === null ? "" :
-        `; rate ${number(rate.measured_hz, 5)} Hz ± ${number(rate.uncertainty_ppm, 2)} ppm over ${number(rate.span_h, 1)} h`;
+    const measured = rate.measured_hz === null ? "" : `; rate ${number(rate.measured_hz, 5)} Hz ` +
+        `± ${number(rate.uncertainty_ppm, 2)} ppm over ${number(rate.span_h, 1)} h`;
     return `${timing.state}, ± ${number(timing.uncertainty_ms, 2)} ms${measured}`;
 }
 

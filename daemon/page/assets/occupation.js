@@ -11,7 +11,7 @@ function distance_text(metres) {
     return metres < 1000 ? `, ${number(metres, 0)} m` : `, ${number(metres / 1000, 1)} km`;
 }
 
-/** "±" with what is known of it. */
+/** Value and standard error in mGal, as far as they are known. */
 function reading_text(reading) {
     if (!reading || reading.value_mgal === null) return "–";
     return reading.standard_error_mgal === null ? number(reading.value_mgal, 2)
@@ -95,7 +95,8 @@ export class OccupationPanel {
     }
 
     async write_note() {
-        if (by_id("note").value && await this.order("/api/note", { note: by_id("note").value })) by_id("note").value = "";
+        const note = by_id("note").value;
+        if (note && await this.order("/api/note", { note })) by_id("note").value = "";
     }
 
     /** The occupation that discard and rename speak of: the running one, else the last. */
@@ -178,8 +179,8 @@ export class OccupationPanel {
         by_id("day-rows").replaceChildren(...today.map((one) => {
             const row = document.createElement("tr");
             const seconds = one.set_ups.reduce((sum, s) => sum + (Date.parse(s.end) - Date.parse(s.start)) / 1000, 0);
-            const remark = [one.discarded ? "discarded" : one.used === false || one.used === 0 ? "not used" : "",
-                one.set_ups.length > 1 ? `${one.set_ups.length} set-ups` : "", visible(one.note)].filter(Boolean).join("; ");
+            const remark = [one.discarded && "discarded", one.used === false && "not used",
+                one.set_ups.length > 1 && `${one.set_ups.length} set-ups`, visible(one.note)].filter(Boolean).join("; ");
             if (one.discarded) row.className = "discarded";
             row.append(make("td", `${visible(one.site)} (${one.number})`, "foreign"),
                 make("td", time_of_day(one.set_ups[0].start)), make("td", duration(seconds)),
@@ -218,14 +219,19 @@ export class OccupationPanel {
         set_text("run-site", visible(one.site));
         set_text("run-stay", `stay ${one.number}, since ${time_of_day(one.start)} UTC`);
         set_text("run-time", `running ${duration(one.running_s)}`);
-        set_text("run-remark", [one.operator && `Operator: ${visible(one.operator)}`, one.note && `Note: ${visible(one.note)}`]
-            .filter(Boolean).join("\n"));
+        set_text("run-remark", [one.operator && `Operator: ${visible(one.operator)}`,
+            one.note && `Note: ${visible(one.note)}`].filter(Boolean).join("\n"));
         const reading = one.reading;
         set_text("run-value", reading ? `${reading_text(reading)} mGal` : "–");
         set_text("run-judgement", this.judgement(reading));
         by_id("run-judgement").className = reading?.is_good_enough ? "good" : "";
-        set_text("run-used", reading ? `${duration(reading.used_s)} used, ${duration(reading.left_out_s)} left out` +
-            (one.set_ups > 1 ? `; set-up ${one.set_ups} since ${time_of_day(one.set_up)} UTC` : "") : "");
+        set_text("run-used", reading
+            ? `${duration(reading.used_s)} used, ${duration(reading.left_out_s)} left out` : "");
+        show("run-whole", one.set_ups > 1);
+        if (one.set_ups > 1) {
+            set_text("run-whole", `Set-up ${one.set_ups}, since ${time_of_day(one.set_up)} UTC. ` +
+                `All set-ups: ${reading_text(one.whole)} mGal.`);
+        }
         const is_proposed = Boolean(one.propose_set_up);
         show("run-propose", is_proposed);
         by_id("setup").classList.toggle("proposed", is_proposed);

@@ -7,7 +7,7 @@ import { show_health } from "./health.js";
 import { OccupationPanel } from "./occupation.js";
 import { Minute } from "./samples.js";
 import { Stream } from "./stream.js";
-import { show_level, show_verdict } from "./verdict.js";
+import { show_tilt, show_verdict } from "./verdict.js";
 
 const kRedraw_ms = 200;
 const kStale_s = 3;
@@ -80,7 +80,7 @@ function refresh() {
         set_text("trouble", `${status.level.toUpperCase()}: ${visible(status.reasons.join("; "))}`);
     }
     const word = show_verdict(status.verdict, is_stale && status.verdict.state !== "no data" ? age_s : null);
-    show_level(status.tilt ?? null);
+    show_tilt(status.tilt);
     const title = `${word}${status.occupation ? ` · ${visible(status.occupation.site).slice(0, 40)}` : ""} · a351`;
     if (document.title !== title) document.title = title;
 }

@@ -30,37 +30,39 @@ export function show_verdict(verdict, stale_s) {
     set_text("verdict-word", word);
     set_text("verdict-advice", is_stale
         ? `Last verdict: ${visible(verdict.state)}, ${duration(stale_s)} ago.` : kAdvice[state] ?? "");
-    set_text("verdict-held", is_stale || !Number.isFinite(verdict.held_s) ? "" : `Held for ${duration(verdict.held_s)}.`);
-    const checks = verdict.checks ?? [];
-    set_items("verdict-checks", checks.length
+    const is_held = !is_stale && Number.isFinite(verdict.held_s);
+    set_text("verdict-held", is_held ? `Held for ${duration(verdict.held_s)}.` : "");
+    const checks = verdict.checks;
+    if (is_stale) set_items("verdict-checks", [[`✗ newest sample ${duration(stale_s)} old`, "unmet"]]);
+    else set_items("verdict-checks", checks.length
         ? checks.map((check) => [(check.is_met ? "✓ " : "✗ ") + check_text(check), check.is_met ? "met" : "unmet"])
         : verdict.reasons.map((reason) => ["✗ " + visible(reason), "unmet"]));
     return word;
 }
 
-/** @param level  of the status; null as long as no tilt is known. */
-export function show_level(level) {
+/** @param tilt  of the status, against the first set-up of the day; null before there is one, its
+    values null where one of the two is not known well enough. */
+export function show_tilt(tilt) {
     const spot = by_id("bubble-spot");
-    if (!level) {
+    set_text("level-reference", tilt
+        ? `against ${visible(tilt.reference.site)}, ${time_of_day(tilt.reference.utc)} UTC`
+        : "The first set-up of the day is what the others are compared with.");
+    if (!tilt || tilt.x_arcmin === null) {
         spot.setAttribute("visibility", "hidden");
         set_text("level-numbers", "no tilt known yet");
-        set_text("level-word", "–");
+        set_text("level-word", "");
         set_items("level-advice", []);
-        set_text("level-reference", "");
         return;
     }
-    const length = Math.hypot(level.x_arcmin, level.y_arcmin);
+    const length = Math.hypot(tilt.x_arcmin, tilt.y_arcmin);
     const at_rim = Math.min(1, 84 / (kBubbleScale * length || 1));
     spot.setAttribute("visibility", "visible");
     // As in a spirit level, the bubble is where the box is high.
-    spot.setAttribute("cx", kBubbleScale * at_rim * level.x_arcmin);
-    spot.setAttribute("cy", -kBubbleScale * at_rim * level.y_arcmin);
-    spot.setAttribute("class", level.is_within ? "within" : "beyond");
-    set_text("level-numbers", `x ${signed(level.x_arcmin)}′  y ${signed(level.y_arcmin)}′`);
-    set_text("level-word", level.is_within ? `✓ within ${number(level.limit_arcmin, 1)}′`
-        : `✗ more than ${number(level.limit_arcmin, 1)}′`);
-    set_items("level-advice", level.advice.map((text) => [visible(text).replaceAll("'", "′"), ""]));
-    set_text("level-reference", level.reference
-        ? `against ${visible(level.reference.site)}, ${time_of_day(level.reference.utc)} UTC`
-        : "against level: no set-up of today yet");
+    spot.setAttribute("cx", kBubbleScale * at_rim * tilt.x_arcmin);
+    spot.setAttribute("cy", -kBubbleScale * at_rim * tilt.y_arcmin);
+    spot.setAttribute("class", tilt.is_within ? "within" : "beyond");
+    set_text("level-numbers", `x ${signed(tilt.x_arcmin)}′  y ${signed(tilt.y_arcmin)}′`);
+    set_text("level-word", tilt.is_within ? `✓ within ${number(tilt.limit_arcmin, 1)}′ on both axes`
+        : `✗ more than ${number(tilt.limit_arcmin, 1)}′`);
+    set_items("level-advice", tilt.advice.map((text) => [visible(text).replaceAll("'", "′"), ""]));
 }

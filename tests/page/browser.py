@@ -1,0 +1,224 @@
+"""A headless Chromium, as the tests of the page use it."""
+
+import json
+import os
+import pathlib
+import shutil
+import sys
+import time
+import urllib.parse
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "system"))
+from programs import BIN, demand, skip  # noqa: E402
+
+try:
+    from selenium import webdriver
+    from selenium.common.exceptions import WebDriverException
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+except ImportError:
+    skip("python3-selenium is missing")
+
+SCREENSHOTS = BIN.parent / "screenshots"
+LAPTOP = (1366, 768)
+PHONE = (360, 740)
+
+# Columns of a chart that have ink of a curve: the curves are the only thing in it that is blue.
+INK = """
+const canvases = document.querySelectorAll(`#chart-${arguments[0]} canvas`);
+const ink = [];
+for (const canvas of canvases) {
+    const { width, height } = canvas;
+    const copy = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
+    copy.drawImage(canvas, 0, 0);
+    const bytes = copy.getImageData(0, 0, width, height).data;
+    for (let column = 0; column < width; ++column) {
+        for (let row = 0; row < height; ++row) {
+            const at = 4 * (row * width + column);
+            if (bytes[at + 3] > 60 && bytes[at + 2] > bytes[at] + 60) ink[column] = true;
+        }
+    }
+    ink.length = Math.max(ink.length, width);
+}
+return Array.from(ink, Boolean);
+"""
+
+# [text, ratio] of what is shown with less contrast than asked for (WCAG 2.1, relative luminance).
+FAINT = """
+const luminance = (colour) => {
+    const [r, g, b] = colour.match(/[0-9.]+/g).map(Number)
+        .map((v) => v / 255).map((v) => (v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4));
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+};
+const background = (element) => {
+    for (let e = element; e; e = e.parentElement) {
+        const colour = getComputedStyle(e).backgroundColor;
+        if (!/^rgba.*, 0\\)$/.test(colour)) return colour;
+    }
+    return "rgb(255, 255, 255)";
+};
+const faint = [];
+const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+while (walker.nextNode()) {
+    const element = walker.currentNode.parentElement;
+    if (!walker.currentNode.data.trim() || !element.checkVisibility() || element.closest("noscript,svg")) continue;
+    const [a, b] = [luminance(getComputedStyle(element).color), luminance(background(element))].sort((x, y) => y - x);
+    const ratio = (a + 0.05) / (b + 0.05);
+    if (ratio < arguments[0]) faint.push([walker.currentNode.data.trim().slice(0, 40), ratio]);
+}
+return faint;
+"""
+
+# [name, width, height] of what can be pressed or filled in and is smaller than asked for.
+SMALL = """
+const small = [];
+for (const element of document.querySelectorAll("button, select, input:not([type=radio]), fieldset label")) {
+    const { width, height } = element.getBoundingClientRect();
+    if (element.checkVisibility() && (width < arguments[0] || height < arguments[0])) {
+        small.push([element.id || element.textContent, width, height]);
+    }
+}
+return small;
+"""
+
+
+class Browser:
+    """Ends with the `with` block, which also demands that the console is clean and no request left loopback."""
+
+    def __init__(self, allowed_errors=(), rules="MAP * ~NOTFOUND, EXCLUDE 127.0.0.1, EXCLUDE localhost"):
+        """@param allowed_errors  parts of console messages that the test provokes.
+        @param rules  how Chromium resolves names: not at all but for loopback."""
+        chromium, driver = shutil.which("chromium"), shutil.which("chromedriver")
+        if not chromium or not driver:
+            skip("chromium or chromium-driver is missing")
+        self.allowed_errors = allowed_errors
+        options = webdriver.ChromeOptions()
+        options.binary_location = chromium
+        for argument in ("--headless=new", "--disable-gpu", "--hide-scrollbars", "--force-color-profile=srgb",
+                         "--disable-background-networking", f"--host-resolver-rules={rules}"):
+            options.add_argument(argument)
+        if os.geteuid() == 0:
+            options.add_argument("--no-sandbox")  # Chromium refuses to start as root with it.
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+        self.driver = webdriver.Chrome(service=Service(driver), options=options)
+        self.seen = []  # Console messages so far.
+        SCREENSHOTS.mkdir(exist_ok=True)
+        self.resize(LAPTOP)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, value, trace):
+        try:
+            if kind is None:
+                self.demand_quiet()
+            elif kind is not SystemExit or value.code != 0:
+                self.shot("failed")
+                print("console:", self.console())
+        finally:
+            self.driver.quit()
+
+    def demand_quiet(self):
+        hosts = self.hosts_asked()
+        demand(f"no request left loopback: {hosts}", hosts <= {"127.0.0.1", "localhost"})
+        unexpected = [message for message in self.console() if not any(part in message for part in self.allowed_errors)]
+        demand(f"the console is clean: {unexpected[:3]}", not unexpected)
+
+    def console(self):
+        self.seen += [entry["message"] for entry in self.driver.get_log("browser")]
+        return self.seen
+
+    def hosts_asked(self):
+        hosts = set()
+        for entry in self.driver.get_log("performance"):
+            message = json.loads(entry["message"])["message"]
+            if message["method"] == "Network.requestWillBeSent":
+                url = message["params"]["request"]["url"]
+            elif message["method"] == "Network.webSocketCreated":
+                url = message["params"]["url"]
+            else:
+                continue
+            if not url.startswith("data:"):  # The arrow of a list, Chromium's own.
+                hosts.add(urllib.parse.urlsplit(url).hostname or url[:60])
+        return hosts
+
+    def resize(self, size):
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": size[0], "height": size[1], "deviceScaleFactor": 1, "mobile": size == PHONE})
+
+    def open(self, port):
+        self.driver.get(f"http://127.0.0.1:{port}/")
+
+    def run(self, script, *arguments):
+        return self.driver.execute_script(script, *arguments)
+
+    def find(self, css):
+        return self.driver.find_element(By.CSS_SELECTOR, css)
+
+    def text(self, identifier):
+        """What is shown there; empty while it is hidden."""
+        return self.run("const e = document.getElementById(arguments[0]);"
+                        "return e.checkVisibility() ? e.innerText : '';", identifier)
+
+    def click(self, css):
+        element = self.find(css)
+        self.run("arguments[0].scrollIntoView({block: 'center'})", element)
+        element.click()
+
+    def press(self, *keys):
+        webdriver.ActionChains(self.driver).send_keys(*keys).perform()
+
+    def press_with_shift(self, *keys):
+        webdriver.ActionChains(self.driver).key_down(Keys.SHIFT).send_keys(*keys).key_up(Keys.SHIFT).perform()
+
+    def wait_for(self, claim, is_true, seconds=5.0):
+        """@return how long it took [s]."""
+        begin = time.monotonic()
+        while True:
+            if is_true():
+                took = time.monotonic() - begin
+                print(f"holds: {claim} (after {took:.2f} s)")
+                return took
+            if time.monotonic() > begin + seconds:
+                demand(f"{claim} within {seconds} s", False)
+            time.sleep(0.05)
+
+    def wait_for_text(self, identifier, part, seconds=5.0):
+        return self.wait_for(f"#{identifier} says {part!r}", lambda: part in self.text(identifier), seconds)
+
+    def shot(self, name, is_whole=False):
+        """A picture of what is in the window, or of the whole page, for whoever looks at it."""
+        if not is_whole:
+            self.driver.save_screenshot(str(SCREENSHOTS / f"{name}.png"))
+            return
+        width = self.run("return innerWidth")
+        height = self.run("return document.documentElement.scrollHeight")
+        size = (width, self.run("return innerHeight"))
+        self.resize((width, height))
+        time.sleep(0.7)  # Charts that were out of view are drawn.
+        self.driver.save_screenshot(str(SCREENSHOTS / f"{name}.png"))
+        self.resize(size)
+
+    def ink(self, chart):
+        return self.run(INK, chart)
+
+    def demand_readable(self, name):
+        """Contrast, targets and width of the page as it is now."""
+        faint = self.run(FAINT, 7.0)
+        demand(f"{name}: every text has a contrast of 7:1 or more {faint[:3] if faint else ''}", not faint)
+        small = self.run(SMALL, 44)
+        demand(f"{name}: everything to press is 44 px or more each way {small[:3] if small else ''}", not small)
+        wide = self.run("return document.documentElement.scrollWidth - innerWidth")
+        demand(f"{name}: the page is no wider than the window ({wide} px)", wide <= 0)
+
+    def is_above_fold(self, identifier):
+        return self.run("const r = document.getElementById(arguments[0]).getBoundingClientRect();"
+                        "return r.width > 0 && r.top >= 0 && r.bottom <= innerHeight;", identifier)
+
+
+def widest_blank(ink):
+    """(first column, columns) of the widest run without ink between the first and the last that has some."""
+    drawn = [column for column, is_inked in enumerate(ink) if is_inked]
+    before, after = max(zip(drawn, drawn[1:]), key=lambda pair: pair[1] - pair[0], default=(0, 1))
+    return before + 1, after - before - 1

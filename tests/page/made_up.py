@@ -1,0 +1,58 @@
+"""States of the stub daemon that several tests of the page show."""
+
+import time
+
+from stub_daemon import check, rfc3339
+
+SLOPE = check("temperature slope", 0.05, "degC/h", 0.25, True)
+CHANGE = check("reading changes in 10 min by", 0.4, "mGal", 2.0, True)
+BEND = check("temperature bends by", 4.1, "mdegC", 20.0, True)
+WARM = check("temperature off the set point", 0.02, "degC", 1.0, True)
+QUIET = check("since the last knock", 180.0, "s", 60.0, True, is_least=True)
+NOISE = check("noise to its usual level", 1.02, "", 5.0, True)
+
+VERDICTS = {
+    "no data": [check("last good sample", 42.0, "s ago", 10.0, False)],
+    "warming up": [check("temperature off the set point", 6.2, "degC", 1.0, False),
+                   check("since power-on", 0.4, "h", 2.5, False, is_least=True), SLOPE],
+    "disturbed": [check("since the last knock", 12.0, "s", 60.0, False, is_least=True), WARM, SLOPE, CHANGE, BEND,
+                  NOISE],
+    "settling": [check("temperature slope", 0.31, "degC/h", 0.1625, False),
+                 check("reading changes in 10 min by", 2.9, "mGal", 1.3, False), WARM, BEND, QUIET, NOISE],
+    "stable": [WARM, SLOPE, CHANGE, BEND, QUIET, NOISE],
+}
+
+
+def verdict(state, held_s=75.0):
+    return {"state": state, "since": rfc3339(time.time() - held_s), "held_s": held_s,
+            "reasons": [f"{one['quantity']} {one['value']}" for one in VERDICTS[state] if not one["is_met"]],
+            "checks": VERDICTS[state]}
+
+
+def reading(standard_error_mgal=1.31, needed_s=250.0, is_good_enough=False):
+    return {"value_mgal": 979861.32, "standard_error_mgal": standard_error_mgal, "used_s": 388.0, "left_out_s": 12.0,
+            "target_mgal": 1.0, "is_good_enough": is_good_enough, "needed_s": needed_s}
+
+
+def occupation(site="No.5", **changes):
+    start = rfc3339(time.time() - 400)
+    return {"site": site, "number": 1, "operator": "T. Sato", "note": "on the pillar", "start": start, "set_up": start,
+            "set_ups": 1, "session": "00", "index": 1, "running_s": 400.0, "reading": reading(), "whole": reading(0.7),
+            "propose_set_up": False, "warnings": [], "half_time_s": 20.0, **changes}
+
+
+def finished(site, number=1, hours_ago=1.0, **changes):
+    begin = time.time() - 3600 * hours_ago
+    return {"site": site, "number": number, "note": "", "used": None, "discarded": False,
+            "set_ups": [{"start": rfc3339(begin), "end": rfc3339(begin + 660)}], "reading": reading(0.42), **changes}
+
+
+def tilt(x_arcmin, y_arcmin, advice=()):
+    return {"x_arcmin": x_arcmin, "y_arcmin": y_arcmin, "limit_arcmin": 1.2,
+            "is_within": None if x_arcmin is None else not advice, "advice": list(advice),
+            "reference": {"site": "No.0", "utc": rfc3339(time.time() - 7200)}}
+
+
+def sites(count=14):
+    return [{"site": f"No.{i}", "distance_m": 130.0 * i * i, "longitude_deg": None, "latitude_deg": None,
+             "altitude_m": None, "gravity_mgal": None} for i in range(count)]

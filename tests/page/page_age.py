@@ -1,0 +1,118 @@
+"""Nothing on the page looks fresher than it is: data that stop, a daemon that goes and comes back, gaps in the charts;
+and the page itself does not grow or slow down."""
+
+import time
+
+from browser import Browser, widest_blank
+from made_up import sites, tilt, verdict
+from programs import IS_LONG, demand
+from stub_daemon import StubDaemon
+
+GAP_S = 6.0
+MINUTE_S = 60.0
+WATCHED_S = 300.0 if IS_LONG else 10.0
+
+
+def is_grey(browser):
+    return "grayscale(1)" in browser.run("return getComputedStyle(document.getElementById('main')).filter")
+
+
+def show_gap(stub, browser):
+    browser.wait_for("the x strip has ink from end to end",
+                     lambda: sum(browser.ink("x")) > 0.9 * (len(browser.ink("x")) - 70))
+    stub.lose(GAP_S)
+    time.sleep(2.0)
+    for chart in ("x", "norm"):
+        ink = browser.ink(chart)
+        first, blank = widest_blank(ink)
+        expected = GAP_S / MINUTE_S * sum(1 for _ in range(ink.index(True), len(ink) - ink[::-1].index(True)))
+        demand(f"{chart}: the gap of {GAP_S} s is {blank} columns without ink, expected {expected:.0f} within 4",
+               abs(blank - expected) <= 4)
+    browser.shot("gap-60s-1366")
+
+    stub.history_gap = (time.time() - 1800, time.time() - 1200)
+    browser.click("#signal-span input[value='3600']")
+    browser.wait_for("the hour is drawn", lambda: sum(browser.ink("x")) > 300)
+    first, blank = widest_blank(browser.ink("x"))
+    columns = len(browser.ink("x"))
+    # Below the band of the envelope lies nothing but the grid; the axis labels take 64 columns.
+    expected = 600 / 3600 * (columns - 64)
+    demand(f"the 10 min missing of an hour are {blank} columns without ink, expected {expected:.0f} within 8",
+           abs(blank - expected) <= 8)
+    browser.shot("gap-1h-1366")
+    stub.history_gap = None
+    browser.click("#signal-span input[value='60']")
+
+
+def show_stale(stub, browser):
+    stub.status["verdict"] = verdict("stable")
+    browser.wait_for_text("verdict-word", "STABLE")
+    demand("fresh data have no banner and their colours", browser.text("banner") == "" and not is_grey(browser))
+    stub.is_sampling = False
+    took = browser.wait_for_text("banner", "STALE: no new data.", seconds=6.0)
+    demand(f"data are called stale when they are 3 s old: after {took:.1f} s", 2.0 < took < 4.0)
+    demand("what was stable is not shown as stable", browser.text("verdict-word") == "NO FRESH DATA")
+    demand("the page has lost its colours", is_grey(browser))
+    browser.shot("stale-1366")
+    stub.is_sampling = True
+    browser.wait_for("the banner goes when data come", lambda: browser.text("banner") == "", seconds=3.0)
+    demand("the verdict is back", browser.text("verdict-word") == "STABLE")
+
+
+def show_lost(stub, browser):
+    stub.is_away = True
+    browser.wait_for_text("banner", "CONNECTION LOST", seconds=3.0)
+    demand("the page has lost its colours", is_grey(browser))
+    browser.shot("lost-1366")
+    browser.click("#target-form button")
+    browser.wait_for_text("answer", "Not done: the daemon does not answer")
+    time.sleep(3.0)
+    stub.is_away = False
+    took = browser.wait_for("the page is back by itself", lambda: browser.text("banner") == "", seconds=10.0)
+    demand(f"within 8 s, the longest pause between attempts: {took:.1f} s", took < 9.0)
+    browser.wait_for_text("health-rows", "lost 1 times")
+
+
+def metrics(browser):
+    """The least of four looks: between collection and look the page goes on."""
+    looks = []
+    for _ in range(4):
+        browser.driver.execute_cdp_cmd("HeapProfiler.collectGarbage", {})
+        values = browser.driver.execute_cdp_cmd("Performance.getMetrics", {})["metrics"]
+        looks.append({one["name"]: one["value"] for one in values})
+        time.sleep(0.15)
+    return min(looks, key=lambda look: look["JSHeapUsedSize"])
+
+
+def watch_growth(browser):
+    browser.driver.execute_cdp_cmd("Performance.enable", {})
+    time.sleep(2.0)
+    before = metrics(browser)
+    time.sleep(WATCHED_S)
+    after = metrics(browser)
+    heap, nodes = (after[key] - before[key] for key in ("JSHeapUsedSize", "Nodes"))
+    busy = (after["TaskDuration"] - before["TaskDuration"]) / (after["Timestamp"] - before["Timestamp"])
+    demand(f"in {WATCHED_S:.0f} s the heap of {after['JSHeapUsedSize'] / 1e6:.1f} MB grows by {heap / 1e6:.2f} MB, "
+           "less than 1", heap < 1e6)
+    demand(f"of {after['Nodes']:.0f} nodes {nodes:.0f} are new, fewer than 200", nodes < 200)
+    print(f"the page's own thread is busy {100 * busy:.1f} % of the time")
+    said = browser.text("health-rows")
+    redraw_ms = float(said.split("drawn in ")[1].split()[0])
+    demand(f"four strips of a minute are drawn in {redraw_ms} ms, of 200 ms there are", redraw_ms < 100)
+
+
+with Browser(allowed_errors=["WebSocket connection to", "ERR_EMPTY_RESPONSE", "Failed to load resource"]) as page:
+    daemon = StubDaemon()
+    daemon.sites = sites()
+    daemon.status["tilt"] = tilt(0.4, 0.3)
+    time.sleep(0.3)
+    page.resize((1366, 1200))
+    page.open(daemon.port)
+    page.wait_for_text("clock", "UTC")
+    watch_growth(page)
+    page.resize((1366, 768))
+    show_stale(daemon, page)
+    page.resize((1366, 1200))
+    show_gap(daemon, page)
+    page.resize((1366, 768))
+    show_lost(daemon, page)

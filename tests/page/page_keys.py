@@ -1,0 +1,99 @@
+"""Everything goes without a mouse, and each button sends what it says."""
+
+import time
+
+from browser import Browser, Keys
+from made_up import finished, occupation, sites
+from programs import demand
+from stub_daemon import StubDaemon
+
+OUTLINE = """
+const style = getComputedStyle(document.activeElement);
+return [document.activeElement.id || document.activeElement.value || document.activeElement.tagName,
+        style.outlineStyle === "none" ? 0 : parseFloat(style.outlineWidth)];
+"""
+
+
+def tab_round(browser, count):
+    stops = []
+    for _ in range(count):
+        browser.press(Keys.TAB)
+        name, outline_px = browser.run(OUTLINE)
+        demand(f"the focus on {name} is seen: an outline of {outline_px} px", outline_px >= 3)
+        stops.append(name)
+    return stops
+
+
+def last_post(stub, browser, path):
+    browser.wait_for(f"{path} was asked for", lambda: stub.posts and stub.posts[-1][0] == path)
+    browser.wait_for_text("answer", f"took {path}")
+    return stub.posts[-1][1]
+
+
+with Browser() as page:
+    daemon = StubDaemon()
+    daemon.sites = sites()
+    daemon.occupations = [finished("No.0")]
+    time.sleep(0.3)
+    page.open(daemon.port)
+    page.wait_for_text("start-site", "No.5, 3.3 km")
+    order = ["start-site", "start-operator", "start-note", "start", "target"]
+    demand(f"Tab goes through the form first: {order}", tab_round(page, 5) == order)
+    page.press(Keys.ENTER)
+    demand("Enter in the target sets it", last_post(daemon, page, "/api/target") == {"target_mgal": 1.0})
+    for text in ("0", "x", "-1"):
+        page.run("document.getElementById('target').value = arguments[0]", text)
+        count = len(daemon.posts)
+        page.press(Keys.ENTER)
+        page.wait_for_text("answer", "Not done: the target is a number of mGal above 0")
+        demand(f"a target of {text} is not sent", len(daemon.posts) == count)
+
+    page.driver.refresh()
+    page.wait_for_text("start-site", "No.5")
+    page.press(Keys.TAB, "No.5", Keys.TAB, "T. Sato", Keys.TAB, "on the pillar", Keys.ENTER)
+    demand("Enter starts at the site typed, with operator and note", last_post(daemon, page, "/api/occupation/start")
+           == {"site": "No.5", "operator": "T. Sato", "note": "on the pillar"})
+
+    daemon.status["occupation"] = occupation()
+    page.wait_for_text("run-site", "No.5")
+    page.driver.refresh()
+    page.wait_for_text("run-site", "No.5")
+    order = ["stop", "setup", "discard", "BUTTON", "target"]
+    demand(f"Tab goes through what can be done with it: {order}", tab_round(page, 5) == order)
+    page.press_with_shift(*[Keys.TAB] * 4)
+    page.press(Keys.ENTER)
+    demand("Enter on Stop stops", last_post(daemon, page, "/api/occupation/stop") == {})
+    page.press(Keys.TAB, Keys.SPACE)
+    demand("Space on Next set-up sets up", last_post(daemon, page, "/api/occupation/setup") == {})
+
+    count = len(daemon.posts)
+    page.press(Keys.TAB, Keys.ENTER)
+    page.wait_for_text("confirm-text", "Discard the running occupation at No.5, 6 min")
+    page.demand_readable("the question")
+    page.shot("discard-1366")
+    page.press(Keys.ENTER)
+    time.sleep(0.3)
+    demand("Enter at once keeps it: the first button is the harmless one",
+           len(daemon.posts) == count and page.text("confirm-text") == "")
+    page.press(Keys.ENTER)
+    page.wait_for_text("confirm-text", "Discard the running")
+    page.press(Keys.ESCAPE)
+    page.wait_for("Escape keeps it", lambda: page.text("confirm-text") == "")
+    page.press(Keys.ENTER, Keys.TAB, Keys.ENTER)
+    demand("the second button discards", last_post(daemon, page, "/api/occupation/discard") == {})
+
+    page.press(Keys.TAB, Keys.ENTER)
+    page.wait_for_text("rename-text", "The occupation called No.5 was at another site")
+    page.demand_readable("the new name")
+    page.shot("rename-1366")
+    page.press("No.7", Keys.TAB, Keys.TAB, Keys.ENTER)
+    demand("the right site is sent", last_post(daemon, page, "/api/occupation/rename") == {"site": "No.7"})
+
+    page.find("#note").send_keys("rain began", Keys.ENTER)
+    demand("Enter in the note writes it", last_post(daemon, page, "/api/note") == {"note": "rain began"})
+    page.wait_for("and empties the field", lambda: page.find("#note").get_attribute("value") == "")
+
+    page.find("#signal-span input[value='60']").send_keys(Keys.ARROW_RIGHT)
+    page.wait_for_text("caption-x", "x: mean")
+    demand("the arrows choose the span",
+           page.run("return document.querySelector('[name=signal-span]:checked').value") == "3600")

@@ -1,0 +1,154 @@
+"""Each state of the page, with made-up data: words, signs, contrast, sizes and the pictures under screenshots/."""
+
+import time
+
+from browser import LAPTOP, PHONE, Browser
+from made_up import VERDICTS, finished, occupation, reading, sites, tilt, verdict
+from programs import demand
+from stub_daemon import StubDaemon
+
+ABOVE_FOLD = ["verdict-word", "verdict-checks", "occupation-title", "level-word"]
+
+
+def show_verdicts(stub, browser):
+    pictures = set()
+    for state in VERDICTS:
+        stub.status["verdict"] = verdict(state)
+        browser.wait_for_text("verdict-word", state.upper())
+        sign = browser.run("return document.getElementById('verdict-sign').getAttribute('href')")
+        pictures.add(sign)
+        checks = browser.text("verdict-checks").splitlines()
+        demand(f"{state}: what is not met comes first, with a mark: {checks[0]}",
+               [line[0] for line in checks] == ["✓" if one["is_met"] else "✗" for one in VERDICTS[state]])
+        for size in (LAPTOP, PHONE):
+            browser.resize(size)
+            browser.demand_readable(f"{state} at {size[0]} px")
+            browser.shot(f"{state.replace(' ', '-')}-{size[0]}")
+        browser.resize(LAPTOP)
+    demand(f"each verdict has a sign of its own: {pictures}", len(pictures) == len(VERDICTS))
+    checks = browser.text("verdict-checks")
+    demand("values have units", "0.05 °C/h, limit 0.25 °C/h" in checks and "180 s, at least 60 s" in checks)
+
+
+def show_without_colour(stub, browser):
+    browser.driver.execute_cdp_cmd("Emulation.setEmulatedVisionDeficiency", {"type": "achromatopsia"})
+    stub.status["verdict"] = verdict("disturbed")
+    browser.wait_for_text("verdict-word", "DISTURBED")
+    browser.shot("disturbed-without-colour")
+    browser.driver.execute_cdp_cmd("Emulation.setEmulatedVisionDeficiency", {"type": "none"})
+
+
+def count_announcements(stub, browser):
+    stub.status["verdict"] = verdict("settling", held_s=10)
+    browser.wait_for_text("verdict-held", "10 s")
+    browser.run("window.announced = 0; new MutationObserver((all) => { window.announced += all.length; }).observe("
+                "document.getElementById('verdict-word'), {childList: true, characterData: true, subtree: true});")
+    for held_s in (11, 12):
+        stub.status["verdict"] = verdict("settling", held_s=held_s)
+        browser.wait_for_text("verdict-held", f"{held_s} s")
+    demand("a verdict that holds is not read out again", browser.run("return window.announced") == 0)
+    stub.status["verdict"] = verdict("stable", held_s=0)
+    browser.wait_for_text("verdict-word", "STABLE")
+    demand("a new one is, once", browser.run("return window.announced") == 1)
+    demand("the live region is polite",
+           browser.find("#verdict-word").get_attribute("aria-live") == "polite")
+
+
+def show_occupations(stub, browser):
+    stub.status["verdict"] = verdict("stable", held_s=430)
+    stub.status["occupation"] = occupation()
+    browser.wait_for_text("run-judgement", "still about 4 min 10 s needed (target 1.00 mGal)")
+    demand("value and standard error have their unit", "979861.32 ± 1.31 mGal" in browser.text("run-value"))
+    demand("the next set-up is not proposed yet", browser.text("run-propose") == "")
+    above = {name: browser.is_above_fold(name) for name in ABOVE_FOLD + ["stop", "run-value"]}
+    demand(f"what matters is above the fold at 1366 x 768: {above}", all(above.values()))
+    browser.shot("occupation-1366")
+
+    stub.status["occupation"] = occupation(propose_set_up=True,
+                                           warnings=["the site was occupied before: this is stay 2"])
+    browser.wait_for_text("run-propose", "Half time: lift the box")
+    browser.wait_for_text("run-warnings", "this is stay 2")
+    browser.demand_readable("half time")
+    demand("stop stays above the fold", browser.is_above_fold("stop"))
+    browser.shot("half-time-1366")
+
+    stub.status["occupation"] = occupation(reading=reading(0.82, 0.0, True), set_ups=2)
+    browser.wait_for_text("run-judgement", "✓ GOOD ENOUGH")
+    browser.wait_for_text("run-whole", "All set-ups: 979861.32 ± 0.70 mGal.")
+    browser.demand_readable("good enough")
+    browser.shot("good-enough-1366")
+    browser.resize(PHONE)
+    browser.demand_readable("good enough at 360 px")
+    browser.shot("good-enough-360", is_whole=True)
+    browser.resize(LAPTOP)
+
+    stub.status["occupation"] = occupation(reading=reading(None, None))
+    browser.wait_for_text("run-judgement", "time needed not known yet")
+    demand("no standard error is shown before there is one", browser.text("run-value") == "979861.32 mGal")
+
+
+def show_level(stub, browser):
+    browser.wait_for_text("level-numbers", "no tilt known yet")
+    stub.status["tilt"] = tilt(2.4, -0.6, ["lower the +x side by 2.4'", "raise the +y side by 0.6'"])
+    browser.wait_for_text("level-advice", "lower the +x side by 2.4′")
+    demand("both axes in arc minutes with their signs", browser.text("level-numbers") == "x +2.4′ y −0.6′")
+    demand("words say that it is too much", browser.text("level-word") == "✗ more than 1.2′")
+    x, y = (float(browser.find("#bubble-spot").get_attribute(key)) for key in ("cx", "cy"))
+    demand(f"the bubble is at the high side, +x and -y: {x:.0f}, {y:.0f} (down is positive)", x > 40 and y > 0)
+    browser.shot("tilted-1366")
+    stub.status["tilt"] = tilt(60.0, 80.0, ["lower the +x side by 60.0'", "lower the +y side by 80.0'"])
+    browser.wait_for_text("level-numbers", "+80.0′")
+    x, y = (float(browser.find("#bubble-spot").get_attribute(key)) for key in ("cx", "cy"))
+    demand(f"a bubble far out stays at the rim: {x:.0f}, {y:.0f}", 80 < (x * x + y * y) ** 0.5 < 100)
+    stub.status["tilt"] = tilt(None, None)
+    browser.wait_for_text("level-numbers", "no tilt known yet")
+    demand("no bubble without a tilt", browser.find("#bubble-spot").get_attribute("visibility") == "hidden")
+    stub.status["tilt"] = tilt(0.4, 0.3)
+    browser.wait_for_text("level-word", "✓ within 1.2′")
+
+
+def show_day(stub, browser):
+    stub.occupations = [finished("No.0", hours_ago=30), finished("No.0", hours_ago=3, note="windy"),
+                        finished("No.1", hours_ago=2, discarded=True, reading=None),
+                        finished("No.1", hours_ago=1, set_ups=finished("x")["set_ups"] * 2)]
+    stub.status["occupation"] = None
+    browser.wait_for("the three occupations of the last 24 h are listed",
+                     lambda: len(browser.text("day-rows").splitlines()) == 3)
+    rows = browser.text("day-rows").splitlines()
+    demand(f"newest first, and set-ups, discarded and note are told: {rows}",
+           "2 set-ups" in rows[0] and "discarded" in rows[1] and "windy" in rows[2] and "± 0.42" in rows[2])
+    browser.find("#start-site").send_keys("No.0")
+    browser.wait_for_text("start-warning", "was occupied at")
+    browser.shot("day-1366")
+    browser.resize((1366, 1500))
+    time.sleep(2.5)
+    browser.shot("whole-1366", is_whole=True)
+    browser.resize(PHONE)
+    browser.demand_readable("the day at 360 px")
+    browser.shot("day-360", is_whole=True)
+    browser.resize(LAPTOP)
+
+
+def show_trouble(stub, browser):
+    stub.status["level"] = "fault"
+    stub.status["reasons"] = ["the disk of the data root is full", "port: no such device"]
+    browser.wait_for_text("trouble", "FAULT: the disk of the data root is full; port: no such device")
+    stub.status["counters"]["checksum_errors"] = 3
+    browser.wait_for_text("health-rows", "checksum errors 3")
+    browser.demand_readable("a fault")
+    browser.shot("fault-1366")
+
+
+with Browser() as page:
+    daemon = StubDaemon()
+    daemon.sites = sites()
+    time.sleep(0.3)
+    page.open(daemon.port)
+    page.wait_for_text("clock", "UTC")
+    show_verdicts(daemon, page)
+    show_without_colour(daemon, page)
+    count_announcements(daemon, page)
+    show_occupations(daemon, page)
+    show_level(daemon, page)
+    show_day(daemon, page)
+    show_trouble(daemon, page)
