@@ -13,10 +13,10 @@ from programs import BIN, demand, skip  # noqa: E402
 
 try:
     from selenium import webdriver
-    from selenium.common.exceptions import WebDriverException
     from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.ui import Select
 except ImportError:
     skip("python3-selenium is missing")
 
@@ -165,6 +165,9 @@ class Browser:
         element = self.find(css)
         self.run("arguments[0].scrollIntoView({block: 'center'})", element)
         element.click()
+
+    def choose(self, identifier, value):
+        Select(self.find(f"#{identifier}")).select_by_value(value)
 
     def press(self, *keys):
         webdriver.ActionChains(self.driver).send_keys(*keys).perform()

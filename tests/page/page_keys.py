@@ -1,4 +1,4 @@
-"""Everything goes without a mouse, and each button sends what it says."""
+"""Everything goes without a mouse, each button sends what it says, and a token that is wrong can be mended."""
 
 import time
 
@@ -30,7 +30,28 @@ def last_post(stub, browser, path):
     return stub.posts[-1][1]
 
 
-with Browser() as page:
+def renew_token(stub, browser):
+    stub.token = "another-start"
+    browser.find("#note").send_keys("first", Keys.ENTER)
+    last_post(stub, browser, "/api/note")
+    demand("after a restart of the daemon an order goes through with the new token, unasked",
+           [body for _, body in stub.posts[-2:]] == [{"note": "first"}] * 2 and browser.text("token-form") == "")
+    stub.token, stub.tells_token = "of-the-configuration", False
+    browser.find("#note").send_keys("second", Keys.ENTER)
+    browser.wait_for_text("answer", "Not done: X-A351-Token is missing or wrong")
+    browser.wait_for_text("token-form", "Token of this daemon")
+    browser.demand_readable("the question for the token")
+    browser.find("#token").send_keys("of-the-configuration", Keys.ENTER)
+    browser.find("#note").send_keys(Keys.ENTER)
+    last_post(stub, browser, "/api/note")
+    browser.driver.refresh()
+    browser.wait_for_text("run-site", "No.5")
+    browser.find("#note").send_keys("third", Keys.ENTER)
+    last_post(stub, browser, "/api/note")
+    demand("a token typed in is kept over a reload", browser.text("token-form") == "")
+
+
+with Browser(allowed_errors=["status of 403"]) as page:
     daemon = StubDaemon()
     daemon.sites = sites()
     daemon.occupations = [finished("No.0")]
@@ -97,3 +118,5 @@ with Browser() as page:
     page.wait_for_text("caption-x", "x: mean")
     demand("the arrows choose the span",
            page.run("return document.querySelector('[name=signal-span]:checked').value") == "3600")
+
+    renew_token(daemon, page)

@@ -72,7 +72,7 @@ def show_occupations(stub, browser):
     demand("stop stays above the fold", browser.is_above_fold("stop"))
     browser.shot("half-time-1366")
 
-    stub.status["occupation"] = occupation(reading=reading(0.82, 0.0, True), set_ups=2)
+    stub.status["occupation"] = occupation(reading=reading(0.82, 0.0, True), set_up_count=2)
     browser.wait_for_text("run-judgement", "✓ GOOD ENOUGH")
     browser.wait_for_text("run-whole", "All set-ups: 979861.32 ± 0.70 mGal.")
     browser.demand_readable("good enough")

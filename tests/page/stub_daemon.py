@@ -20,7 +20,6 @@ POLICY = ("default-src 'self'; script-src 'self'; style-src 'self'; object-src '
           "form-action 'none'; frame-ancestors 'none'")
 RATE_HZ = 50
 SCALE_MG = 1e-3
-TOKEN = "0123456789abcdef"
 
 
 def rfc3339(seconds):
@@ -66,7 +65,7 @@ def sample_counts(index):
 
 class StubDaemon:
     """Serves until the test ends.  `status` may be changed at any time; `is_sampling` off: no sample more; `is_away`
-    on: nobody answers.  `posts` are the orders that came."""
+    on: nobody answers.  `posts` are the orders that came, those refused as well."""
 
     def __init__(self):
         self.status = first_status()
@@ -76,6 +75,8 @@ class StubDaemon:
         self.history_gap = None  # (begin, end) in Unix seconds: no bins there.
         self.is_sampling = True
         self.is_away = False
+        self.token = "0123456789abcdef"
+        self.tells_token = True  # As on loopback.
         self.begin_s = time.time() - 70
         self.next_index = 0
         self.samples = []
@@ -149,6 +150,10 @@ class StubDaemon:
             return self.live(request)
         if path == "/api/status":
             return self.reply(request, self.full_status())
+        if path == "/api/token":
+            if not self.tells_token:
+                return self.reply(request, {"error": "the token is the one in [page] token"}, status=403)
+            return self.reply(request, {"token": self.token})
         if path == "/api/sites":
             return self.reply(request, {"sites": self.sites})
         if path == "/api/occupations":
@@ -159,7 +164,8 @@ class StubDaemon:
         for directory in ASSETS:
             file = directory / name
             if file.is_file() and "/" not in name:
-                return self.reply(request, file.read_bytes().replace(b"@TOKEN@", TOKEN.encode()), TYPES[file.suffix])
+                token = self.token.encode() if self.tells_token else b""
+                return self.reply(request, file.read_bytes().replace(b"@TOKEN@", token), TYPES[file.suffix])
         return self.reply(request, {"error": "there is no such path"}, status=404)
 
     def history(self, query):
@@ -186,7 +192,7 @@ class StubDaemon:
         if self.is_away:
             request.close_connection = True
             return
-        if request.headers["X-A351-Token"] != TOKEN:
+        if request.headers["X-A351-Token"] != self.token:
             return self.reply(request, {"error": "X-A351-Token is missing or wrong"}, status=403)
         self.reply(request, {"message": f"took {request.path}", "occupation": self.status["occupation"]})
 

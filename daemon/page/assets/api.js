@@ -1,30 +1,53 @@
 // Questions and orders to the daemon.
 
-const token = document.querySelector('meta[name="a351-token"]').content;
+import { by_id, show } from "./dom.js";
 
-async function answer_of(request) {
+// Beyond loopback the page does not bring it: the operator types it in.
+let token = document.querySelector('meta[name="a351-token"]').content || sessionStorage.getItem("token") || "";
+
+by_id("token-form").addEventListener("submit", (event) => {
+    event.preventDefault();
+    token = by_id("token").value;
+    sessionStorage.setItem("token", token);
+    show("token-form", false);
+});
+
+async function asked(path, options) {
     let reply;
     try {
-        reply = await request;
+        reply = await fetch(path, options);
     } catch {
         throw new Error("the daemon does not answer");
     }
     const body = await reply.json().catch(() => ({}));
-    if (!reply.ok) throw new Error(body.error ?? `the daemon answers ${reply.status}`);
+    return { is_forbidden: reply.status === 403, trouble: reply.ok ? null : body.error ?? `status ${reply.status}`, body };
+}
+
+/** @throws Error with a line for the operator. */
+export async function get(path, query = {}) {
+    const tail = new URLSearchParams(query).toString();
+    const { trouble, body } = await asked(tail ? `${path}?${tail}` : path);
+    if (trouble) throw new Error(trouble);
     return body;
 }
 
 /** @throws Error with a line for the operator. */
-export function get(path, query = {}) {
-    const tail = new URLSearchParams(query).toString();
-    return answer_of(fetch(tail ? `${path}?${tail}` : path));
-}
-
-/** @throws Error with a line for the operator. */
-export function post(path, body) {
-    return answer_of(fetch(path, {
+export async function post(path, order) {
+    const send = () => asked(path, {
         method: "POST",
         headers: { "Content-Type": "application/json", "X-A351-Token": token },
-        body: JSON.stringify(body),
-    }));
+        body: JSON.stringify(order),
+    });
+    let answer = await send();
+    if (answer.is_forbidden) {
+        // A daemon that was started anew has another token.
+        const fresh = await asked("/api/token");
+        show("token-form", fresh.trouble !== null);
+        if (!fresh.trouble) {
+            token = fresh.body.token;
+            answer = await send();
+        }
+    }
+    if (answer.trouble) throw new Error(answer.trouble);
+    return answer.body;
 }

@@ -227,9 +227,9 @@ export class OccupationPanel {
         by_id("run-judgement").className = reading?.is_good_enough ? "good" : "";
         set_text("run-used", reading
             ? `${duration(reading.used_s)} used, ${duration(reading.left_out_s)} left out` : "");
-        show("run-whole", one.set_ups > 1);
-        if (one.set_ups > 1) {
-            set_text("run-whole", `Set-up ${one.set_ups}, since ${time_of_day(one.set_up)} UTC. ` +
+        show("run-whole", one.set_up_count > 1);
+        if (one.set_up_count > 1) {
+            set_text("run-whole", `Set-up ${one.set_up_count}, since ${time_of_day(one.set_up)} UTC. ` +
                 `All set-ups: ${reading_text(one.whole)} mGal.`);
         }
         const is_proposed = Boolean(one.propose_set_up);

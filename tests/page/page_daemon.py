@@ -1,0 +1,128 @@
+"""The page of a real daemon with the emulated sensor: soon there, never far behind, and an occupation outlives a reload
+and a daemon that is killed."""
+
+import datetime
+import signal
+import time
+
+from browser import Browser
+from emulated_session import Session
+from programs import Scratch, demand
+
+FIRST_DATA_S = 2.0
+BEHIND_S = 0.5
+SITES = '[survey]\nsites = "sites.csv"\n'
+
+# When, since the page was asked for, the first mean of the x axis stood on it.
+WATCH = """
+new MutationObserver((_, observer) => {
+    if (!document.getElementById("caption-x")?.textContent.includes("mean")) return;
+    window.first_data_ms = performance.now();
+    observer.disconnect();
+}).observe(document, {childList: true, subtree: true, characterData: true});
+"""
+
+
+def seconds_of_day(text):
+    return sum(float(part) * unit for part, unit in zip(text.split(":"), (3600, 60, 1)))
+
+
+def instant(text):
+    return datetime.datetime.fromisoformat(text.replace("Z", "+00:00")).timestamp()
+
+
+def measure_first_data(session, browser):
+    browser.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": WATCH})
+    for _ in range(3):
+        browser.open(session.port)
+        browser.wait_for_text("caption-x", "mean")
+        took_s = browser.run("return window.first_data_ms") / 1000
+        demand(f"data are on the page {took_s:.2f} s after it was asked for, at most {FIRST_DATA_S}", took_s <= FIRST_DATA_S)
+
+
+def measure_lag(session, browser):
+    start, host = session.clock.split("@")[1].split(",")
+    ahead_s = instant(start) - instant(host)
+    lags = []
+    for _ in range(40):
+        shown, now_ms = browser.run("return [document.getElementById('signal-end').textContent, Date.now()]")
+        end_s = seconds_of_day(shown.split()[1])
+        lags.append((now_ms / 1000 + ahead_s - end_s + 43200) % 86400 - 43200)
+        time.sleep(0.1)
+    lags.sort()
+    demand(f"the end of the trace is {lags[len(lags) // 2]:.2f} s old in the middle, {lags[-1]:.2f} s at most, "
+           f"no more than {BEHIND_S}", lags[-1] <= BEHIND_S)
+
+
+def work_an_occupation(session, browser):
+    browser.wait_for("the sites are offered", lambda: "No.1," in browser.text("start-site"))
+    browser.choose("start-site", "No.1")
+    browser.find("#start-operator").send_keys("T. Sato")
+    browser.find("#start-note").send_keys("<b>windy</b>")
+    browser.click("#start")
+    browser.wait_for_text("run-site", "No.1")
+    browser.wait_for_text("answer", "started No.1")
+    browser.wait_for_text("run-remark", "Note: <b>windy</b>")
+    start = session.status()["occupation"]["start"]
+
+    browser.driver.refresh()
+    browser.wait_for_text("run-site", "No.1")
+    demand("a reloaded page shows the operator of before", "T. Sato" in browser.text("run-remark"))
+
+    session.daemon.kill()
+    session.daemon.wait()
+    browser.wait_for_text("banner", "CONNECTION LOST", seconds=3.0)
+    session.daemon = session.start_daemon()
+    browser.wait_for("the page is back by itself", lambda: browser.text("banner") == "", seconds=20.0)
+    browser.wait_for_text("run-site", "No.1")
+    demand("it is the occupation of before, to the millisecond", session.status()["occupation"]["start"] == start)
+
+    browser.click("#setup")
+    browser.wait_for_text("answer", "further set-up at No.1 (stay 1)")
+    browser.wait_for_text("run-whole", "Set-up 2")
+    browser.find("#note").send_keys("a lorry passed")
+    browser.click("#note-form button")
+    browser.wait_for_text("answer", "noted at")
+    browser.find("#target").clear()
+    browser.find("#target").send_keys("0,5")
+    browser.click("#target-form button")
+    browser.wait_for("the daemon has the new target", lambda: session.status()["target_mgal"] == 0.5)
+    time.sleep(1.0)
+    browser.click("#stop")
+    browser.wait_for_text("answer", "stopped No.1 (stay 1)")
+    browser.wait_for_text("day-rows", "2 set-ups")
+    browser.shot("real-stopped-1366")
+
+    browser.choose("start-site", "No.1")
+    browser.wait_for_text("start-warning", "was occupied at")
+    browser.choose("start-site", "No.2")
+    browser.wait_for("another site has no warning", lambda: browser.text("start-warning") == "")
+    browser.click("button.rename:not(#running button)")
+    browser.choose("rename-site", "No.3")
+    browser.click("#rename-form [type=submit]")
+    browser.wait_for_text("answer", "renamed No.1 (stay 1) to No.3")
+    browser.wait_for_text("day-rows", "No.3")
+    browser.click("#discard-last")
+    browser.click("#confirm-yes")
+    browser.wait_for_text("answer", "discarded No.3")
+    browser.wait_for_text("day-empty", "none yet")
+
+
+def stop_emulator(session, browser):
+    session.sim.send_signal(signal.SIGTERM)
+    session.sim.wait()
+    browser.wait_for_text("banner", "STALE: no new data.", seconds=6.0)
+    demand("the verdict is one of no data", browser.text("verdict-word") in ("NO FRESH DATA", "NO DATA"))
+    browser.shot("real-stale-1366")
+
+
+LOST = ["WebSocket connection to", "Failed to load resource"]  # While the daemon is away.
+
+with Scratch() as scratch, Browser(allowed_errors=LOST) as page:
+    daemon = Session(scratch, speed=1, config=SITES)
+    daemon.wait_for_frames(100)
+    measure_first_data(daemon, page)
+    measure_lag(daemon, page)
+    page.shot("real-1366")
+    work_an_occupation(daemon, page)
+    stop_emulator(daemon, page)
