@@ -19,6 +19,7 @@
 #include "daemon/live/archived_past.hpp"
 #include "daemon/page/server.hpp"
 #include "daemon/page/status.hpp"
+#include "daemon/service/service_notice.hpp"
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/oven_link.hpp"
 #include "daemon/source/read_queue.hpp"
@@ -173,8 +174,14 @@ sigset_t block_signals() {
     return signals;
 }
 
+std::string brief(const Status& status) {
+    return status.reasons.empty() ? status.link_state
+                                  : status.link_state + "; " + status.reasons.front();
+}
+
 ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log,
                const sigset_t& signals, StatusLog& status_log) {
+    ServiceNotice notice = ServiceNotice::from_environment();
     ReadQueue reads;
     VerdictOptions verdict = config.verdict;
     const std::chrono::duration<double> shortest = clock.instrument_span(kShortestRealStale);
@@ -231,16 +238,19 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
     link.start();
     if (oven) oven->start();
     page.start();
+    notice.ready();
 
     constexpr timespec kSecond{1, 0};
     while (true) {
         const int signal = sigtimedwait(&signals, nullptr, &kSecond);
-        status_log.note(snapshot(config, clock, link, oven, store, live),
-                        std::chrono::steady_clock::now());
+        const Status status = snapshot(config, clock, link, oven, store, live);
+        status_log.note(status, std::chrono::steady_clock::now());
+        notice.beat(store.has_come_round(), brief(status));
         if (signal == SIGHUP) log.warn("SIGHUP: no key can be reloaded in this version");
         if (signal == SIGINT || signal == SIGTERM) break;
     }
     log.info("stopping");
+    notice.stopping();
     page.stop();
     if (oven) oven->stop();
     link.stop();

@@ -137,7 +137,11 @@ void JournalThread::go_round(Phase phase) noexcept {
     } catch (const std::exception& error) {
         note_fault(error.what());
     }
-    if (phase == Phase::running) return;
+    if (phase == Phase::running) {
+        const std::lock_guard lock(mutex_);
+        ++status_.rounds;
+        return;
+    }
     written_.close();
     const std::lock_guard lock(mutex_);
     is_drained_ = true;

@@ -37,6 +37,7 @@ struct JournalStatus {
     std::string trouble;     ///< The last fault of the disk.
     std::uint64_t faults = 0;
     std::uint64_t bytes_written = 0;
+    std::uint64_t rounds = 0;                   ///< Of the thread.
     std::uint64_t archive_waits = 0;            ///< Times it had to wait for the archive.
     std::uint64_t events_refused = 0;           ///< That the event log did not take.
     std::uint64_t reads_dropped = 0;            ///< That the disk refused for too long.

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <system_error>
+#include <utility>
 
 #include "daemon/store/assess.hpp"
 #include "protocol/record/time_gate.hpp"
@@ -102,6 +103,12 @@ void Store::describe(const record::JournalHeader& header) {
     }
     const std::lock_guard lock(metadata_mutex_);
     metadata_trouble_ = trouble.value_or("");
+}
+
+bool Store::has_come_round() {
+    const JournalStatus journal = journal_.status();
+    return journal.present_sync.count() > 0 ||
+           std::exchange(rounds_, journal.rounds) != journal.rounds;
 }
 
 void Store::fill(Status& status) {

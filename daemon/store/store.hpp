@@ -78,6 +78,10 @@ public:
     /// A poll for the journal; dropped before the sensor's first session, which opens it.
     void post(record::OvenChunk poll) { journal_.post(std::move(poll)); }
 
+    /// Whether the journal thread came round since the last call, or waits for the disk: what is
+    /// read then waits in memory, which a restart would lose.
+    [[nodiscard]] bool has_come_round();
+
     /// Fills in what the store knows.
     void fill(Status& status);
 
@@ -101,6 +105,7 @@ private:
     std::mutex metadata_mutex_;
     std::string metadata_trouble_;
     bool is_running_ = false;
+    std::uint64_t rounds_ = 0;  ///< Of the journal thread, when it was last asked for.
 };
 
 }  // namespace a351::daemon

@@ -50,6 +50,31 @@ TEST_CASE_METHOD(Rig, "a sync that hangs for 10 s loses nothing, and the status 
     CHECK(archived_counts(root, "BNZ") == expected_counts(fed));
 }
 
+TEST_CASE_METHOD(
+    Rig, "a journal thread that stands still is noticed, one that waits for the disk is let be",
+    "[daemon][store]") {
+    {
+        Store stepped(files, options(), clock, reads);
+        CHECK_FALSE(stepped.has_come_round());
+        stepped.step();
+        CHECK(stepped.has_come_round());
+        CHECK_FALSE(stepped.has_come_round());
+    }
+    Store store(files, options(), clock, reads);
+    record_first(store);
+    CHECK(store.has_come_round());
+    CHECK(eventually([&] { return store.has_come_round(); }));
+    files.does_sync_hang = true;
+    feed(100);
+    REQUIRE(eventually([&] { return files.hanging == 1; }));
+    for (int i = 0; i < 3; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        CHECK(store.has_come_round());
+    }
+    files.does_sync_hang = false;
+    CHECK(store.stop());
+}
+
 TEST_CASE_METHOD(Rig, "after a failed sync its samples are called journaled when written again",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
