@@ -1,6 +1,8 @@
 #include "protocol/record/event_log.hpp"
 
 #include <catch2/catch.hpp>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 #include "tests/unit/record/file_bytes.hpp"
@@ -205,6 +207,26 @@ TEST_CASE("an occupation without a stop is known as running", "[record][event_lo
     CHECK(running_site({start("09:00", "A"), stop("09:10"), start("09:20", "B")}) == "B");
     CHECK_FALSE(running_site({start("09:00", "A"), stop("09:10")}).has_value());
     CHECK_FALSE(running_site({start("09:00", "A"), event_of("discard", "09:05")}).has_value());
+}
+
+TEST_CASE("the reference log has the occupations worked out by hand", "[record][event_log]") {
+    const std::filesystem::path golden = A351_GOLDEN "/events";
+    const EventLog log = read_events(golden);
+    CHECK(log.events.size() == 16);
+    REQUIRE(log.damage.size() == 1);
+    CHECK(log.damage[0].line == 9);
+    std::string rows = "site,number,setup,start_utc,end_utc,note\n";
+    for (const Occupation& occupation : occupations_of(log.events)) {
+        int number = 0;
+        for (const auto& set_up : occupation.set_ups) {
+            rows += occupation.site + ',' + std::to_string(occupation.number) + ',' +
+                    std::to_string(++number) + ',' + to_rfc3339(set_up.start, 9) + ',' +
+                    to_rfc3339(set_up.end, 9) + ',' + occupation.note + '\n';
+        }
+    }
+    std::ifstream expected(golden / "occupations.csv");
+    CHECK(rows == std::string(std::istreambuf_iterator<char>(expected), {}));
+    CHECK(running_site(log.events) == "No.9");
 }
 
 }  // namespace a351::record
