@@ -179,14 +179,40 @@ std::string brief(const Status& status) {
                                   : status.link_state + "; " + status.reasons.front();
 }
 
+/// The verdict's own gap is instrument time too, and must not be shorter than a pause of the host.
+VerdictOptions thresholds_of(const Config& config, const HostClock& clock) {
+    VerdictOptions options = config.verdict;
+    const std::chrono::duration<double> shortest = clock.instrument_span(kShortestRealStale);
+    options.gap_s = std::max(options.gap_s, shortest.count());
+    return options;
+}
+
+Occupations::Options occupation_options(const Config& config) {
+    return {.planned = config.survey.planned, .target = MilliGal(config.verdict.target_mgal)};
+}
+
+/// What SIGHUP asks for: sites, planned length and thresholds.  A file that is refused changes
+/// nothing.
+void reload(const std::filesystem::path& config_file, const HostClock& clock, spdlog::logger& log,
+            LiveRecord& live, Occupations& occupations, Server& page) {
+    try {
+        const Config fresh = read_config(config_file);
+        live.judge_by(thresholds_of(fresh, clock));
+        page.post([&occupations, sites = fresh.survey.sites, options = occupation_options(fresh)] {
+            occupations.use(sites, options);
+        });
+        log.info("SIGHUP: [verdict], sites and occupation_min are those of the file now");
+    } catch (const std::exception& error) {
+        log.error("SIGHUP: nothing was changed: {}", error.what());
+    }
+}
+
 ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log,
                const sigset_t& signals, StatusLog& status_log) {
     ServiceNotice notice = ServiceNotice::from_environment();
     ReadQueue reads;
-    VerdictOptions verdict = config.verdict;
-    const std::chrono::duration<double> shortest = clock.instrument_span(kShortestRealStale);
-    verdict.gap_s = std::max(verdict.gap_s, shortest.count());
-    LiveRecord live(*config.sensor.profile, config.sensor.settings.output_rate_hz, verdict);
+    LiveRecord live(*config.sensor.profile, config.sensor.settings.output_rate_hz,
+                    thresholds_of(config, clock));
     std::atomic<bool> is_recovered{false};
     Store store(record::posix_files(),
                 {.root = config.storage.root,
@@ -217,15 +243,13 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
         });
     }
     const std::filesystem::path events = config.storage.root / "events";
-    Occupations occupations(
-        store, config.survey.sites, record::read_events(events).events,
-        {.planned = config.survey.planned, .target = MilliGal(config.verdict.target_mgal)});
+    Occupations occupations(store, config.survey.sites, record::read_events(events).events,
+                            occupation_options(config));
     Server page(
         {.listen = config.page.listen, .hosts = config.page.hosts, .token = config.page.token},
         {.status = [&] { return snapshot(config, clock, link, oven, store, live); },
          .occupations = occupations,
          .live = live,
-         .sites = config.survey.sites,
          .latitude = config.station.latitude,
          .longitude = config.station.longitude,
          .events = [&] { return record::read_events(events).events; },
@@ -246,7 +270,7 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
         const Status status = snapshot(config, clock, link, oven, store, live);
         status_log.note(status, std::chrono::steady_clock::now());
         notice.beat(store.has_come_round(), brief(status));
-        if (signal == SIGHUP) log.warn("SIGHUP: no key can be reloaded in this version");
+        if (signal == SIGHUP) reload(config.file, clock, log, live, occupations, page);
         if (signal == SIGINT || signal == SIGTERM) break;
     }
     log.info("stopping");

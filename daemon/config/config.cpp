@@ -269,6 +269,7 @@ std::optional<UsbAddress> parse_usb_address(std::string_view text) {
 Config read_config(const std::filesystem::path& file) {
     TomlTable root = text::read_toml(file);
     Config config;
+    config.file = file;
     config.station = read_station(root.table("station"));
     config.sensor = read_sensor(root.table("sensor"), config.station.codes);
     config.oven = read_oven(root.table("oven"), config.sensor.address);

@@ -56,6 +56,7 @@ struct SurveyConfig {
 };
 
 struct Config {
+    std::filesystem::path file;  ///< It was read from.
     StationConfig station;
     SensorConfig sensor;
     std::optional<OvenLinkOptions> oven;  ///< Absent unless enabled.

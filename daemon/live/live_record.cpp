@@ -92,6 +92,13 @@ std::vector<OvenPoint> LiveRecord::oven_history(UtcTime from, UtcTime to,
     return found;
 }
 
+void LiveRecord::judge_by(const VerdictOptions& options) {
+    const std::lock_guard lock(mutex_);
+    options_ = options;
+    judge_ = VerdictJudge(options);
+    for (const LiveSample& sample : thinned_) judge_.take(sample);
+}
+
 Verdict LiveRecord::verdict(UtcTime now) {
     const std::lock_guard lock(mutex_);
     return judge_.at(now);

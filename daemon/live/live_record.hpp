@@ -56,6 +56,9 @@ public:
     [[nodiscard]] std::vector<OvenPoint> oven_history(UtcTime from, UtcTime to,
                                                       std::size_t points) const;
 
+    /// By other thresholds from now on, what is remembered judged anew.
+    void judge_by(const VerdictOptions& options);
+
     /// What is to be told now, be there samples or not.
     [[nodiscard]] Verdict verdict(UtcTime now);
 

@@ -126,12 +126,13 @@ Response Api::sites_around() const {
     const auto list = sources_.occupations.list();
     const auto& running = sources_.occupations.running();
     const std::string last = running ? running->site : list.empty() ? "" : list.back().site;
-    if (const auto* site = text::find_site(sources_.sites, last); site && site->is_placed) {
+    if (const auto* site = text::find_site(sources_.occupations.sites(), last);
+        site && site->is_placed) {
         latitude = site->latitude;
         longitude = site->longitude;
     }
     json sites = json::array();
-    for (const auto& one : nearest_first(sources_.sites, latitude, longitude))
+    for (const auto& one : nearest_first(sources_.occupations.sites(), latitude, longitude))
         sites.push_back(to_json(one));
     return ok({{"sites", sites}});
 }

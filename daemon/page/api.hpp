@@ -37,7 +37,6 @@ struct ApiSources {
     std::function<Status()> status;
     Occupations& occupations;
     LiveRecord& live;
-    std::vector<text::Site> sites = {};
     Degrees latitude = {}, longitude = {};               ///< Of the base, where a day begins.
     std::function<std::vector<record::Event>()> events;  ///< The whole event log, in file order.
     std::filesystem::path assets = {};  ///< The page's files; empty: those compiled in.

@@ -88,6 +88,8 @@ public:
         thread_ = std::thread([this] { io_.run(); });
     }
 
+    void post(std::function<void()> task) { asio::post(io_, std::move(task)); }
+
     void stop() noexcept {
         io_.stop();
         if (thread_.joinable()) thread_.join();
@@ -247,6 +249,7 @@ Server::Server(const ServerOptions& options, ApiSources sources)
 Server::~Server() = default;
 
 void Server::start() { impl_->start(); }
+void Server::post(std::function<void()> task) { impl_->post(std::move(task)); }
 void Server::stop() noexcept { impl_->stop(); }
 std::uint16_t Server::port() const noexcept { return impl_->port_; }
 const std::vector<std::string>& Server::addresses() const noexcept { return impl_->addresses_; }

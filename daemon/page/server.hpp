@@ -4,7 +4,6 @@
 ///
 ///     Server server({.listen = page.listen, .hosts = page.hosts, .token = page.token},
 ///                   {.status = [&] { return ...; }, .occupations = occupations, .live = live,
-///                    .sites = sites,
 ///                    .events = [&] { return record::read_events(root / "events").events; }});
 ///     for (const auto& address : server.addresses()) log->info("page at http://{}", address);
 ///     server.start();
@@ -16,6 +15,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -46,6 +46,9 @@ public:
     ~Server();
 
     void start();
+    /// Has the server's thread do it, between two requests: that owns the occupations.
+    void post(std::function<void()> task);
+
     void stop() noexcept;  ///< Ends after the request at hand; open connections are closed.
 
     [[nodiscard]] std::uint16_t port() const noexcept;

@@ -57,7 +57,7 @@ struct Status {
     int output_rate_hz = 0;
     bool is_profile_verified = false;
     std::string calibrated_serial_number;  ///< Of the calibration in use; empty: there is none.
-    bool is_device_assumed = false;  ///< Its stream was adopted: it could not be asked.
+    bool is_device_assumed = false;        ///< Its stream was adopted: it could not be asked.
 
     std::array<StandardGravity, 3> acceleration{};
     DegC temperature;

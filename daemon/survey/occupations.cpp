@@ -61,7 +61,7 @@ std::string named(const record::Occupation& occupation) {
 
 Occupations::Occupations(Recorder& recorder, std::vector<text::Site> sites,
                          std::vector<record::Event> events, const Options& options)
-    : recorder_(recorder), options_(options), target_(options.target), sites_(std::move(sites)) {
+    : recorder_(recorder), options_(options), sites_(std::move(sites)) {
     events_.reserve(events.size());
     for (auto& event : events) {
         follow(event);
@@ -222,6 +222,11 @@ Outcome Occupations::set_target(MilliGal target) {
                   "good enough is a standard error of " + std::string(text.data(), end) + " mGal");
 }
 
+void Occupations::use(std::vector<text::Site> sites, const Options& options) {
+    sites_ = std::move(sites);
+    options_ = options;
+}
+
 std::vector<record::Occupation> Occupations::list() const {
     return record::occupations_of(events_);
 }
@@ -263,7 +268,7 @@ void Occupations::follow(const record::Event& event) {
                                      event.index,
                                      {detail(event, "operator"), detail(event, "note")}};
     } else if (event.type == "target") {
-        target_ = target_of(event).value_or(target_);
+        if (const auto target = target_of(event)) target_ = target;
     } else if (running_) {
         if (event.type == "stop" || event.type == "discard") running_.reset();
         if (event.type == "setup") running_->set_ups.push_back(event.utc);

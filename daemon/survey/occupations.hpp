@@ -77,8 +77,13 @@ public:
 
     /// The standard error with which a reading is good enough, from now on: 0.01 to 1000 mGal.
     Outcome set_target(MilliGal target);
-    [[nodiscard]] MilliGal target() const noexcept { return target_; }
+    [[nodiscard]] MilliGal target() const noexcept { return target_.value_or(options_.target); }
     [[nodiscard]] Nanoseconds planned() const noexcept { return options_.planned; }
+
+    /// Other sites to start at, another planned length and another target, unless the operator has
+    /// set one.
+    void use(std::vector<text::Site> sites, const Options& options);
+    [[nodiscard]] const std::vector<text::Site>& sites() const noexcept { return sites_; }
 
     /// Finished ones, as record::occupations_of() reads them from the log.
     [[nodiscard]] std::vector<record::Occupation> list() const;
@@ -103,7 +108,7 @@ private:
 
     Recorder& recorder_;
     Options options_;
-    MilliGal target_;
+    std::optional<MilliGal> target_;  ///< As the operator set it.
     std::vector<text::Site> sites_;
     std::vector<record::Event> events_;
     std::optional<RunningOccupation> running_;

@@ -50,6 +50,15 @@ with Scratch() as scratch:
     demand("a lesser target is", session.status()["occupation"]["reading"]["is_good_enough"])
     wait_for("a further set-up is proposed", lambda: session.status()["occupation"]["propose_set_up"], 30)
 
+    config = scratch / "a351d.toml"
+    given = config.read_text()
+    for text, expected in ((given + "[verdict]\nslope_degc_per_h = 0.001\n", "settling"), ("broken", "settling"),
+                           (given, "stable")):
+        config.write_text(text)
+        session.daemon.send_signal(signal.SIGHUP)
+        wait_for(f"{expected} by the thresholds that SIGHUP brought", lambda: state(session) == expected, 10)
+    demand("SIGHUP names what it refused", "a351d.toml:1: " in (scratch / "a351d.log").read_text())
+
     for how in (signal.SIGKILL, signal.SIGTERM):
         used_s = session.status()["occupation"]["reading"]["used_s"]
         session.daemon.send_signal(how)

@@ -56,7 +56,6 @@ struct FakeDaemon {
                   {.status = [this] { return status; },
                    .occupations = occupations,
                    .live = live,
-                   .sites = two_sites(),
                    .events = [this] { return recorder.log; }}};
 };
 

@@ -21,7 +21,6 @@ std::string metrics_of(const Status& status, const PageUse& use = {}) {
     Api api({.status = [&] { return status; },
              .occupations = occupations,
              .live = live,
-             .sites = {},
              .events = [] { return std::vector<record::Event>{}; }},
             "");
     api.use() = use;

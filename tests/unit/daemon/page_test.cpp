@@ -61,7 +61,6 @@ struct Page {
     Api api{{.status = [this] { return status; },
              .occupations = occupations,
              .live = live,
-             .sites = two_sites(),
              .events = [this] { return recorder.log; }},
             kToken};
 
@@ -437,7 +436,6 @@ TEST_CASE("the token is handed out only when the interface may", "[daemon][page]
     Api exposed({.status = [] { return Status{}; },
                  .occupations = page.occupations,
                  .live = page.live,
-                 .sites = {},
                  .events = [] { return std::vector<record::Event>{}; }},
                 "");
     CHECK(exposed.answer(get("/api/token")).status == 403);
@@ -448,7 +446,6 @@ TEST_CASE("an exception of a source is a server error and is counted", "[daemon]
     Api broken({.status = []() -> Status { throw std::runtime_error("no status"); },
                 .occupations = page.occupations,
                 .live = page.live,
-                .sites = {},
                 .events = []() -> std::vector<record::Event> { throw 1; }},
                "");
     CHECK(broken.answer(get("/api/status")).status == 500);

@@ -34,7 +34,6 @@ struct Served {
                     },
                 .occupations = occupations,
                 .live = live,
-                .sites = two_sites(),
                 .events = [] { return std::vector<record::Event>{}; }};
     }
 

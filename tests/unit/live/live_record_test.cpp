@@ -129,6 +129,13 @@ TEST_CASE("the record tells verdict and reading of what it was given", "[live]")
     CHECK(reading.used_s == Approx(1172.0).margin(2.0));
     CHECK(reading.is_good_enough);
     CHECK(record.verdict(after(2420.0)).state == VerdictState::no_data);
+
+    VerdictOptions strict;
+    strict.history_min = 120.0;
+    record.judge_by(strict);
+    CHECK(record.verdict(after(2400.0)).state == VerdictState::settling);
+    record.judge_by({});
+    CHECK(record.verdict(after(2400.0)).state == VerdictState::stable);
 }
 
 TEST_CASE("tilt is told against a set-up, and which side to turn", "[live][level]") {
