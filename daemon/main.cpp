@@ -16,6 +16,7 @@
 #include <string>
 
 #include "daemon/config/config.hpp"
+#include "daemon/config/recorded_settings.hpp"
 #include "daemon/live/archived_past.hpp"
 #include "daemon/page/server.hpp"
 #include "daemon/page/status.hpp"
@@ -66,37 +67,6 @@ void print_ports() {
                     port.by_id.empty() ? "-" : port.by_id.c_str(),
                     port.usb ? port.usb->to_text().c_str() : "-");
     }
-}
-
-record::JournalHeader header_of(const Config& config, const HostClock& clock) {
-    record::JournalHeader header;
-    header.boot_id = clock.boot_id();
-    header.program_version = A351_VERSION;
-    header.codes = config.station.codes;
-    header.profile = config.sensor.profile->name;
-    header.output_rate_hz = config.sensor.settings.output_rate_hz;
-    header.filter = config.sensor.filter;
-    header.burst_ctrl = config.sensor.settings.layout.burst_ctrl();
-    header.baud = config.sensor.baud;
-    header.declared_rate_hz = config.storage.declared_rate_hz;
-    if (config.oven) header.oven_interval = archived_interval(*config.oven, clock);
-    return header;
-}
-
-record::StationDescription station_of(const Config& config) {
-    const SensorConfig& sensor = config.sensor;
-    record::StationDescription station;
-    station.codes = config.station.codes;
-    station.latitude = config.station.latitude;
-    station.longitude = config.station.longitude;
-    station.elevation = config.station.elevation;
-    station.profile = sensor.profile->name;
-    station.is_profile_verified = sensor.profile->is_verified;
-    station.output_rate_hz = sensor.settings.output_rate_hz;
-    station.filter = sensor.filter;
-    station.group_delay = sensor.profile->group_delay(*sensor.profile->filter_named(sensor.filter));
-    station.has_oven = config.oven.has_value();
-    return station;
 }
 
 PlacedSample placed(const record::Sample& sample, UtcTime time) {
@@ -216,7 +186,7 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
     std::atomic<bool> is_recovered{false};
     Store store(record::posix_files(),
                 {.root = config.storage.root,
-                 .station = station_of(config),
+                 .station = station_description(config),
                  .keeper = {.keep_days = config.storage.journal_keep_days},
                  .recovered =
                      [&](const auto& report) {
@@ -232,7 +202,7 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
                      .profile = config.sensor.profile,
                      .settings = config.sensor.settings,
                      .expected_serial_number = config.sensor.serial_number,
-                     .header = header_of(config, clock),
+                     .header = journal_header(config, clock),
                      .known = store.known_stream()},
                     clock, reads);
     std::optional<OvenLink> oven;
