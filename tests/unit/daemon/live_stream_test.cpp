@@ -51,11 +51,11 @@ std::int64_t read_up_to(const RawViewer& viewer, std::int64_t first, std::int64_
     return expected - first;
 }
 
-/// Numbered samples at 1000 Hz; @return `last`.
-std::int64_t take_milliseconds(Served& served, std::int64_t first, std::int64_t last) {
+/// Numbered samples; @return `last`.
+std::int64_t take_every(milliseconds step, Served& served, std::int64_t first, std::int64_t last) {
     for (std::int64_t index = first; index < last; ++index) {
         auto sample = numbered_sample(index);
-        sample.time = kMorning + index * milliseconds(1);
+        sample.time = kMorning + index * step;
         served.live.take(sample);
     }
     return last;
@@ -113,7 +113,7 @@ TEST_CASE("the past of a stream is 60 s", "[daemon][live]") {
 
 TEST_CASE("a past larger than a message comes in several", "[daemon][live]") {
     Served served({}, 1000);
-    take_milliseconds(served, 0, 60'000);
+    take_every(milliseconds(1), served, 0, 60'000);
     const RawViewer viewer(served);
     int messages = 0;
     for (std::int64_t expected = 0; expected < 60'000; ++messages) {
@@ -214,25 +214,26 @@ TEST_CASE("samples reach a viewer soon after they were taken", "[daemon][live]")
 
 TEST_CASE("a viewer that does not read misses messages, holds up nobody and costs little memory",
           "[daemon][live]") {
-    constexpr int kRate = 1000;
-    constexpr std::int64_t kBurst = 50'000;  // 0.8 MB, as of a day at 1000x.
+    constexpr int kRate = 200;
+    constexpr milliseconds kInterval(5);
+    constexpr std::int64_t kBurst = 16'000;  // 256 KiB in four messages; the record keeps 18 000.
+    constexpr int kBursts = 40;              // 10 MB.
     ServerOptions options;
     options.stream_patience = std::chrono::minutes(1);
     Served served(options, kRate);
     const RawViewer reader(served), stuck(served);
-    stuck.client().keep_few();
     std::int64_t taken = 0, read = 0;
     double before_mb = 0.0;
-    for (int i = 0; i < 22; ++i) {
-        if (i == 2) before_mb = resident_mb();  // The record is full: 90 s.
-        taken = take_milliseconds(served, taken, taken + kBurst);
+    for (int i = 0; i < kBursts; ++i) {
+        if (i == 8) before_mb = resident_mb();  // Record and messages are full by then.
+        taken = take_every(kInterval, served, taken, taken + kBurst);
         read += read_up_to(reader, read, taken);
     }
     const double grown_mb = resident_mb() - before_mb;
     const double dropped = metric(served, "a351_page_messages_dropped_total");
     std::cout << read << " samples to the one that reads; " << dropped
               << " messages not sent to the other; memory grew by " << grown_mb << " MB\n";
-    CHECK(read == 22 * kBurst);
+    CHECK(read == kBursts * kBurst);
     CHECK(metric(served, "a351_page_streams") == 2);
     CHECK(dropped == 0);  // Missed ones count when it reads on.
     CHECK(grown_mb < 4.0);
@@ -254,13 +255,12 @@ TEST_CASE("viewers that take or answer nothing are left", "[daemon][live]") {
     const RawViewer reader(served);
     const RawViewer mute(served);    // Answers no ping.
     const RawViewer talker(served);  // Talks on without ever reading.
-    talker.client().keep_few();
     std::int64_t at = 0;
     const auto begin = std::chrono::steady_clock::now();
     double streams = 3;
     while (streams > 1 && std::chrono::steady_clock::now() - begin < std::chrono::seconds(30)) {
         talker.send(RawViewer::text, "hm");
-        take_milliseconds(served, at, at + 10'000);
+        take_every(milliseconds(1), served, at, at + 10'000);
         at += read_up_to(reader, at, at + 10'000);
         streams = metric(served, "a351_page_streams");
     }

@@ -54,12 +54,6 @@ public:
         return received;
     }
 
-    /// Bytes that the kernel keeps for a client that does not read; before anything comes.
-    void keep_few() const {
-        const int few = 4096;
-        ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &few, sizeof few);
-    }
-
     /// Everything up to the end of the connection; 20 s at most, so that a failure ends, too.
     std::string rest() const {
         std::string received;

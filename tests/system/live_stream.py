@@ -1,0 +1,63 @@
+"""A client of the daemon's live stream on bare sockets (RFC 6455, and daemon/page/live_message.hpp for the blocks)."""
+
+import base64
+import collections
+import os
+import socket
+import struct
+
+TEXT, BINARY, CLOSE, PING, PONG = 1, 2, 8, 9, 10
+Block = collections.namedtuple("Block", "first_index time_ms interval_ms channels")
+
+
+def open_stream(port, receive_buffer=None):
+    """A socket on which the stream has begun.
+    @raise ConnectionError  the daemon answers otherwise; says how."""
+    connection = socket.socket()
+    if receive_buffer:
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_buffer)
+    connection.settimeout(20)
+    connection.connect(("127.0.0.1", port))
+    key = base64.b64encode(os.urandom(16)).decode()
+    connection.sendall(f"GET /live HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nOrigin: http://127.0.0.1:{port}\r\n"
+                       f"Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+                       f"Sec-WebSocket-Key: {key}\r\n\r\n".encode())
+    head = b""
+    while not head.endswith(b"\r\n\r\n"):
+        byte = connection.recv(1)
+        if not byte:
+            raise ConnectionError(f"the daemon closed after {head!r}")
+        head += byte
+    if not head.startswith(b"HTTP/1.1 101 "):
+        raise ConnectionError(head.split(b"\r\n")[0].decode())
+    return connection
+
+
+def messages(connection):
+    """Kind and payload of each text and binary message, up to the end of the stream; pings are answered."""
+    with connection.makefile("rb") as stream:
+        while True:
+            head = stream.read(2)
+            if len(head) < 2:
+                return
+            size = head[1]
+            if size == 126:
+                size, = struct.unpack(">H", stream.read(2))
+            elif size == 127:
+                size, = struct.unpack(">Q", stream.read(8))
+            payload = stream.read(size)
+            kind = head[0] & 15
+            if kind == CLOSE or len(payload) < size:
+                return
+            if kind == PING:
+                connection.sendall(bytes([0x80 | PONG, 0x80 | size]) + bytes(4) + payload)
+            else:
+                yield kind, payload
+
+
+def block(payload):
+    version, kind, mask, count, first_index, time_ms, interval_ms = struct.unpack_from("<BBHIqdd", payload)
+    if (version, kind, mask) != (1, 1, 15) or len(payload) != 32 + 16 * count:
+        raise ValueError(f"no block of four channels: {payload[:32].hex()}, {len(payload)} bytes")
+    values = struct.unpack_from(f"<{4 * count}i", payload, 32)
+    return Block(first_index, time_ms, interval_ms, [values[i * count:(i + 1) * count] for i in range(4)])
