@@ -43,7 +43,7 @@ def occupation(site="No.5", **changes):
 
 def finished(site, number=1, hours_ago=1.0, **changes):
     begin = time.time() - 3600 * hours_ago
-    return {"site": site, "number": number, "note": "", "used": None, "discarded": False,
+    return {"site": site, "number": number, "note": "", "used": None,
             "set_ups": [{"start": rfc3339(begin), "end": rfc3339(begin + 660)}], "reading": reading(0.42), **changes}
 
 

@@ -67,10 +67,12 @@ def show_lost(stub, browser):
     browser.click("#target-form button")
     browser.wait_for_text("answer", "Not done: the daemon does not answer")
     time.sleep(3.0)
+    stub.sites = [{**stub.sites[0], "site": "elsewhere"}]
     stub.is_away = False
     took = browser.wait_for("the page is back by itself", lambda: browser.text("banner") == "", seconds=10.0)
     demand(f"within 8 s, the longest pause between attempts: {took:.1f} s", took < 9.0)
-    browser.wait_for_text("health-rows", "lost 1 times")
+    browser.wait_for_text("health-rows", "connections lost: 1")
+    browser.wait_for("the sites of the daemon that came back are offered", lambda: "elsewhere" in browser.text("start-site"))
 
 
 def metrics(browser):

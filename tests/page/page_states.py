@@ -109,14 +109,14 @@ def show_level(stub, browser):
 
 def show_day(stub, browser):
     stub.occupations = [finished("No.0", hours_ago=30), finished("No.0", hours_ago=3, note="windy"),
-                        finished("No.1", hours_ago=2, discarded=True, reading=None),
+                        finished("No.1", hours_ago=2, reading=None),
                         finished("No.1", hours_ago=1, set_ups=finished("x")["set_ups"] * 2)]
     stub.status["occupation"] = None
     browser.wait_for("the three occupations of the last 24 h are listed",
                      lambda: len(browser.text("day-rows").splitlines()) == 3)
     rows = browser.text("day-rows").splitlines()
-    demand(f"newest first, and set-ups, discarded and note are told: {rows}",
-           "2 set-ups" in rows[0] and "discarded" in rows[1] and "windy" in rows[2] and "± 0.42" in rows[2])
+    demand(f"newest first, with set-ups, note and what is known of the value: {rows}",
+           "2 set-ups" in rows[0] and "–" in rows[1] and "windy" in rows[2] and "± 0.42" in rows[2])
     browser.find("#start-site").send_keys("No.0")
     browser.wait_for_text("start-warning", "was occupied at")
     browser.shot("day-1366")

@@ -1,14 +1,15 @@
 // Questions and orders to the daemon.
 
 import { by_id, show } from "./dom.js";
+import { recalled, remember } from "./memory.js";
 
 // Beyond loopback the page does not bring it: the operator types it in.
-let token = document.querySelector('meta[name="a351-token"]').content || sessionStorage.getItem("token") || "";
+let token = document.querySelector('meta[name="a351-token"]').content || recalled("token");
 
 by_id("token-form").addEventListener("submit", (event) => {
     event.preventDefault();
     token = by_id("token").value;
-    sessionStorage.setItem("token", token);
+    remember("token", token);
     show("token-form", false);
 });
 
@@ -20,7 +21,8 @@ async function asked(path, options) {
         throw new Error("the daemon does not answer");
     }
     const body = await reply.json().catch(() => ({}));
-    return { is_forbidden: reply.status === 403, trouble: reply.ok ? null : body.error ?? `status ${reply.status}`, body };
+    const trouble = reply.ok ? null : body.error ?? `the daemon answers ${reply.status}`;
+    return { is_forbidden: reply.status === 403, trouble, body };
 }
 
 /** @throws Error with a line for the operator. */

@@ -173,7 +173,8 @@ export class Charts {
         const rows = envelope_rows(points, 1000 * history.interval_s, is_axis ? kMgalPerMg : 1, is_axis ? mean : 0);
         this.update(name, ["UTC", name], true, rows, from_ms, to_ms);
         set_text(`caption-${name}`, is_axis
-            ? `${name}: mean ${number(mean, 3)} mg, ${range_text(kMgalPerMg * (low - mean), kMgalPerMg * (high - mean))}`
+            ? `${name}: mean ${number(mean, 3)} mg, ` +
+                range_text(kMgalPerMg * (low - mean), kMgalPerMg * (high - mean))
             : `sensor: ${number(low, 3)} to ${number(high, 3)} °C`);
     }
 

@@ -1,6 +1,7 @@
 // Texts into the document.  Only text nodes are made, never markup.
 
 const found = new Map();
+const listed = new Map(); // What each list shows.
 
 /** The element of that id; all of them are in index.html from the start. */
 export function by_id(id) {
@@ -27,9 +28,8 @@ export function make(tag, text, class_name = "") {
 
 /** Items of a list; [text, class] each. */
 export function set_items(id, items) {
-    const list = by_id(id);
     const key = JSON.stringify(items);
-    if (list.dataset.shown === key) return;
-    list.dataset.shown = key;
-    list.replaceChildren(...items.map(([text, class_name]) => make("li", text, class_name)));
+    if (listed.get(id) === key) return;
+    listed.set(id, key);
+    by_id(id).replaceChildren(...items.map(([text, class_name]) => make("li", text, class_name)));
 }

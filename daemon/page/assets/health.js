@@ -59,7 +59,7 @@ export function show_health(status, page) {
         ["Disk", `${volume(disk.free_bytes)} free, reserve ${kReserve[disk.reserve] ?? disk.reserve}, ` +
             `longest sync ${disk.longest_sync_ms} ms`],
         ["Page", `drawn in ${number(page.redraw_ms, 1)} ms, at most ${number(page.longest_redraw_ms, 1)} ms; ` +
-            `connected for ${duration(page.connected_s)}, lost ${page.losses} times`],
+            `connected for ${duration(page.connected_s)}, connections lost: ${page.losses}`],
         ["Version", `a351d ${status.version}, interface ${status.api}`],
     ];
     const list = by_id("health-rows");

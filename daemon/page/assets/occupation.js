@@ -3,6 +3,7 @@
 import { get, post } from "./api.js";
 import { by_id, make, set_items, set_text, show } from "./dom.js";
 import { duration, number, time_of_day, visible } from "./format.js";
+import { recalled, remember } from "./memory.js";
 
 const kDay_ms = 24 * 3600 * 1000;
 
@@ -26,7 +27,7 @@ export class OccupationPanel {
         this.last_key = null; // Of the occupation that lists were last read for.
         this.target_mgal = null;
         this.now_ms = 0;
-        by_id("start-operator").value = localStorage.getItem("operator") ?? "";
+        by_id("start-operator").value = recalled("operator");
         this.listen();
     }
 
@@ -55,13 +56,18 @@ export class OccupationPanel {
         by_id("rename-no").addEventListener("click", () => by_id("rename").close());
     }
 
+    /** The daemon may be another now, with other sites. */
+    forget_lists() {
+        this.last_key = null;
+    }
+
     /** An order to the daemon; its answer is shown whatever it is.  @return whether it was done. */
     async order(path, body) {
         by_id("answer").classList.remove("error");
         set_text("answer", "…");
         try {
             set_text("answer", visible((await post(path, body)).message));
-            this.last_key = null;
+            this.forget_lists();
             return true;
         } catch (error) {
             by_id("answer").classList.add("error");
@@ -78,7 +84,7 @@ export class OccupationPanel {
         const site = this.chosen("start");
         if (!site) return;
         const operator = by_id("start-operator").value;
-        localStorage.setItem("operator", operator.slice(0, 1000));
+        remember("operator", operator);
         if (await this.order("/api/occupation/start", { site, operator, note: by_id("start-note").value })) {
             by_id("start-site").value = by_id("start-name").value = by_id("start-note").value = "";
         }
@@ -101,7 +107,7 @@ export class OccupationPanel {
 
     /** The occupation that discard and rename speak of: the running one, else the last. */
     meant() {
-        return this.running ?? this.list.findLast((one) => !one.discarded);
+        return this.running ?? this.list.at(-1);
     }
 
     ask_discard() {
@@ -133,8 +139,8 @@ export class OccupationPanel {
             const [sites, list] = await Promise.all([get("/api/sites"), get("/api/occupations")]);
             this.sites = sites.sites;
             this.list = list.occupations;
-        } catch (error) {
-            this.last_key = null; // Asked again with the next status.
+        } catch {
+            this.forget_lists(); // Asked again with the next status.
             return;
         }
         for (const kind of ["start", "rename"]) this.fill_sites(kind);
@@ -162,7 +168,7 @@ export class OccupationPanel {
 
     warn_of_repeat() {
         const site = this.chosen("start");
-        const before = site ? this.today().filter((one) => one.site === site && !one.discarded) : [];
+        const before = site ? this.today().filter((one) => one.site === site) : [];
         show("start-warning", before.length > 0);
         if (before.length) {
             set_text("start-warning", `This site was occupied at ${before
@@ -179,12 +185,10 @@ export class OccupationPanel {
         by_id("day-rows").replaceChildren(...today.map((one) => {
             const row = document.createElement("tr");
             const seconds = one.set_ups.reduce((sum, s) => sum + (Date.parse(s.end) - Date.parse(s.start)) / 1000, 0);
-            const remark = [one.discarded && "discarded", one.used === false && "not used",
-                one.set_ups.length > 1 && `${one.set_ups.length} set-ups`, visible(one.note)].filter(Boolean).join("; ");
-            if (one.discarded) row.className = "discarded";
+            const remark = [one.set_ups.length > 1 && `${one.set_ups.length} set-ups`, visible(one.note)];
             row.append(make("td", `${visible(one.site)} (${one.number})`, "foreign"),
                 make("td", time_of_day(one.set_ups[0].start)), make("td", duration(seconds)),
-                make("td", reading_text(one.reading)), make("td", remark, "foreign"));
+                make("td", reading_text(one.reading)), make("td", remark.filter(Boolean).join("; "), "foreign"));
             return row;
         }));
         show("day-empty", today.length === 0);
@@ -192,7 +196,7 @@ export class OccupationPanel {
     }
 
     show_last_buttons() {
-        show("last-buttons", !this.running && this.list.some((one) => !one.discarded));
+        show("last-buttons", !this.running && this.list.length > 0);
     }
 
     /** @param status  the daemon's, whole. */

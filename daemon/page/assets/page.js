@@ -34,6 +34,7 @@ const stream = {
         connected_at_ms = performance.now();
         newest_ms = null;
         minute.clear();
+        panel.forget_lists();
     },
     lost() {
         if (is_connected) ++page.losses;
