@@ -1,0 +1,70 @@
+#pragma once
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "daemon/page/api.hpp"
+#include "tests/unit/daemon/fake_recorder.hpp"
+
+namespace a351::daemon {
+
+using nlohmann::json;
+
+inline const std::string kToken = "0123456789abcdef0123456789abcdef";
+
+inline Request get(const std::string& target) {
+    return {"GET", target, {{"Host", "127.0.0.1:8351"}}, ""};
+}
+
+inline Request post(const std::string& target, const std::string& body = "{}") {
+    return {"POST",
+            target,
+            {{"Host", "127.0.0.1:8351"},
+             {"Content-Type", "application/json"},
+             {"X-A351-Token", kToken}},
+            body};
+}
+
+inline Request with(Request request, const std::string& name, const std::string& value) {
+    std::erase_if(request.headers, [&](const auto& header) { return header.first == name; });
+    request.headers.emplace_back(name, value);
+    return request;
+}
+
+inline Request without(Request request, const std::string& name) {
+    std::erase_if(request.headers, [&](const auto& header) { return header.first == name; });
+    return request;
+}
+
+/// Whether the member at `pointer` is written as `expected`.  Not json's own comparison, each use
+/// of which within CHECK costs the compiler a second.
+inline bool is(const json& whole, const std::string& pointer, const std::string& expected) {
+    const auto found = whole.at(json::json_pointer(pointer)).dump();
+    UNSCOPED_INFO(pointer << " is " << found << ", not " << expected);
+    return found == expected;
+}
+
+/// An interface over a recorder that remembers an hour.
+struct Page {
+    FakeRecorder recorder;
+    Occupations occupations{recorder, two_sites(), {}};
+    LiveRecord live{*wire::find_profile("A351"), 50, {}};
+    Status status;
+    Api api{{.status = [this] { return status; },
+             .occupations = occupations,
+             .live = live,
+             .events = [this] { return recorder.log; }},
+            kToken};
+
+    json ask(const Request& request, int expected = 200) {
+        const auto response = api.answer(request);
+        CAPTURE(request.target, request.body, response.body);
+        CHECK(response.status == expected);
+        auto body = json::parse(response.body);
+        CHECK(body.contains("error") == (expected != 200));
+        return body;
+    }
+};
+
+}  // namespace a351::daemon

@@ -1,0 +1,108 @@
+#include "daemon/page/guard.hpp"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "tests/unit/daemon/asked_page.hpp"
+
+using namespace a351;
+using namespace a351::daemon;
+
+namespace {
+
+int refused_with(const Guard& guard, const Request& request) {
+    const auto response = guard.refuse(request);
+    return response ? response->status : 200;
+}
+
+}  // namespace
+
+TEST_CASE("a Host outside the list is misdirected", "[daemon][page]") {
+    const Guard guard(8351, {"Gravbox", "field.example:80"}, kToken);
+    for (const char* host : {"127.0.0.1:8351", "localhost:8351", "LocalHost:8351", "[::1]:8351",
+                             "gravbox:8351", "GRAVBOX:8351", "field.example:80"}) {
+        CHECK(refused_with(guard, with(get("/"), "Host", host)) == 200);
+    }
+    for (const char* host :
+         {"evil.example:8351", "127.0.0.1", "127.0.0.1:80", "localhost", "localhost:83511", "",
+          "field.example", "gravbox", "127.0.0.1:8351.evil.example", "localhost:8351 "}) {
+        CHECK(refused_with(guard, with(get("/"), "Host", host)) == 421);
+        CHECK(refused_with(guard, with(post("/api/note"), "Host", host)) == 421);
+    }
+    CHECK(refused_with(guard, without(get("/"), "Host")) == 421);
+    auto two = get("/");
+    two.headers.emplace_back("host", "127.0.0.1:8351");
+    CHECK(refused_with(guard, two) == 421);
+}
+
+TEST_CASE("under rebinding Host and Origin agree and are refused all the same", "[daemon][page]") {
+    const Guard guard(8351, {}, kToken);
+    auto request = with(post("/api/note"), "Host", "evil.example:8351");
+    request = with(request, "Origin", "http://evil.example:8351");
+    CHECK(refused_with(guard, request) == 421);
+}
+
+TEST_CASE("a change from a foreign Origin is forbidden", "[daemon][page]") {
+    const Guard guard(8351, {"gravbox"}, kToken);
+    for (const char* origin : {"http://127.0.0.1:8351", "http://localhost:8351",
+                               "http://[::1]:8351", "http://gravbox:8351"}) {
+        CHECK(refused_with(guard, with(post("/api/note"), "Origin", origin)) == 200);
+    }
+    for (const char* origin : {"http://evil.example", "null", "", "https://127.0.0.1:8351",
+                               "http://127.0.0.1:80", "127.0.0.1:8351"}) {
+        CHECK(refused_with(guard, with(post("/api/note"), "Origin", origin)) == 403);
+    }
+}
+
+TEST_CASE("a change needs the token, also without Origin", "[daemon][page]") {
+    const Guard guard(8351, {}, kToken);
+    CHECK(refused_with(guard, post("/api/note")) == 200);
+    CHECK(refused_with(guard, without(post("/api/note"), "X-A351-Token")) == 403);
+    for (const std::string& token : {std::string(), kToken + "0", kToken.substr(1), "x" + kToken,
+                                     std::string(kToken.size(), 'x')}) {
+        CHECK(refused_with(guard, with(post("/api/note"), "X-A351-Token", token)) == 403);
+    }
+    const auto page = with(post("/api/note"), "Origin", "http://127.0.0.1:8351");
+    CHECK(refused_with(guard, without(page, "X-A351-Token")) == 403);
+    auto delete_request = without(post("/api/note"), "X-A351-Token");
+    delete_request.method = "DELETE";
+    CHECK(refused_with(guard, delete_request) == 403);
+}
+
+TEST_CASE("an empty token opens nothing", "[daemon][page]") {
+    const Guard guard(8351, {}, "");
+    CHECK(refused_with(guard, with(post("/api/note"), "X-A351-Token", "")) == 403);
+}
+
+TEST_CASE("a change is application/json, for a form can be sent across sites", "[daemon][page]") {
+    const Guard guard(8351, {}, kToken);
+    for (const char* type : {"application/json", "application/json; charset=utf-8",
+                             "Application/JSON ;charset=utf-8"}) {
+        CHECK(refused_with(guard, with(post("/api/note"), "Content-Type", type)) == 200);
+    }
+    for (const char* type : {"text/plain", "application/x-www-form-urlencoded", "", ";",
+                             "application/json5", "text/plain; application/json"}) {
+        CHECK(refused_with(guard, with(post("/api/note"), "Content-Type", type)) == 403);
+    }
+    CHECK(refused_with(guard, without(post("/api/note"), "Content-Type")) == 403);
+}
+
+TEST_CASE("random tokens have 256 bits and differ", "[daemon][page]") {
+    const auto token = random_token();
+    CHECK(token.size() == 64);
+    CHECK(token.find_first_not_of("0123456789abcdef") == std::string::npos);
+    CHECK(random_token() != token);
+}
+
+TEST_CASE("no header opens the interface to other origins", "[daemon][page]") {
+    std::set<std::string> names;
+    for (const auto& [name, value] : security_headers()) {
+        CHECK_FALSE(name.starts_with("Access-Control"));
+        CHECK(value.find("unsafe") == std::string::npos);
+        names.insert(name);
+    }
+    for (const char* name : {"Content-Security-Policy", "X-Frame-Options", "X-Content-Type-Options",
+                             "Cross-Origin-Resource-Policy", "Cache-Control"}) {
+        CHECK(names.contains(name));
+    }
+}

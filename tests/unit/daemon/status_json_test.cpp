@@ -1,0 +1,152 @@
+#include <limits>
+
+#include "tests/unit/daemon/asked_page.hpp"
+
+using namespace a351;
+using namespace a351::daemon;
+
+TEST_CASE("every fixed field of the status is there before the first sample", "[daemon][page]") {
+    Page page;
+    const auto status = page.ask(get("/api/status"));
+    for (const char* field : {"/api",
+                              "/version",
+                              "/level",
+                              "/session",
+                              "/received",
+                              "/journaled",
+                              "/archived",
+                              "/timing/state",
+                              "/timing/uncertainty_ms",
+                              "/verdict/state",
+                              "/verdict/reasons",
+                              "/occupation",
+                              "/counters/gaps",
+                              "/counters/checksum_errors",
+                              "/counters/bytes_skipped",
+                              "/counters/duplicates",
+                              "/oven",
+                              "/device/port",
+                              "/disk/free_bytes",
+                              "/disk/reserve",
+                              "/disk/longest_sync_ms"}) {
+        CAPTURE(field);
+        CHECK(status.contains(json::json_pointer(field)));
+    }
+    CHECK(is(status, "/level", R"("good")"));
+    CHECK(is(status, "/session", "null"));
+    CHECK(is(status, "/received", "null"));
+    CHECK(is(status, "/occupation", "null"));
+    CHECK(is(status, "/sample", "null"));
+    CHECK(is(status, "/timing/state", R"("unlocked")"));
+    CHECK(is(status, "/verdict/state", R"("no data")"));
+    CHECK(status["verdict"]["reasons"].size() == 1);
+}
+
+TEST_CASE("the status tells of the oven with units, and of a doubtful temperature nothing",
+          "[daemon][page]") {
+    Page page;
+    CHECK(page.ask(get("/api/status"))["oven"] == json{{"state", "disabled"}});
+    page.status.oven =
+        OvenStatus{.state = "answering",
+                   .trouble = "",
+                   .port = "/dev/pts/5",
+                   .values = oven::ControllerValues{DegC(42.5), DegC(43.0), Percent(25.0), 0x0100},
+                   .decimals = 1,
+                   .age = std::chrono::milliseconds(1500),
+                   .is_stale = false,
+                   .polls = {{"answered", 7}, {"bad_crc", 2}}};
+    CHECK(page.ask(get("/api/status"))["oven"] ==
+          json{{"state", "answering"},
+               {"trouble", ""},
+               {"port", "/dev/pts/5"},
+               {"process_value_degc", 42.5},
+               {"set_point_degc", 43.0},
+               {"heating_percent", 25.0},
+               {"status_word", 256},
+               {"has_input_error", false},
+               {"decimals", 1},
+               {"age_s", 1.5},
+               {"is_stale", false},
+               {"polls", {{"answered", 7}, {"bad_crc", 2}}}});
+    page.status.oven->values->process_value.reset();
+    page.status.oven->values->status = oven::kInputError;
+    const auto doubtful = page.ask(get("/api/status"));
+    CHECK(is(doubtful, "/oven/process_value_degc", "null"));
+    CHECK(is(doubtful, "/oven/has_input_error", "true"));
+    page.status.oven->values.reset();
+    page.status.oven->age.reset();
+    const auto silent = page.ask(get("/api/status"));
+    for (const char* field : {"process_value_degc", "set_point_degc", "heating_percent",
+                              "status_word", "has_input_error", "age_s"}) {
+        CHECK(silent["oven"].at(field).is_null());
+    }
+}
+
+TEST_CASE("the status carries values with their units", "[daemon][page]") {
+    Page page;
+    page.status.level = Status::Level::warning;
+    page.status.verdict.state = VerdictState::stable;
+    page.status.reasons = {"disk nearly full"};
+    page.status.now = minute(60) + std::chrono::milliseconds(500);
+    page.status.last_sample = minute(60);
+    page.status.received = 179'999;
+    page.status.journaled = 179'990;
+    page.status.timing_state = timing::TimingState::locked;
+    page.status.timing_uncertainty = std::chrono::microseconds(1500);
+    page.status.measured_rate = {Hertz(50.0005), 0.03, std::chrono::hours(24)};
+    page.status.declared_rate_hz = 50.00025;
+    page.status.rate_advice = "change it";
+    page.status.acceleration = {StandardGravity(0.001), StandardGravity(-0.002),
+                                StandardGravity(0.9993)};
+    page.status.temperature = DegC(31.25);
+    page.status.counters.gaps = 3;
+    page.status.more_counters["reconnects"] = 2;
+    page.occupations.start("No.1", {"M. Ito", "windy"}, minute(50));
+    const auto status = page.ask(get("/api/status"));
+    CHECK(is(status, "/level", R"("warning")"));
+    CHECK(is(status, "/reasons", R"(["disk nearly full"])"));
+    CHECK(is(status, "/received", "179999"));
+    CHECK(is(status, "/timing/state", R"("locked")"));
+    CHECK(is(status, "/timing/uncertainty_ms", "1.5"));
+    CHECK(is(status, "/timing/rate/measured_hz", "50.0005"));
+    CHECK(is(status, "/timing/rate/uncertainty_ppm", "0.03"));
+    CHECK(is(status, "/timing/rate/span_h", "24.0"));
+    CHECK(is(status, "/timing/rate/declared_hz", "50.00025"));
+    CHECK(is(status, "/timing/rate/advice", R"("change it")"));
+    CHECK(is(status, "/verdict/state", R"("stable")"));
+    CHECK(is(status, "/verdict/reasons", "[]"));
+    CHECK(status["sample"]["acceleration_mg"][0].get<double>() == Approx(1.0).epsilon(1e-15));
+    CHECK(status["sample"]["acceleration_mg"][2].get<double>() == Approx(999.3).epsilon(1e-15));
+    CHECK(is(status, "/sample/age_s", "0.5"));
+    CHECK(is(status, "/sample/temperature_degc", "31.25"));
+    CHECK(is(status, "/counters/gaps", "3"));
+    CHECK(is(status, "/counters/reconnects", "2"));
+    CHECK(is(status, "/occupation/site", R"("No.1")"));
+    CHECK(is(status, "/occupation/start", R"("2026-03-14T08:50:00.000Z")"));
+    CHECK(is(status, "/occupation/running_s", "600.5"));
+    CHECK(is(status, "/occupation/index", "3000"));
+    CHECK(is(status, "/occupation/session", '"' + page.recorder.session.to_hex() + '"'));
+}
+
+TEST_CASE("the verdict is no data from 3 s without a sample on", "[daemon][page]") {
+    Page page;
+    page.status.last_sample = minute(1);
+    page.status.verdict.state = VerdictState::stable;
+    page.status.now = minute(1) + std::chrono::seconds(3);
+    CHECK(is(page.ask(get("/api/status")), "/verdict/state", R"("stable")"));
+    page.status.now += Nanoseconds(1);
+    const auto verdict = page.ask(get("/api/status"))["verdict"];
+    CHECK(is(verdict, "/state", R"("no data")"));
+    CHECK(is(verdict, "/reasons", R"(["last sample 3.0 s ago"])"));
+}
+
+TEST_CASE("texts that are not UTF-8 and numbers that are not finite do not break the status",
+          "[daemon][page]") {
+    Page page;
+    page.status.last_sample = page.status.now = minute(1);
+    page.status.temperature = DegC(std::numeric_limits<double>::quiet_NaN());
+    page.status.link_trouble = "read \xff\xfe";
+    const auto status = page.ask(get("/api/status"));
+    CHECK(is(status, "/sample/temperature_degc", "null"));
+    CHECK(is(status, "/device/trouble", "\"read \xEF\xBF\xBD\xEF\xBF\xBD\""));
+}
