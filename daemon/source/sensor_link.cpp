@@ -14,7 +14,6 @@ namespace {
 using std::chrono::ceil;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using std::chrono::steady_clock;
 
 constexpr milliseconds kShortestRealWait{50};
 // Of instrument time.
