@@ -11,7 +11,6 @@
 namespace a351::daemon {
 namespace {
 
-using std::chrono::ceil;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
