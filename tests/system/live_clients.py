@@ -1,32 +1,24 @@
-"""Sixteen clients of the live stream, two of them browsers (where there is one), one stuck and one that comes anew each
-second: the record is untouched, memory bounded, the daemon's cost per viewer small, and what they see is what was sensed,
-soon.
+"""Sixteen clients of the live stream, one of them stuck and one that comes anew each second: the record is untouched,
+memory bounded, the daemon's cost per viewer small, and what they see is what was sensed, soon.
 
 A351_LONG=1: for five minutes; otherwise for a quarter of one."""
 
-import atexit
 import bisect
 import datetime
 import os
 import pathlib
-import re
-import shutil
-import signal
 import statistics
-import subprocess
 import threading
 import time
-import urllib.request
 
-from emulated_session import Session, wait_for
+from emulated_session import Session
 from live_stream import BINARY, TEXT, block, messages, open_stream
 from programs import IS_LONG, IS_SANITIZED, Scratch, demand
 
 COST_S = 30 if IS_LONG else 6  # Of each of the two measurements of CPU time.
 CROWD_S = 300 if IS_LONG else 15  # Longer than the 10 s after which a stuck one is left.
 VIEWERS = 10
-BROWSERS = 2 if shutil.which("chromium") else 0
-READERS = 14 - BROWSERS  # With the stuck one and the one that comes and goes: 16.
+READERS = 14  # With the stuck one and the one that comes and goes: 16.
 LARGEST_MB = 60  # As system_bench.py promises of the daemon as a whole.
 LARGEST_GROWTH_MB = 4
 
@@ -104,29 +96,6 @@ def come_and_go(session, until, opened):
         time.sleep(max(0.0, begin + 1 - time.monotonic()))
 
 
-class Browser:
-    """A real one that shows the page."""
-
-    def __init__(self, session, number):
-        profile = session.scratch / f"browser-{number}"
-        # As root, and in a container, it has no sandbox.
-        self.process = subprocess.Popen(
-            ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--remote-debugging-port=0",
-             f"--user-data-dir={profile}", f"http://127.0.0.1:{session.port}/"],
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
-        atexit.register(self.end)
-
-    def end(self):
-        if self.process.poll() is None:
-            os.killpg(self.process.pid, signal.SIGTERM)
-            self.process.wait(timeout=30)
-
-
-def streams(session):
-    with urllib.request.urlopen(f"http://127.0.0.1:{session.port}/metrics", timeout=5) as reply:
-        return int(re.search(r"^a351_page_streams (\d+)$", reply.read().decode(), re.MULTILINE)[1])
-
-
 def is_left(connection):
     """Whether the daemon has closed the stream, behind what the kernels still kept of it."""
     connection.settimeout(2)
@@ -141,22 +110,18 @@ def is_left(connection):
 
 
 def crowd(session, pid):
-    browsers = [Browser(session, i) for i in range(BROWSERS)]
-    wait_for(f"{BROWSERS} browsers show the page", lambda: streams(session) == BROWSERS, 30)
     until = time.monotonic() + CROWD_S
     readers = [Reader(session) for _ in range(READERS)]
     stuck, opened = open_stream(session.port, receive_buffer=4096), []
     guest = threading.Thread(target=come_and_go, args=(session, until, opened), daemon=True)
     guest.start()
-    sizes, most = [], 0
+    sizes = []
     while time.monotonic() < until:
         sizes.append(memory_mb(pid))
-        most = max(most, streams(session))
         time.sleep(0.1)
-    demand(f"{most} streams at once, {BROWSERS} of them browsers", most == BROWSERS + READERS + 2)
     guest.join(timeout=30)
-    for client in readers + browsers:
-        client.end()
+    for reader in readers:
+        reader.end()
     growth, largest = sizes[-1] - sizes[len(sizes) // 4], max(sizes)
     print(f"memory: {sizes[0]:.1f} MB at the beginning, {largest:.1f} MB at most, {growth:+.1f} MB since a quarter")
     if not IS_SANITIZED:
