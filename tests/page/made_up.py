@@ -37,8 +37,8 @@ def reading(standard_error_mgal=1.31, needed_s=250.0, is_good_enough=False):
 def occupation(site="No.5", **changes):
     start = rfc3339(time.time() - 400)
     return {"site": site, "number": 1, "operator": "T. Sato", "note": "on the pillar", "start": start, "set_up": start,
-            "set_up_count": 1, "session": "00", "index": 1, "running_s": 400.0, "reading": reading(), "whole": reading(0.7),
-            "propose_set_up": False, "warnings": [], "half_time_s": 20.0, **changes}
+            "set_up_count": 1, "session": "00", "index": 1, "running_s": 400.0, "reading": reading(),
+            "whole": reading(0.7), "propose_set_up": False, "warnings": [], "half_time_s": 20.0, **changes}
 
 
 def finished(site, number=1, hours_ago=1.0, **changes):

@@ -72,7 +72,8 @@ def show_lost(stub, browser):
     took = browser.wait_for("the page is back by itself", lambda: browser.text("banner") == "", seconds=10.0)
     demand(f"within 8 s, the longest pause between attempts: {took:.1f} s", took < 9.0)
     browser.wait_for_text("health-rows", "connections lost: 1")
-    browser.wait_for("the sites of the daemon that came back are offered", lambda: "elsewhere" in browser.text("start-site"))
+    browser.wait_for("the sites of the daemon that came back are offered",
+                     lambda: "elsewhere" in browser.text("start-site"))
 
 
 def metrics(browser):

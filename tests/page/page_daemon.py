@@ -37,7 +37,8 @@ def measure_first_data(session, browser):
         browser.open(session.port)
         browser.wait_for_text("caption-x", "mean")
         took_s = browser.run("return window.first_data_ms") / 1000
-        demand(f"data are on the page {took_s:.2f} s after it was asked for, at most {FIRST_DATA_S}", took_s <= FIRST_DATA_S)
+        demand(f"data are on the page {took_s:.2f} s after it was asked for, at most {FIRST_DATA_S}",
+               took_s <= FIRST_DATA_S)
 
 
 def measure_lag(session, browser):
