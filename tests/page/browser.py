@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import shutil
+import statistics
 import sys
 import time
 import urllib.parse
@@ -24,7 +25,7 @@ SCREENSHOTS = BIN.parent / "screenshots"
 LAPTOP = (1366, 768)
 PHONE = (360, 740)
 
-# Columns of a chart that have ink of a curve: the curves are the only thing in it that is blue.
+# Rows of ink of a curve in each column of a chart: the curves are the only thing in it that is blue.
 INK = """
 const canvases = document.querySelectorAll(`#chart-${arguments[0]} canvas`);
 const ink = [];
@@ -36,12 +37,12 @@ for (const canvas of canvases) {
     for (let column = 0; column < width; ++column) {
         for (let row = 0; row < height; ++row) {
             const at = 4 * (row * width + column);
-            if (bytes[at + 3] > 60 && bytes[at + 2] > bytes[at] + 60) ink[column] = true;
+            if (bytes[at + 3] > 60 && bytes[at + 2] > bytes[at] + 60) ink[column] = (ink[column] ?? 0) + 1;
         }
     }
     ink.length = Math.max(ink.length, width);
 }
-return Array.from(ink, Boolean);
+return Array.from(ink, (rows) => rows ?? 0);
 """
 
 # [text, ratio] of what is shown with less contrast than asked for (WCAG 2.1, relative luminance).
@@ -205,7 +206,12 @@ class Browser:
         self.resize(size)
 
     def ink(self, chart):
-        return self.run(INK, chart)
+        """Whether each column of the chart has ink."""
+        return [rows > 0 for rows in self.run(INK, chart)]
+
+    def ink_height(self, chart):
+        """Rows of ink in the median of the columns that have some [px]."""
+        return statistics.median(rows for rows in self.run(INK, chart) if rows)
 
     def demand_readable(self, name):
         """Contrast, targets and width of the page as it is now."""

@@ -8,9 +8,9 @@ from made_up import sites, tilt, verdict
 from programs import IS_LONG, demand
 from stub_daemon import StubDaemon
 
-GAP_S = 6.0
+GAP_S = 4.0
 MINUTE_S = 60.0
-WATCHED_S = 300.0 if IS_LONG else 10.0
+WATCHED_S = 300.0 if IS_LONG else 6.0
 
 
 def is_grey(browser):
@@ -40,7 +40,13 @@ def show_gap(stub, browser):
     demand(f"the 10 min missing of an hour are {blank} columns without ink, expected {expected:.0f} within 8",
            abs(blank - expected) <= 8)
     browser.shot("gap-1h-1366")
-    stub.history_gap = None
+    stub.history_gap, stub.peak_s = None, time.time() - 1000
+    browser.click("#signal-span input[value='86400']")
+    browser.click("#signal-span input[value='3600']")
+    browser.wait_for_text("caption-x", "mGal, cut")
+    height = browser.ink_height("x") / browser.run("return document.getElementById('chart-x').clientHeight")
+    demand(f"beside a rare peak of 2000 mGal an envelope of 24 has {100 * height:.0f} % of the strip", height > 0.2)
+    browser.shot("peak-1h-1366")
     browser.click("#signal-span input[value='60']")
 
 

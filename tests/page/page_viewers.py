@@ -1,5 +1,5 @@
-"""Sixteen look at once: a browser that stays, one that reloads every second, thirteen sockets, one that never reads.  The
-record does not notice, and the page that stays is never stale."""
+"""Sixteen look at once: a browser that stays, one that reloads every second, thirteen sockets, one that never reads.
+The record does not notice, and the page that stays is never stale."""
 
 import threading
 import time

@@ -73,6 +73,7 @@ class StubDaemon:
         self.occupations = []
         self.posts = []
         self.history_gap = None  # (begin, end) in Unix seconds: no bins there.
+        self.peak_s = None  # Unix time of a peak of 2 mg in the history.
         self.is_sampling = True
         self.is_away = False
         self.token = "0123456789abcdef"
@@ -180,6 +181,8 @@ class StubDaemon:
                 slow = math.sin(2 * math.pi * t / 900)
                 mid = {"x": -0.412, "y": 1.033, "z": 999.1 + 0.003 * slow, "temperature": 42.5 + 0.02 * slow,
                        "oven": round(42.5 + 0.06 * slow, 1)}[channel]
+                if self.peak_s is not None and abs(t - self.peak_s) < step and channel != "temperature":
+                    mid += 2.0
                 half = 0.02 if channel == "temperature" else 0.008 + 0.004 * random.random()
                 points.append([1000 * t, mid, 42.5] if channel == "oven" else [1000 * t, mid - half, mid + half])
             t += step

@@ -7,6 +7,8 @@ import { kMgalPerMg, kMinute_ms } from "./samples.js";
 
 const kHour_s = 3600;
 const kNames = { x: "x", y: "y", z: "z", norm: "norm", temperature: "sensor", oven: "oven" };
+const kLeftOut = 0.2; // Of an envelope's bins do not shape its frame: cars pass a tenth of the time.
+const kRoom = 0.6; // Of what shapes it, on either side.
 const kInk = ["#003f87", "#a33b00"];
 
 // The legend is not shown, and sets a style in a way that the page's policy forbids.
@@ -40,19 +42,31 @@ function new_chart(box, labels, is_envelope) {
     });
 }
 
-/** Bins [ms, low, high] as rows about `mean`, with an empty row wherever a bin is missing. */
-function envelope_rows(points, interval_ms, factor, mean) {
+/** Bins [ms, low, high] as rows about `middle`, with an empty row wherever a bin is missing. */
+function envelope_rows(points, interval_ms, factor, middle) {
     const rows = [];
     let expected_ms = null;
     for (const [time_ms, low, high] of points) {
         if (expected_ms !== null && time_ms > expected_ms + 0.5 * interval_ms) {
             rows.push([expected_ms, [null, null, null]]);
         }
-        const [a, b] = [factor * (low - mean), factor * (high - mean)];
+        const [a, b] = [factor * (low - middle), factor * (high - middle)];
         rows.push([time_ms, [a, 0.5 * (a + b), b]]);
         expected_ms = time_ms + interval_ms;
     }
     return rows;
+}
+
+function quantile(values, share) {
+    return values.toSorted((a, b) => a - b)[Math.round(share * (values.length - 1))];
+}
+
+/** What an envelope is drawn within, so that a passing car does not flatten the rest. */
+function frame_of(points, factor, middle) {
+    const low = factor * (quantile(points.map((point) => point[1]), kLeftOut) - middle);
+    const high = factor * (quantile(points.map((point) => point[2]), 1 - kLeftOut) - middle);
+    const room = kRoom * (high - low);
+    return [low - room, high + room];
 }
 
 /** Process value and set point; empty where the oven did not answer for three intervals. */
@@ -105,9 +119,11 @@ export class Charts {
         set_text(`caption-${name}`, `${kNames[name]}: –`);
     }
 
-    /** Draws what is in view.  @param now_ms  instrument time. */
+    /** Draws what is in view.
+        @param now_ms  instrument time.
+        @return whether the last minute was drawn. */
     draw(now_ms) {
-        if (this.spans_s.signal === 60) this.draw_minute();
+        const is_drawn = this.spans_s.signal === 60 && this.draw_minute();
         for (const group of ["signal", "warmth"]) {
             const span_s = this.spans_s[group];
             // A bin of the history is a few seconds for an hour, a minute or so for a day.
@@ -117,11 +133,12 @@ export class Charts {
             this.asked_ms[group] = performance.now();
             this.ask(group, now_ms, span_s);
         }
+        return is_drawn;
     }
 
     draw_minute() {
         const end_ms = this.minute.newest_ms;
-        if (end_ms === null) return;
+        if (end_ms === null) return false;
         set_text("signal-end", `to ${time_of_day(new Date(end_ms).toISOString(), 2)} UTC`);
         for (const name of this.names("signal")) {
             if (!this.in_view.has(`chart-${name}`)) continue;
@@ -130,8 +147,10 @@ export class Charts {
             const mean = name === "norm" ? `${number(shown.mean, 1)} mGal` : `${number(shown.mean, 3)} mg`;
             set_text(`caption-${name}`, `${name}: mean ${mean}, ${range_text(shown.low, shown.high)}`);
         }
+        return true;
     }
 
+    /** Asks the daemon for the group's history and draws it when it comes. */
     async ask(group, now_ms, span_s) {
         const from_ms = now_ms - 1000 * span_s;
         for (const name of this.names(group)) {
@@ -160,22 +179,22 @@ export class Charts {
             set_text(`caption-${name}`, `${kNames[name]}: no data in this span`);
             return;
         }
-        let sum = 0;
-        let low = Infinity;
-        let high = -Infinity;
-        for (const [, a, b] of points) {
-            sum += 0.5 * (a + b);
-            low = Math.min(low, a);
-            high = Math.max(high, b);
+        const low = Math.min(...points.map((point) => point[1]));
+        const high = Math.max(...points.map((point) => point[2]));
+        if (name === "temperature") {
+            const rows = envelope_rows(points, 1000 * history.interval_s, 1, 0);
+            this.update(name, ["UTC", name], true, rows, from_ms, to_ms);
+            set_text("caption-temperature", `sensor: ${number(low, 3)} to ${number(high, 3)} °C`);
+            return;
         }
-        const mean = sum / points.length;
-        const is_axis = name !== "temperature";
-        const rows = envelope_rows(points, 1000 * history.interval_s, is_axis ? kMgalPerMg : 1, is_axis ? mean : 0);
-        this.update(name, ["UTC", name], true, rows, from_ms, to_ms);
-        set_text(`caption-${name}`, is_axis
-            ? `${name}: mean ${number(mean, 3)} mg, ` +
-                range_text(kMgalPerMg * (low - mean), kMgalPerMg * (high - mean))
-            : `sensor: ${number(low, 3)} to ${number(high, 3)} °C`);
+        const middle = quantile(points.map((point) => 0.5 * (point[1] + point[2])), 0.5);
+        const rows = envelope_rows(points, 1000 * history.interval_s, kMgalPerMg, middle);
+        const frame = frame_of(points, kMgalPerMg, middle);
+        this.update(name, ["UTC", name], true, rows, from_ms, to_ms, frame);
+        const [low_mgal, high_mgal] = [kMgalPerMg * (low - middle), kMgalPerMg * (high - middle)];
+        const is_cut = low_mgal < frame[0] || high_mgal > frame[1];
+        set_text(`caption-${name}`, `${name}: median ${number(middle, 3)} mg, ` +
+            `${range_text(low_mgal, high_mgal)}${is_cut ? ", cut" : ""}`);
     }
 
     draw_oven(history, from_ms, to_ms) {
@@ -190,9 +209,9 @@ export class Charts {
             `oven: ${number(value, 1)} °C (blue), set point ${number(set_point, 1)} °C (brown, dashed)`);
     }
 
-    update(name, labels, is_envelope, rows, from_ms, to_ms) {
+    update(name, labels, is_envelope, rows, from_ms, to_ms, frame = null) {
         const chart = (this.charts[name] ??= new_chart(by_id(`chart-${name}`), labels, is_envelope));
-        const options = { file: rows, dateWindow: [from_ms, to_ms] };
+        const options = { file: rows, dateWindow: [from_ms, to_ms], valueRange: frame };
         if (labels.length > 2) options.series = { [labels[2]]: { strokePattern: [6, 4] } };
         chart.updateOptions(options);
     }

@@ -30,10 +30,14 @@ function oven_text(oven) {
     return `${oven.state}${values}${age}${oven.trouble ? `; ${oven.trouble}` : ""}`;
 }
 
-/** Counts that are not zero, largest concern of a reader first: all that is no plain progress. */
+// Counters that grow in health, and those with a row of their own.
+const kNoTrouble = new Set(["bytes", "frames", "sessions", "link_sessions", "integer_records", "archive_records",
+    "archive_records_waiting", "journal_bytes", "journal_segments_compressed", "journal_segments_removed", "gaps",
+    "samples_missing"]);
+
+/** Counts of trouble by kind, where there was any. */
 function trouble_counts(counters) {
-    const kProgress = new Set(["bytes", "frames", "sessions"]);
-    const parts = Object.entries(counters).filter(([name, count]) => count && !kProgress.has(name))
+    const parts = Object.entries(counters).filter(([name, count]) => count && !kNoTrouble.has(name))
         .map(([name, count]) => `${name.replaceAll("_", " ")} ${count}`);
     return parts.length ? parts.join(", ") : "none";
 }

@@ -91,7 +91,7 @@ function redraw() {
     refresh();
     if (document.hidden) return;
     const begin_ms = performance.now();
-    charts.draw(status ? Date.parse(status.now) : null);
+    if (!charts.draw(status ? Date.parse(status.now) : null)) return;
     page.redraw_ms = performance.now() - begin_ms;
     page.longest_redraw_ms = Math.max(page.redraw_ms, page.longest_redraw_ms || 0);
 }
