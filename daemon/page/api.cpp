@@ -75,6 +75,28 @@ std::optional<json> Api::status() noexcept {
     }
 }
 
+std::optional<std::string> Api::urgent_status() noexcept {
+    try {
+        return urgent_status_now();
+    } catch (...) {
+        ++use_.failures;
+        return std::nullopt;
+    }
+}
+
+std::string Api::urgent_status_now() {
+    const Status status = sources_.status();
+    const bool is_fresh =
+        status.last_sample && status.now - *status.last_sample <= sources_.stale_after;
+    auto text = std::to_string(static_cast<int>(status.level)) + status.link_state;
+    text += is_fresh ? to_text(status.verdict.state) : "stale";
+    if (const auto& running = sources_.occupations.running()) {
+        text += running->site + to_rfc3339(running->start) + to_rfc3339(running->set_ups.back()) +
+                running->remark.operator_name + running->remark.note;
+    }
+    return text;
+}
+
 json Api::status_now() {
     const Status status = sources_.status();
     const auto field = field_status(sources_.occupations, sources_.live, status.now);

@@ -57,11 +57,17 @@ public:
     /// The body of GET /api/status; std::nullopt when a source failed.
     [[nodiscard]] std::optional<nlohmann::json> status() noexcept;
 
+    /// What of the status a viewer must be told at once, in a form that changes with it: level,
+    /// verdict, link and occupation; std::nullopt when a source failed.  Ten times a second it may
+    /// be asked for, as the whole, which looks through the day, may not.
+    [[nodiscard]] std::optional<std::string> urgent_status() noexcept;
+
     /// What the server counts, and /metrics tells.
     [[nodiscard]] PageUse& use() noexcept { return use_; }
 
 private:
     [[nodiscard]] nlohmann::json status_now();
+    [[nodiscard]] std::string urgent_status_now();
     [[nodiscard]] Response route(const Request& request);
     [[nodiscard]] Response read(std::string_view path, std::string_view query);
     [[nodiscard]] Response change(std::string_view path, const std::string& body);

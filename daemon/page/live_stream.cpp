@@ -31,17 +31,6 @@ LiveMessage status_message(const nlohmann::json& status) {
                      status.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "}"};
 }
 
-/// Verdict, level, link and occupation, without what changes all the time.
-std::string urgent_part(const nlohmann::json& status) {
-    const auto& occupation = status.at("occupation");
-    auto part = nlohmann::json::array({status.at("level"), status.at("verdict").at("state"),
-                                       status.at("device").at("state"), occupation.is_null()});
-    for (const char* key : {"site", "number", "operator", "note", "start", "set_up"}) {
-        if (occupation.contains(key)) part.push_back(occupation.at(key));
-    }
-    return part.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 }  // namespace
 
 bool asks_for_websocket(const HttpRequest& request) { return websocket::is_upgrade(request); }
@@ -107,12 +96,12 @@ void LiveStream::take_samples() {
 }
 
 void LiveStream::take_status() {
+    auto urgent = api_.urgent_status();
+    const auto now = std::chrono::steady_clock::now();
+    if (!urgent || (*urgent == told_ && now < next_status_)) return;
     const auto status = api_.status();
     if (!status) return;
-    const auto now = std::chrono::steady_clock::now();
-    auto urgent = urgent_part(*status);
-    if (urgent == told_ && now < next_status_) return;
-    told_ = std::move(urgent);
+    told_ = *std::move(urgent);
     next_status_ = now + kStatusStep;
     messages_.push(status_message(*status));
     news_.cancel();

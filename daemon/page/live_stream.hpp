@@ -49,7 +49,7 @@ private:
     LiveMessages messages_;
     boost::asio::steady_timer news_;  ///< Cancelled when there are messages.
     std::uint64_t cursor_ = 0;        ///< Of live_.
-    std::string told_;                ///< What of the status must be told at once.
+    std::string told_;                ///< Api::urgent_status() of the last one.
     std::chrono::steady_clock::time_point next_status_{};
 };
 
