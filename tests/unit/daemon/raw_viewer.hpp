@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -55,11 +56,14 @@ public:
         }
     }
 
-    /// The next one of that kind, others dropped.
+    /// The next one of that kind, others dropped; std::nullopt also when it does not come in 20 s.
     std::optional<Frame> next(Kind kind) const {
-        auto frame = next();
-        while (frame && frame->kind != kind) frame = next();
-        return frame;
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        while (std::chrono::steady_clock::now() < end) {
+            auto frame = next();
+            if (!frame || frame->kind == kind) return frame;
+        }
+        return std::nullopt;
     }
 
     void send(Kind kind, const std::string& payload, bool is_last = true) const {
