@@ -115,7 +115,7 @@ with Browser(allowed_errors=["status of 403"]) as page:
     page.wait_for("and empties the field", lambda: page.find("#note").get_attribute("value") == "")
 
     page.find("#signal-span input[value='60']").send_keys(Keys.ARROW_RIGHT)
-    page.wait_for_text("caption-x", "x: mean")
+    page.wait_for_text("caption-x", "x: median")
     demand("the arrows choose the span",
            page.run("return document.querySelector('[name=signal-span]:checked').value") == "3600")
 
