@@ -9,6 +9,8 @@ from programs import BIN, IS_SANITIZED, TOOLS, TOP, Scratch, demand, read_json, 
 GOLDEN = TOP / "tests" / "golden" / "tsukuba"
 FILES = {"occupations.csv", "stations.csv", "models.csv", "result.json", "stations.geojson", "gsadjust.csv",
          "report.html"}
+RECORD_FILES = {"unit.toml", "result/record.csv", "result/response.csv", "result/result.json", "result/record.html",
+                "result/figures/response.svg", "result/figures/modes.svg"}
 
 
 def foreign(scratch):
@@ -27,11 +29,11 @@ def foreign(scratch):
     return environment
 
 
-def content(folder):
+def content(folder, promised=FILES):
     """Bytes of every file, the result's without checksums, which differ where the order of rows does."""
     files = {path.relative_to(folder).as_posix(): path.read_bytes()
              for path in sorted(folder.rglob("*")) if path.is_file()}
-    demand(f"{folder.name}: all the promised files are there", FILES <= set(files))
+    demand(f"{folder.name}: all the promised files are there", promised <= set(files))
     return files
 
 
@@ -113,3 +115,22 @@ with Scratch() as scratch:
         demand_equal(f"rows of observations and sites shuffled, tide {tide}",
                      *(without_checksums(content(scratch / f"{name}-{tide}"))
                        for name in ("table", "table-shuffled")))
+
+    # A long record and the calibration from it.
+    run(BIN / "a351-sim", "survey", "--scenario", "indoor", "--seed", 511, "--out", scratch / "night")
+
+    def measured(name, *before, env=None):
+        """Bytes of the files that calibrate and record write in a folder of that name."""
+        folder = scratch / name
+        folder.mkdir()
+        run(*before, BIN / "a351-correct", "calibrate", scratch / "night", "--out", "unit.toml", env=env, cwd=folder)
+        run(*before, BIN / "a351-correct", "record", scratch / "night", "--ensemble", 8, "--apply", "unit.toml", "--out",
+            "result", env=env, cwd=folder)
+        return content(folder, RECORD_FILES)
+
+    here = measured("here")
+    demand_equal("record and calibrate: another place", here, measured("there", env=abroad))
+    demand_equal("record and calibrate: one core", here, measured("one core", "taskset", "1"))
+    for cores in () if IS_SANITIZED else (1, 2, 7):
+        demand_equal(f"record and calibrate: {cores} threads", here, measured(
+            f"{cores} cores", env={"LD_PRELOAD": str(TOOLS / "libcore-count.so"), "A351_CORES": str(cores)}))
