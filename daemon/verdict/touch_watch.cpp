@@ -12,7 +12,15 @@ constexpr double kStepSeconds = 2.0;
 constexpr std::size_t kMinute = 30;  ///< Samples.
 constexpr std::size_t kHour = 60;    ///< Minutes.
 constexpr std::size_t kUsualMinutes = 10;
+constexpr std::size_t kUsualShakes = 300;     ///< Samples: ten minutes.
+constexpr double kLongestTailSeconds = 30.0;  ///< Of a knock: after that something else shakes.
 constexpr double kMilliGalPerGal = 1000.0;
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
 
 double rms_about_mean(const std::deque<double>& values) {
     double mean = 0.0, square = 0.0;
@@ -38,13 +46,28 @@ bool TouchWatch::is_clean(const LiveSample& sample) const noexcept {
     return !last_shaken_ || seconds_between(*last_shaken_, sample.time) > kReachSeconds;
 }
 
+double TouchWatch::usual_shake_mgal() const {
+    return median({shakes_mgal_.begin(), shakes_mgal_.end()});
+}
+
+/// A knock begins above its threshold and ends where the shaking is back at its usual level.
 void TouchWatch::follow_shake(const LiveSample& sample) {
-    if (!(sample.shake.value() > kMilliGalPerGal * options_.knock_gal)) {
+    const double shake_mgal = sample.shake.value();
+    if (!std::isfinite(shake_mgal)) return;
+    shakes_mgal_.push_back(shake_mgal);
+    if (shakes_mgal_.size() > kUsualShakes) shakes_mgal_.pop_front();
+    const bool is_shaking = shake_mgal > std::max(kMilliGalPerGal * options_.shake_gal,
+                                                  options_.shake_factor * usual_shake_mgal());
+    if (is_shaking) last_shaking_ = sample.seen_at;
+    if (shake_mgal > kMilliGalPerGal * options_.knock_gal) {
+        last_shaken_ = sample.seen_at;
+    } else if (!knock_begun_ || !is_shaking ||
+               seconds_between(*last_shaken_, sample.seen_at) > kLongestTailSeconds) {
         knock_begun_.reset();
         return;
     }
     if (!knock_begun_) knock_begun_ = sample.seen_at - from_seconds(kStepSeconds);
-    last_knock_ = last_shaken_ = sample.seen_at;
+    last_knock_ = sample.seen_at;
     if (seconds_between(*knock_begun_, sample.seen_at) > options_.handled_s) {
         last_handled_ = sample.seen_at;
     }
@@ -83,10 +106,8 @@ void TouchWatch::follow_noise(const LiveSample& sample) {
 
 double TouchWatch::noise_ratio() const noexcept {
     if (minutes_mgal_.size() < kUsualMinutes) return 1.0;
-    std::vector<double> sorted(minutes_mgal_.begin(), minutes_mgal_.end());
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    return noise_mgal_ / std::max(*middle, options_.noise_floor_mgal);
+    const double usual = median({minutes_mgal_.begin(), minutes_mgal_.end()});
+    return noise_mgal_ / std::max(usual, options_.noise_floor_mgal);
 }
 
 }  // namespace a351::daemon

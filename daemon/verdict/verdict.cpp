@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kSecondsPerHour = 3600.0;
 constexpr double kAheadHours = 600.0 / kSecondsPerHour;
+constexpr double kWatchedHours = 1.0;  ///< A box that was switched on has warmed by then.
 
 }  // namespace
 
@@ -30,30 +31,51 @@ std::string_view to_text(VerdictState state) noexcept {
 }
 
 std::string Reason::to_text() const {
-    char text[160];
-    std::snprintf(text, sizeof text, "%s %.3g%s%s, %s %.3g", quantity, value, *unit ? " " : "",
-                  unit, is_least ? "at least" : "limit", limit);
+    char with_error[32] = "", text[160];
+    if (error > 0.0) std::snprintf(with_error, sizeof with_error, " +- %.2g", error);
+    std::snprintf(text, sizeof text, "%s %.3g%s%s%s, %s %.3g", quantity, value, with_error,
+                  *unit ? " " : "", unit, is_least ? "at least" : "limit", limit);
     return text;
 }
 
 VerdictJudge::VerdictJudge(const VerdictOptions& options)
-    : options_(options), trend_(options), touches_(options) {}
+    : options_(options), trend_(options), touches_(options), slope_(options) {}
 
 const Verdict& VerdictJudge::take(const LiveSample& sample) {
+    const double x = sample.axes[0].value(), y = sample.axes[1].value(), z = sample.axes[2].value();
     const double degc = sample.temperature.value();
+    const auto handled = touches_.last_handled();
     touches_.take(sample);
     trend_.take(sample.time, sample.temperature);
-    const double sum = sample.axes[0].value() + sample.axes[1].value() + sample.axes[2].value();
-    if (std::isfinite(sum + degc)) last_good_ = sample.seen_at;
+    if (touches_.last_handled() != handled) {
+        trend_.touch();
+        slope_.clear();
+        steady_since_.reset();
+        is_steady_ = false;
+    }
+    const double norm_mgal = std::hypot(x, y, z);
+    if (std::isfinite(norm_mgal) && touches_.is_clean(sample)) {
+        slope_.take(sample.time, MilliGal(norm_mgal));
+    }
+    if (std::isfinite(x + y + z + degc)) last_good_ = sample.seen_at;
     if (!std::isfinite(degc)) return at(sample.seen_at);
     if (!stuck_since_ || degc != last_degc_) stuck_since_ = sample.seen_at;
     last_degc_ = degc;
-    // A box that is cold when it is first seen has just been switched on.
-    if (!first_seen_) first_seen_ = sample.seen_at;
-    if (!switched_on_ && degc < options_.operating_degc - options_.warm_up_degc) {
-        switched_on_ = first_seen_;
-    }
+    follow_power(sample.seen_at, degc);
     return at(sample.seen_at);
+}
+
+/// A box that is cold when it is first seen, or warms by itself, has just been switched on.
+void VerdictJudge::follow_power(UtcTime seen_at, double degc) {
+    if (!first_seen_) {
+        first_seen_ = seen_at;
+        first_degc_ = degc;
+    }
+    const bool is_cold = degc < options_.operating_degc - options_.warm_up_degc;
+    const bool has_warmed =
+        degc > first_degc_ + 0.5 * options_.warm_up_degc &&
+        seconds_between(*first_seen_, seen_at) < kWatchedHours * kSecondsPerHour;
+    if (!switched_on_ && (is_cold || has_warmed)) switched_on_ = first_seen_;
 }
 
 const Verdict& VerdictJudge::at(UtcTime now) {
@@ -82,31 +104,35 @@ void VerdictJudge::judge(UtcTime now) {
     }
     reasons.clear();
 
-    const double share = verdict_.state == VerdictState::stable ? 1.0 : options_.enter_share;
     const double off_degc = std::abs(last_degc_ - options_.operating_degc);
     bool is_warm = most("temperature off the set point", off_degc, "degC", options_.warm_up_degc);
 
-    bool is_settled = false;
-    const auto& outlook = trend_.outlook();
-    double change_mgal = outlook ? outlook->change_mgal : 0.0;
+    double on_h = options_.warm_up_h, warm_up_mgal = 0.0;
     if (switched_on_) {
-        const double on_h = seconds_between(*switched_on_, now) / kSecondsPerHour;
-        const double warm_up = options_.warm_up_mgal * std::exp(-on_h / options_.warm_up_h) *
-                               std::expm1(-kAheadHours / options_.warm_up_h);
-        change_mgal += warm_up;
-        if (std::abs(change_mgal) > share * options_.change_mgal) {
-            is_warm = least("since power-on", on_h, "h", options_.warm_up_h) && is_warm;
-        }
+        on_h = seconds_between(*switched_on_, now) / kSecondsPerHour;
+        warm_up_mgal = options_.warm_up_mgal * std::exp(-on_h / options_.warm_up_h);
     }
-    if (!outlook) {
-        least("temperature known for", trend_.known_min(), "min", options_.history_min);
+    const double sure = is_steady_ ? options_.sure_stay : options_.sure;
+    bool is_settled = false;
+    if (const auto outlook = trend_.outlook(warm_up_mgal)) {
+        const double change = std::abs(outlook->change_mgal), error = outlook->error_mgal;
+        reasons.push_back({"reading changes in 10 min by", change, "mGal", options_.change_mgal,
+                           false, change + sure * error <= options_.change_mgal, error});
+        is_settled = reasons.back().is_met;
+        is_settled &= most("temperature slope", std::abs(trend_.slope_degc_per_h()), "degC/h",
+                           options_.slope_degc_per_h);
     } else {
-        is_settled = most("temperature slope", std::abs(outlook->slope_degc_per_h), "degC/h",
-                          share * options_.slope_degc_per_h);
-        is_settled &= most("reading changes in 10 min by", std::abs(change_mgal), "mGal",
-                           share * options_.change_mgal);
-        is_settled &= most("temperature bends by", 1000.0 * std::abs(outlook->bend_degc), "mdegC",
-                           1000.0 * share * options_.bend_degc);
+        least("temperature known for", trend_.known_min(), "min", options_.history_min);
+    }
+    if (const auto& slope = slope_.slope()) {
+        const double value = std::abs(slope->mgal_per_h), error = slope->error_mgal_per_h;
+        const double limit = options_.change_mgal / kAheadHours;
+        reasons.push_back({"acceleration slope", value, "mGal/h", limit, false,
+                           value - sure * error <= limit, error});
+        is_settled &= reasons.back().is_met;
+    }
+    if (!is_settled && on_h < options_.warm_up_h) {
+        is_warm = least("since power-on", on_h, "h", options_.warm_up_h);
     }
 
     bool is_quiet = true;
@@ -118,6 +144,10 @@ void VerdictJudge::judge(UtcTime now) {
         is_quiet &=
             least("since a hand at the box", seconds_between(*handled, now), "s", options_.watch_s);
     }
+    if (const auto shaking = touches_.last_shaking()) {
+        is_quiet &=
+            least("since the last shaking", seconds_between(*shaking, now), "s", options_.shake_s);
+    }
     is_quiet &= most("noise to its usual level", touches_.noise_ratio(), "", options_.noise_factor);
 
     if (is_settled && is_warm) {
@@ -125,10 +155,10 @@ void VerdictJudge::judge(UtcTime now) {
     } else {
         steady_since_.reset();
     }
+    is_steady_ = steady_since_ && seconds_between(*steady_since_, now) >= options_.hold_s;
     if (!is_warm) return decide(VerdictState::warming_up, now, std::move(reasons));
     if (!is_quiet) return decide(VerdictState::disturbed, now, std::move(reasons));
-    const bool is_steady = steady_since_ && seconds_between(*steady_since_, now) >= options_.hold_s;
-    decide(is_steady ? VerdictState::stable : VerdictState::settling, now, std::move(reasons));
+    decide(is_steady_ ? VerdictState::stable : VerdictState::settling, now, std::move(reasons));
 }
 
 void VerdictJudge::decide(VerdictState state, UtcTime now, std::vector<Reason> reasons) {

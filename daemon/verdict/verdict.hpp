@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "daemon/verdict/live_sample.hpp"
+#include "daemon/verdict/reading_slope.hpp"
 #include "daemon/verdict/temperature_trend.hpp"
 #include "daemon/verdict/touch_watch.hpp"
 #include "daemon/verdict/verdict_options.hpp"
@@ -27,8 +28,10 @@ struct Reason {
     double limit = 0.0;
     bool is_least = false;  ///< The value must reach the limit; otherwise stay below it.
     bool is_met = false;
+    double error = 0.0;  ///< Standard error of the value, where it has one: then the claim is sure.
 
-    [[nodiscard]] std::string to_text() const;  ///< "temperature slope 0.31 degC/h, limit 0.20"
+    /// "temperature slope 0.31 degC/h, limit 0.25", "acceleration slope 2.1 +- 1.4 mGal/h, limit 12"
+    [[nodiscard]] std::string to_text() const;
 };
 
 struct Verdict {
@@ -40,16 +43,17 @@ struct Verdict {
 /// Judges the live series.  From the worst to the best:
 ///
 ///     no data      no sample for gap_s; one that is not finite; a temperature that is stuck
-///     warming up   farther than warm_up_degc from the set point; or the reading will change by more
-///                  than change_mgal in the next 10 min and power-on was less than warm_up_h ago
-///     disturbed    a knock within quiet_s, a hand at the box within watch_s, noise above usual
-///     settling     temperature not known long enough; or its slope, its bend or the change of the
-///                  reading that it announces above the limit
+///     warming up   farther than warm_up_degc from the set point; or not yet settled and power-on was
+///                  less than warm_up_h ago
+///     disturbed    a knock within quiet_s, a hand at the box within watch_s, shaking within shake_s,
+///                  noise above usual
+///     settling     temperature not known long enough; its slope above the limit; the change of the
+///                  reading that it announces not surely below; the slope of the reading surely above
 ///     stable       none of these for hold_s
 ///
-/// Limits of settling fall to enter_share of themselves until the verdict is stable.  A power-on
-/// that nobody told is taken for the first sample when the box is then colder than warm_up_degc
-/// below its set point.
+/// Surely: by `sure` standard errors until it is settled, by `sure_stay` from then on until a hand is
+/// at the box.  A power-on that nobody told is taken for the first sample when the box is then colder
+/// than warm_up_degc below its set point, or warms by half of that within an hour.
 class VerdictJudge {
 public:
     explicit VerdictJudge(const VerdictOptions& options = {});
@@ -67,17 +71,21 @@ public:
 
 private:
     void judge(UtcTime now);
+    void follow_power(UtcTime seen_at, double degc);
     void decide(VerdictState state, UtcTime now, std::vector<Reason> reasons);
 
     VerdictOptions options_;
     TemperatureTrend trend_;
     TouchWatch touches_;
+    ReadingSlope slope_;
     std::optional<UtcTime> switched_on_;
     std::optional<UtcTime> first_seen_;
+    double first_degc_ = 0.0;
     std::optional<UtcTime> last_good_;    ///< Last finite sample seen.
     std::optional<UtcTime> stuck_since_;  ///< The temperature has its value from then on.
     double last_degc_ = 0.0;
-    std::optional<UtcTime> steady_since_;
+    std::optional<UtcTime> steady_since_;  ///< Settled and warm, shaken or not.
+    bool is_steady_ = false;
     bool has_judged_ = false;
     Verdict verdict_;
 };

@@ -22,17 +22,24 @@ struct VerdictOptions {
     // Settled.
     double change_mgal = 2.0;  ///< Within the next 10 min: the scatter of the published survey.
     double slope_degc_per_h = 0.25;  ///< What the three occupations it left out had and more.
-    double bend_degc = 0.02;    ///< Departure within 3 min from the course: the cycle's own swing.
-    double enter_share = 0.65;  ///< Of these limits, below which steadiness begins.
-    double hold_s = 20.0;       ///< So long below: one mean of the temperature.
+    double sure = 2.2;       ///< Standard errors by which the change must be below: 1 of 36 is not.
+    double sure_stay = 1.4;  ///< So many once it is stable: 1 of 6 is not.
+    /// Error of that change, by what the box is off the level that it relaxes to.
+    double doubt_mgal_per_degc = 20.0;
+    double hold_s = 20.0;  ///< So long below: one mean of the temperature.
 
     // Quiet.
-    double knock_gal = 2.0;         ///< Half peak to peak of an axis: a hand gives 5 and more.
-    double quiet_s = 60.0;          ///< Since the last knock.
-    double handled_s = 5.0;         ///< A longer one is a hand, which may have opened the lid ...
-    double watch_s = 200.0;         ///< ... and the temperature is watched for so long.
-    double tilt_deg = 0.02;         ///< Another tilt than before: brought to a new place.
-    double noise_factor = 5.0;      ///< Of the 2 s series, to its usual level of the last hour.
+    double knock_gal = 2.0;        ///< Half peak to peak of an axis: a hand gives 5 and more.
+    double quiet_s = 72.0;         ///< Since the last knock: a minute, and the end of one, unseen.
+    double shake_gal = 0.3;        ///< Above the sensor's noise and a quiet ground, ...
+    double shake_factor = 1.6;     ///< ... or so much above its usual level: something passes.
+    double shake_s = 10.0;         ///< Since then: the reach of the live filters.
+    double handled_s = 5.0;        ///< A longer one is a hand, which may have opened the lid ...
+    double watch_s = 110.0;        ///< ... and the temperature is watched for so long.
+    double lid_degc = 0.05;        ///< What that may do to the level of the box: air 1 degC off ...
+    double lid_degc_per_h = 0.47;  ///< ... and to its rate: air that goes 8 degC/h.
+    double tilt_deg = 0.02;        ///< Another tilt than before: brought to a new place.
+    double noise_factor = 5.0;     ///< Of the 2 s series, to its usual level of the last hour.
     double noise_floor_mgal = 1.0;  ///< Less is not noise: the ripple of the field has 1 mGal.
 
     // An occupation.

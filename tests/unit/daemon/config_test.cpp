@@ -161,8 +161,8 @@ TEST_CASE_METHOD(Fixture,
     CHECK_THAT(refusal(kStation + kSensor + kStorage + "[verdict]\nslope = 1\n"),
                Catch::StartsWith("a351d.toml:10: verdict.slope = 1: unknown key; allowed: ") &&
                    Catch::Contains("slope_degc_per_h"));
-    CHECK_THAT(refusal(kStation + kSensor + kStorage + "[verdict]\nenter_share = 1.5\n"),
-               Catch::StartsWith("a351d.toml:10: verdict.enter_share = 1.5: out of range"));
+    CHECK_THAT(refusal(kStation + kSensor + kStorage + "[verdict]\nshake_factor = 0.5\n"),
+               Catch::StartsWith("a351d.toml:10: verdict.shake_factor = 0.5: out of range"));
     CHECK(refusal(kStation + kSensor + "[storage]\n") ==
           "a351d.toml:7: storage.root: missing; allowed: the directory of the record");
 }
