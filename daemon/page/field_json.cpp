@@ -17,6 +17,7 @@ json to_json(const Verdict& verdict, UtcTime now) {
         if (!reason.is_met) reasons.push_back(reason.to_text());
         checks.push_back({{"quantity", reason.quantity},
                           {"value", reason.value},
+                          {"error", reason.error > 0.0 ? json(reason.error) : json()},
                           {"unit", reason.unit},
                           {"limit", reason.limit},
                           {"is_least", reason.is_least},

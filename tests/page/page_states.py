@@ -27,7 +27,8 @@ def show_verdicts(stub, browser):
         browser.resize(LAPTOP)
     demand(f"each verdict has a sign of its own: {pictures}", len(pictures) == len(VERDICTS))
     checks = browser.text("verdict-checks")
-    demand("values have units", "0.05 °C/h, limit 0.25 °C/h" in checks and "180 s, at least 60 s" in checks)
+    demand("values have units", "0.05 °C/h, limit 0.25 °C/h" in checks and "180 s, at least 72 s" in checks)
+    demand("an error stands beside its value", "2.1 ± 1.4 mGal/h" in checks)
 
 
 def show_without_colour(stub, browser):

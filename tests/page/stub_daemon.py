@@ -33,7 +33,7 @@ def first_status():
                                   "rate": {"declared_hz": None, "measured_hz": 50.00012, "uncertainty_ppm": 0.3,
                                            "span_h": 2.5, "advice": ""}},
         "verdict": {"state": "settling", "since": None, "held_s": 75.0, "reasons": [],
-                    "checks": [check("temperature slope", 0.31, "degC/h", 0.1625, False),
+                    "checks": [check("temperature slope", 0.31, "degC/h", 0.25, False),
                                check("temperature off the set point", 0.02, "degC", 1.0, True)]},
         "occupation": None, "target_mgal": 1.0, "tilt": None,
         "live": {"rate_hz": RATE_HZ, "interval_s": 1 / RATE_HZ,
@@ -50,8 +50,9 @@ def first_status():
     }
 
 
-def check(quantity, value, unit, limit, is_met, is_least=False):
-    return {"quantity": quantity, "value": value, "unit": unit, "limit": limit, "is_least": is_least, "is_met": is_met}
+def check(quantity, value, unit, limit, is_met, is_least=False, error=None):
+    return {"quantity": quantity, "value": value, "error": error, "unit": unit, "limit": limit, "is_least": is_least,
+            "is_met": is_met}
 
 
 def sample_counts(index):

@@ -15,7 +15,8 @@ const kBubbleScale = 100 / 3; // Drawing units per arc minute: the rim is 3'.
 
 function check_text(check) {
     const name = check.unit ? " " + unit(check.unit) : "";
-    return `${visible(check.quantity)} ${significant(check.value)}${name}, ` +
+    const error = check.error ? ` ± ${significant(check.error)}` : "";
+    return `${visible(check.quantity)} ${significant(check.value)}${error}${name}, ` +
         `${check.is_least ? "at least" : "limit"} ${significant(check.limit)}${name.replace(" s ago", " s")}`;
 }
 
