@@ -135,6 +135,7 @@ void VerdictJudge::judge(UtcTime now) {
         is_warm = least("since power-on", on_h, "h", options_.warm_up_h);
     }
 
+    const auto thermal_count = static_cast<std::ptrdiff_t>(reasons.size());
     bool is_quiet = true;
     if (const auto knock = touches_.last_knock()) {
         is_quiet &=
@@ -157,7 +158,10 @@ void VerdictJudge::judge(UtcTime now) {
     }
     is_steady_ = steady_since_ && seconds_between(*steady_since_, now) >= options_.hold_s;
     if (!is_warm) return decide(VerdictState::warming_up, now, std::move(reasons));
-    if (!is_quiet) return decide(VerdictState::disturbed, now, std::move(reasons));
+    if (!is_quiet) {  // What disturbs comes first.
+        std::rotate(reasons.begin(), reasons.begin() + thermal_count, reasons.end());
+        return decide(VerdictState::disturbed, now, std::move(reasons));
+    }
     decide(is_steady_ ? VerdictState::stable : VerdictState::settling, now, std::move(reasons));
 }
 

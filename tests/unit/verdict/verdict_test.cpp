@@ -141,6 +141,16 @@ TEST_CASE("a knock disturbs for a minute, a hand for the time that a lid shows",
     CHECK(series.run(8.0).state == VerdictState::stable);
 }
 
+TEST_CASE("what disturbs is told before what is not known yet", "[verdict]") {
+    Series series;
+    series.run(300.0);
+    series.shake_mgal = 5000.0;
+    const Verdict& verdict = series.run(4.0);
+    CHECK(verdict.state == VerdictState::disturbed);
+    CHECK(verdict.reasons.front().quantity == std::string("since the last knock"));
+    CHECK_FALSE(find(verdict, "temperature known for")->is_met);
+}
+
 TEST_CASE("what passes disturbs while it shakes, and is no knock", "[verdict]") {
     Series series;
     series.run(3600.0);
