@@ -59,7 +59,8 @@ struct TwoPathFit {
 /// the largest restricted likelihood times their priors.
 ///
 /// The thermometer's white noise, as it stands between 70 and 110 s, is kept out of the regressors by the
-/// share of it in each frequency's power.  The noise of the fit is the smoothed spectrum of the residuals, in half octaves and by repetition; at the
+/// share of it in each frequency's power; below three times that noise a frequency does not count.  The
+/// noise of the fit is the smoothed spectrum of the residuals, in half octaves and by repetition; at the
 /// eight lowest frequencies, whose power the slow columns take for themselves, at least what 1/f from
 /// the frequencies above would have.  Priors (mean, standard deviation): d 0, 1 mGal/h; w 0, 60 mGal; rA
 /// and rS 0, 60 mGal/degC; rF 0, 30 mGal/(degC/h).  Log-normal: tF 43 s and tS 2700 s, factor 2; tW 2.5 h,
