@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "corrector/fixed_point/record_calibration.hpp"
+#include "tests/support/two_path_truth.hpp"
 #include "tests/unit/fixed_point/simulated_record.hpp"
 
 using namespace a351;
@@ -13,16 +14,21 @@ using namespace a351::corrector;
 
 namespace {
 
-/// Of the scenarios' plant, in the order of kThermalNames.
-ThermalResponse true_response() {
-    ThermalResponse truth;
-    truth.values << -12.0, -20.0, 950.0 * 43.0 / 3600.0, std::log(43.0), std::log(2700.0);
-    return truth;
+/// In the order of kThermalNames.
+Eigen::Matrix<double, 5, 1> true_values(const sim::TwoPathTruth& truth) {
+    Eigen::Matrix<double, 5, 1> values;
+    values << truth[TwoPathTerm::level], truth[TwoPathTerm::slow], truth[TwoPathTerm::fast],
+        std::log(truth[TwoPathTerm::fast_lag]), std::log(truth[TwoPathTerm::slow_lag]);
+    return values;
+}
+
+TwoPathFit fitted(const sim::Scenario& scenario, std::uint64_t seed) {
+    const RecordSegment segment = simulated_segment(scenario, seed);
+    return fit_two_paths(segment.temperature_degc, segment.acceleration_mgal, kRecordStep_s, 900.0);
 }
 
 TwoPathFit fitted(const std::string& scenario, std::uint64_t seed) {
-    const RecordSegment segment = simulated_segment(scenario, seed);
-    return fit_two_paths(segment.temperature_degc, segment.acceleration_mgal, kRecordStep_s, 900.0);
+    return fitted(sim::load_scenario(scenario), seed);
 }
 
 constexpr std::array kTerms{TwoPathTerm::level, TwoPathTerm::slow, TwoPathTerm::fast,
@@ -65,7 +71,8 @@ TwoPathFit warm_up_fit(double size_mgal, double size_error, double time_h, doubl
 }  // namespace
 
 TEST_CASE("a night calibrates the fast path and leaves the rest open", "[fixed_point][calibrate]") {
-    const PooledThermal pooled = pool_thermal({fitted("indoor", 702)});
+    const sim::Scenario scenario = of_drawn_units("indoor");
+    const PooledThermal pooled = pool_thermal({fitted(scenario, 702)});
     REQUIRE(pooled.response);
     CHECK(pooled.parameters[2].is_determined);
     CHECK_FALSE(pooled.parameters[4].is_determined);
@@ -74,11 +81,28 @@ TEST_CASE("a night calibrates the fast path and leaves the rest open", "[fixed_p
     CHECK(covariance.llt().info() == Eigen::Success);
     // The slow lag's prior, a factor of 2, must not come through.
     CHECK(std::sqrt(covariance(4, 4)) > 10.0 * std::log(2.0));
-    const ThermalResponse truth = true_response();
-    const Eigen::VectorXd off = values - truth.values;
+    const Eigen::VectorXd off = values - true_values(sim::two_path_truth(scenario, 702));
     CAPTURE(values.transpose(), off.dot(covariance.llt().solve(off)));
     CHECK(off.dot(covariance.llt().solve(off)) <
           4.0 * 15.1);  // 1 % of chi-square 5, widened twofold
+}
+
+TEST_CASE("what calibrations state holds the units in nine of ten", "[fixed_point][calibrate]") {
+    // Twice their errors, as a survey takes them: 95 % of chi-square 5 is 11.07.
+    constexpr double kMost = kThermalErrorFactor * kThermalErrorFactor * 11.07;
+    constexpr int kUnits = 20;
+    const sim::Scenario scenario = of_drawn_units("indoor");
+    int held = 0;
+    for (std::uint64_t seed = 711; seed < 711 + kUnits; ++seed) {
+        const PooledThermal pooled = pool_thermal({fitted(scenario, seed)});
+        REQUIRE(pooled.response);
+        const auto& [values, covariance] = *pooled.response;
+        const Eigen::VectorXd off = values - true_values(sim::two_path_truth(scenario, seed));
+        const double square = off.dot(covariance.llt().solve(off));
+        UNSCOPED_INFO(seed << ": " << square << " of " << kMost);
+        held += square < kMost ? 1 : 0;
+    }
+    CHECK(held >= 18);
 }
 
 TEST_CASE("nothing of the prior comes through", "[fixed_point][calibrate]") {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "corrector/fixed_point/record_analysis.hpp"
+#include "sim/scenario/survey_plan.hpp"
 #include "tests/unit/fixed_point/simulated_record.hpp"
 
 using namespace a351;
@@ -12,18 +13,21 @@ using namespace a351::corrector;
 
 namespace {
 
-/// H(s) = rA - kA s tauA / (1 + s tauA) + rC / (1 + s tauC) with the values of the scenarios.
-std::complex<double> true_response(double period_s) {
+/// H(s) = rA - kA s tauA / (1 + s tauA) + rC / (1 + s tauC).
+std::complex<double> true_response(const sim::TemperatureErrorParameters& unit, double period_s) {
     const std::complex<double> s(0.0, 2.0 * std::numbers::pi / period_s);
-    return -12.0 + 950.0 * s * 43.0 / (1.0 + 43.0 * s) - 20.0 / (1.0 + 2700.0 * s);
+    return unit.crystal_static_mgal_per_degc -
+           unit.crystal_dynamic_mgal_per_degc * s * unit.crystal_tau_s /
+               (1.0 + s * unit.crystal_tau_s) +
+           unit.clock_mgal_per_degc / (1.0 + s * unit.clock_tau_s);
 }
 
 struct Count {
     int claimed = 0, covered = 0;
 
-    void add(const ResponsePoint& point) {
+    void add(const ResponsePoint& point, const sim::TemperatureErrorParameters& unit) {
         if (!point.refusal.empty()) return;
-        const std::complex<double> truth = true_response(point.period_s);
+        const std::complex<double> truth = true_response(unit, point.period_s);
         const double phase = std::arg(truth) * 180.0 / std::numbers::pi;
         ++claimed;
         const bool is_covered = std::abs(truth) >= point.gain.low &&
@@ -43,17 +47,19 @@ TEST_CASE("both ways' limits hold the plant's response", "[fixed_point][response
     Count by_spectrum, by_modes;
     int at_cycle = 0;
     constexpr int kSeeds = 10;
+    const sim::Scenario scenario = of_drawn_units("indoor");
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+        const sim::TemperatureErrorParameters unit = sim::drawn_unit(scenario, seed);
         RecordAnalysisOptions options;
         options.ensemble_size = 60;
         const RecordAnalysis analysis =
-            analyse_record(simulated_segment("indoor", seed), kRecordStep_s, options);
+            analyse_record(simulated_segment(scenario, seed), kRecordStep_s, options);
         bool is_at_cycle = false;
         for (const ResponsePoint& point : analysis.by_spectrum) {
-            by_spectrum.add(point);
+            by_spectrum.add(point, unit);
             is_at_cycle |= point.refusal.empty() && std::abs(point.period_s - 900.0) < 100.0;
         }
-        for (const ResponsePoint& point : analysis.by_modes) by_modes.add(point);
+        for (const ResponsePoint& point : analysis.by_modes) by_modes.add(point, unit);
         at_cycle += is_at_cycle ? 1 : 0;
     }
     CHECK(at_cycle == kSeeds);
