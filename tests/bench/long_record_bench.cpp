@@ -1,18 +1,26 @@
-/// How often the 95 % limits of the two-path fit hold the simulated unit's parameters, and how they
-/// narrow with the record: 12 h, 3 days, 7 days.  Exits 1 when a night's hold in fewer than 85 % of all.
+/// Long records against what is promised of them.  Nights of the unit in the tables: the publication's
+/// statistics by the product.  Units drawn about it: how often the 95 % limits of the two-path fit hold
+/// the unit's parameters, and how they narrow with the record: 12 h, 3 days, 7 days.  Exits 1 when the
+/// mean of a statistic is out of its range, a parameter's limits hold in fewer than 85 % of the nights,
+/// or do not narrow.
 ///
 ///     long_record_bench [FIRST_SEED [SEEDS]]
+///
+/// FIRST_SEED: 9001 by default; 9001-9020 were not looked at while fit and limits were made.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <string>
 #include <vector>
 
-#include "corrector/fixed_point/two_path_fit.hpp"
+#include "corrector/fixed_point/record_result.hpp"
 #include "tests/support/plant_statistics.hpp"
+#include "tests/support/published_ranges.hpp"
+#include "tests/support/two_path_truth.hpp"
 
 namespace {
 
@@ -20,64 +28,116 @@ using namespace a351;
 using corrector::TwoPathFit;
 using corrector::TwoPathTerm;
 
-struct Truth {
-    TwoPathTerm term;
-    double value;
-    bool is_lag;
+constexpr double kLeastHeld = 0.85;
+constexpr double k95 = 1.96;  // standard errors of 95 % limits
+
+struct Seeds {
+    std::uint64_t first = 9001, count = 20;
 };
 
-/// Of the scenarios' plant; rF = 950 mGal/degC x 43 s.
-constexpr std::array<Truth, 5> kTruths{{{TwoPathTerm::level, -12.0, false},
-                                        {TwoPathTerm::fast, 950.0 * 43.0 / 3600.0, false},
-                                        {TwoPathTerm::slow, -20.0, false},
-                                        {TwoPathTerm::fast_lag, 43.0, true},
-                                        {TwoPathTerm::slow_lag, 2700.0, true}}};
+bool statistics_are_in_range(Seeds seeds) {
+    const sim::Scenario scenario = sim::load_scenario("indoor");
+    std::map<std::string, sim::Figure> figures;
+    for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count; ++seed) {
+        const sim::IndoorRecord record = sim::indoor_record(scenario, seed);
+        corrector::RecordResult result;
+        result.parts.segments.emplace_back();
+        result.parts.segments[0].acceleration_mgal = record.difference_mgal;
+        result.parts.segments[0].temperature_degc = record.temperature_degc;
+        result.options.ensemble_size = 60;
+        result.analysis = corrector::analyse_record(
+            result.segment(), sim::IndoorRecord::kStepSeconds, result.options);
+        for (const corrector::RecordStatistic& statistic : corrector::record_statistics(result)) {
+            sim::Figure& figure = figures[statistic.key];
+            figure.published = statistic.published;
+            figure.values.push_back(statistic.value);
+        }
+    }
+    std::printf(
+        "12 h (indoor), the tables' unit, %llu seeds; accepted: the mean\n  %-30s %10s %22s"
+        "  %-14s %s\n",
+        static_cast<unsigned long long>(seeds.count), "", "published", "simulated", "accepted",
+        "single ones within");
+    bool all = true;
+    for (const sim::PublishedRange& range : sim::kPublishedRanges) {
+        sim::Figure& figure = figures[std::string(range.key)];
+        figure.low = range.low;
+        figure.high = range.high;
+        const auto within = std::count_if(
+            figure.values.begin(), figure.values.end(),
+            [&range](double value) { return value >= range.low && value <= range.high; });
+        // A night whose cycle the modes miss has no statistic of them.
+        const bool good = figure.values.size() == seeds.count && figure.is_accepted();
+        std::printf("  %-30s %10s %10.3f +- %8.3f  %5g ... %-6g %2td of %zu  %s\n",
+                    std::string(range.key).c_str(), figure.published.c_str(), figure.mean(),
+                    figure.deviation(), figure.low, figure.high, within, figure.values.size(),
+                    good ? "PASS" : "FAIL");
+        all = all && good;
+    }
+    return all;
+}
 
+/// A parameter over seeds.
 struct Line {
     std::string name;
     int held = 0, determined = 0;
-    std::vector<double> values, errors;
+    std::vector<double> errors, deviations;
+
+    void add(double error, double deviation, bool is_determined) {
+        errors.push_back(error);
+        deviations.push_back(deviation);
+        held += std::abs(deviation) <= k95 ? 1 : 0;
+        determined += is_determined ? 1 : 0;
+    }
+    [[nodiscard]] double median_error() const {
+        std::vector<double> values = errors;
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        return *middle;
+    }
+    [[nodiscard]] double rms_deviation() const {
+        double sum = 0.0;
+        for (const double value : deviations) sum += value * value;
+        return std::sqrt(sum / static_cast<double>(deviations.size()));
+    }
 };
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-/// Share of all limits that hold.
-double report(const std::string& title, const std::vector<TwoPathFit>& fits) {
-    std::vector<Line> lines(kTruths.size() + 1);
-    lines.back().name = "static_slope_mgal_per_degc";
+/// All parameters, the static slope behind them.
+struct Count {
+    std::array<Line, corrector::kTwoPathTerms + 1> lines;
     int adequate = 0;
-    for (const TwoPathFit& fit : fits) {
-        for (std::size_t k = 0; k < kTruths.size(); ++k) {
-            const corrector::FittedParameter& parameter = fit[kTruths[k].term];
-            const double deviation =
-                kTruths[k].is_lag ? parameter.value * std::log(parameter.value / kTruths[k].value)
-                                  : parameter.value - kTruths[k].value;
+
+    void add(const TwoPathFit& fit, const sim::TwoPathTruth& truth) {
+        for (std::size_t k = 0; k < corrector::kTwoPathTerms; ++k) {
+            const corrector::FittedParameter& parameter = fit.parameters.at(k);
             lines[k].name = parameter.key;
-            lines[k].held += std::abs(deviation) <= 1.96 * parameter.standard_error ? 1 : 0;
-            lines[k].determined += parameter.is_determined ? 1 : 0;
-            lines[k].values.push_back(parameter.value);
-            lines[k].errors.push_back(parameter.standard_error);
+            lines[k].add(parameter.standard_error,
+                         sim::deviation(fit, truth, static_cast<TwoPathTerm>(k)),
+                         parameter.is_determined);
         }
-        lines.back().held += std::abs(fit.static_slope + 32.0) <= 1.96 * fit.static_slope_error;
-        lines.back().determined += fit.is_static_slope_determined ? 1 : 0;
-        lines.back().values.push_back(fit.static_slope);
-        lines.back().errors.push_back(fit.static_slope_error);
+        lines.back().name = "static_slope_mgal_per_degc";
+        lines.back().add(fit.static_slope_error, sim::static_slope_deviation(fit, truth),
+                         fit.is_static_slope_determined);
         adequate += fit.unexplained.empty() ? 1 : 0;
     }
-    std::printf("%s, %zu seeds; residual adequate in %d\n  %-28s %10s %10s %6s %10s\n",
-                title.c_str(), fits.size(), adequate, "", "median", "error", "held", "determined");
-    int held = 0;
-    for (const Line& line : lines) {
-        std::printf("  %-28s %10.2f %10.2f %6d %10d\n", line.name.c_str(), median(line.values),
-                    median(line.errors), line.held, line.determined);
-        held += line.held;
+
+    /// @return whether every parameter is held often enough.
+    bool print(const std::string& title) const {
+        const std::size_t seeds = lines[0].errors.size();
+        std::printf("%s, %zu seeds; residual adequate in %d\n  %-28s %13s %5s %11s %11s\n",
+                    title.c_str(), seeds, adequate, "", "median error", "held", "determined",
+                    "rms off/err");
+        bool all = true;
+        for (const Line& line : lines) {
+            const bool good = line.held >= kLeastHeld * static_cast<double>(seeds);
+            std::printf("  %-28s %13.3f %5d %11d %11.2f  %s\n", line.name.c_str(),
+                        line.median_error(), line.held, line.determined, line.rms_deviation(),
+                        good ? "PASS" : "FAIL");
+            all = all && good;
+        }
+        return all;
     }
-    return held / static_cast<double>(lines.size() * fits.size());
-}
+};
 
 TwoPathFit fitted(const sim::IndoorRecord& record, std::size_t samples) {
     const auto first = [samples](const std::vector<double>& values) {
@@ -89,25 +149,46 @@ TwoPathFit fitted(const sim::IndoorRecord& record, std::size_t samples) {
                                     sim::IndoorRecord::kStepSeconds, 900.0);
 }
 
+/// The first hours of records of units drawn within +-scatter.
+Count counted(const std::string& name, double scatter, double hours, Seeds seeds) {
+    sim::Scenario scenario = sim::load_scenario(name);
+    scenario.unit_scatter = scatter;
+    Count count;
+    for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count; ++seed)
+        count.add(fitted(sim::indoor_record(scenario, seed),
+                         static_cast<std::size_t>(hours * 180.0)),  // samples of 20 s an hour
+                  sim::two_path_truth(scenario, seed));
+    return count;
+}
+
+bool narrows(const Count& shorter, const Count& longer, const std::string& title) {
+    std::printf("%s: errors by the factor", title.c_str());
+    bool all = true;
+    for (std::size_t k = 0; k < shorter.lines.size(); ++k) {
+        const double factor = longer.lines[k].median_error() / shorter.lines[k].median_error();
+        std::printf(" %.2f", factor);
+        all = all && factor < 1.0;
+    }
+    std::printf("  %s\n", all ? "PASS" : "FAIL");
+    return all;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    const long first = argc > 1 ? std::atol(argv[1]) : 1;
-    const long count = argc > 2 ? std::atol(argv[2]) : 20;
-    constexpr std::size_t kDay = 4320;  // samples of 20 s
-    const sim::Scenario indoor = sim::load_scenario("indoor"), week = sim::load_scenario("week");
-    std::vector<TwoPathFit> nights, days, weeks;
-    for (long seed = first; seed < first + count; ++seed) {
-        const auto number = static_cast<std::uint64_t>(seed);
-        nights.push_back(fitted(sim::indoor_record(indoor, number), kDay));
-        const sim::IndoorRecord record = sim::indoor_record(week, number);
-        days.push_back(fitted(record, 3 * kDay));
-        weeks.push_back(fitted(record, 7 * kDay));
-    }
-    const double share = report("12 h (indoor)", nights);
-    report("3 days (week)", days);
-    report("7 days (week)", weeks);
-    std::printf("limits of a night hold in %.0f %% (85 or more: %s)\n", 100.0 * share,
-                share >= 0.85 ? "PASS" : "FAIL");
-    return share >= 0.85 ? 0 : 1;
+    Seeds seeds;
+    if (argc > 1) seeds.first = static_cast<std::uint64_t>(std::atoll(argv[1]));
+    if (argc > 2) seeds.count = static_cast<std::uint64_t>(std::atoll(argv[2]));
+    bool all = statistics_are_in_range(seeds);
+    const Count night = counted("indoor", 0.25, 12.0, seeds);
+    all = night.print("12 h (indoor), units within +-25 %") && all;
+    all = counted("indoor", 0.6, 12.0, seeds).print("12 h (indoor), units within +-60 %") && all;
+    const Count days = counted("week", 0.25, 72.0, seeds);
+    days.print("3 days (week), units within +-25 %");
+    const Count week = counted("week", 0.25, 168.0, seeds);
+    week.print("7 days (week), units within +-25 %");
+    all = narrows(night, days, "3 days by 12 h") && all;
+    all = narrows(days, week, "7 days by 3") && all;
+    std::printf("%s\n", all ? "all promises kept" : "NOT REACHED: see FAIL");
+    return all ? 0 : 1;
 }
