@@ -9,6 +9,7 @@
 #include "corrector/command/calibrate_command.hpp"
 #include "corrector/command/decimate_command.hpp"
 #include "corrector/command/emd_command.hpp"
+#include "corrector/command/export_command.hpp"
 #include "corrector/command/record_command.hpp"
 #include "corrector/command/retime_command.hpp"
 #include "corrector/command/smooth_command.hpp"
@@ -39,6 +40,7 @@ int main(int argc, char** argv) {
     a351::corrector::add_calibrate_command(program);
     a351::corrector::add_decimate_command(program);
     a351::corrector::add_emd_command(program);
+    a351::corrector::add_export_command(program);
     a351::corrector::add_record_command(program);
     a351::corrector::add_retime_command(program);
     a351::corrector::add_smooth_command(program);

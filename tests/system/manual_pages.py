@@ -10,7 +10,7 @@ PAGES = {
                 ["status", "watch", "start", "stop", "setup", "discard", "rename", "note", "target", "sites", "list"]),
     "a351-sim": ("sim/a351-sim.1", ["device", "replay", "survey", "plan"]),
     "a351-correct": ("corrector/a351-correct.1",
-                     ["survey", "table", "calibrate", "decimate", "emd", "record", "retime", "smooth", "tide"]),
+                     ["survey", "table", "calibrate", "decimate", "emd", "export", "record", "retime", "smooth", "tide"]),
 }
 
 for program, (page, commands) in PAGES.items():

@@ -1,0 +1,63 @@
+#include "corrector/command/export_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "corrector/command/option_values.hpp"
+#include "corrector/export/export.hpp"
+#include "corrector/survey/new_file.hpp"
+#include "protocol/core/input_error.hpp"
+
+namespace a351::corrector {
+namespace {
+
+struct Texts {
+    ExportOptions options;
+    std::string from, to, format, out;
+};
+
+void run(Texts texts) {
+    ExportOptions& options = texts.options;
+    options.from = instant_option("--from", texts.from);
+    options.to = instant_option("--to", texts.to);
+    options.format = texts.format == "csv" ? ExportFormat::csv : ExportFormat::mseed;
+    if (options.from >= options.to)
+        throw InputError("--to = " + texts.to + ": not after --from; allowed: a later instant");
+    NewFile file(texts.out);
+    const ExportReport report =
+        export_channel(options, [&](std::string_view bytes) { file.write(bytes); });
+    file.close();
+    file.publish();
+    for (const record::ArchiveDamage& damage : report.damage) {
+        std::cerr << "a351-correct: " << damage.file.string() << ": offset " << damage.offset
+                  << ": " << damage.byte_count << " bytes are no record\n";
+    }
+    std::cout << texts.out << ": " << report.values << " values of " << options.channel << " at "
+              << options.rate_hz << " Hz in " << report.runs << " runs without a gap\n";
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand(
+        "export",
+        "Writes a channel of an archive on whole multiples of a period of UTC, by band-limited "
+        "interpolation between the sensor's own sample instants.  A product (location code 10), "
+        "not the record.");
+    const auto texts = std::make_shared<Texts>();
+    command.add_option("root", texts->options.root, "Data root")->required();
+    command.add_option("--from", texts->from, "First instant, RFC 3339")->required();
+    command.add_option("--to", texts->to, "Instant behind the last one")->required();
+    command.add_option("--channel", texts->options.channel, "Channel, e.g. BNZ")->required();
+    command.add_option("--rate", texts->options.rate_hz, "Values per second, whole")
+        ->required()
+        ->check(CLI::Range(1, 1000));
+    command.add_option("--format", texts->format, "csv or mseed")
+        ->required()
+        ->check(CLI::IsMember({"csv", "mseed"}));
+    command.add_option("--out", texts->out, "File to be written")->required();
+    command.callback([texts] { run(*texts); });
+}
+
+}  // namespace a351::corrector

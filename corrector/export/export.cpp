@@ -1,0 +1,173 @@
+#include "corrector/export/export.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "corrector/export/utc_grid.hpp"
+#include "protocol/core/input_error.hpp"
+#include "protocol/record/miniseed.hpp"
+#include "protocol/record/station_xml.hpp"
+#include "protocol/text/csv.hpp"
+
+namespace a351::corrector {
+namespace {
+
+using std::chrono::days;
+
+constexpr const char* kProductLocation = "10";
+
+/// Takes runs in order; those that follow each other are one.
+class GridWriter {
+public:
+    using Write = std::function<void(std::string_view)>;
+
+    GridWriter(const Write& write, int rate_hz) : write_(write), rate_hz_(rate_hz) {}
+    GridWriter(const GridWriter&) = delete;
+    GridWriter& operator=(const GridWriter&) = delete;
+    virtual ~GridWriter() = default;
+
+    void take(const GridRun& run, ExportReport& report) {
+        if (run.values.empty()) return;
+        if (run.first != next_ || report.values == 0) {
+            if (report.values > 0) end_run();
+            ++report.runs;
+        }
+        put(run);
+        next_ = run.first + static_cast<std::int64_t>(run.values.size());
+        report.values += static_cast<std::int64_t>(run.values.size());
+    }
+    virtual void end_run() = 0;
+
+protected:
+    virtual void put(const GridRun& run) = 0;
+    void write(std::string_view bytes) const { write_(bytes); }
+    [[nodiscard]] UtcTime time_of(std::int64_t k) const { return grid_time(k, rate_hz_); }
+    [[nodiscard]] int rate_hz() const { return rate_hz_; }
+
+private:
+    const Write& write_;
+    int rate_hz_;
+    std::int64_t next_ = 0;
+};
+
+class CsvGrid : public GridWriter {
+public:
+    CsvGrid(const Write& write, int rate_hz) : GridWriter(write, rate_hz) {
+        this->write("time_utc,counts\n");
+    }
+    void end_run() override { write("\n"); }
+
+private:
+    void put(const GridRun& run) override {
+        std::string rows;
+        for (std::size_t i = 0; i < run.values.size(); ++i) {
+            rows += to_rfc3339(time_of(run.first + static_cast<std::int64_t>(i)), 9) + ',' +
+                    text::shortest(run.values[i]) + '\n';
+        }
+        write(rows);
+    }
+};
+
+class MiniseedGrid : public GridWriter {
+public:
+    MiniseedGrid(const Write& write, int rate_hz, const record::StationCodes& codes,
+                 const std::string& channel)
+        : GridWriter(write, rate_hz) {
+        header_.network = codes.network;
+        header_.station = codes.station;
+        header_.location = kProductLocation;
+        header_.channel = channel;
+        header_.nominal_rate = Hertz(rate_hz);
+    }
+    void end_run() override {
+        while (!counts_.empty()) pack();
+    }
+
+private:
+    void put(const GridRun& run) override {
+        if (counts_.empty()) first_ = run.first;
+        for (const double value : run.values) {
+            counts_.push_back(static_cast<std::int32_t>(
+                std::llround(std::clamp(value, -2147483648.0, 2147483647.0))));
+            if (counts_.size() == record::kMostSamplesPerRecord) pack();
+        }
+    }
+    void pack() {
+        header_.start = time_of(first_);
+        const record::PackedRecord packed = record::pack_record(header_, counts_);
+        write({reinterpret_cast<const char*>(packed.bytes.data()), packed.bytes.size()});
+        counts_.erase(counts_.begin(),
+                      counts_.begin() + static_cast<std::ptrdiff_t>(packed.sample_count));
+        first_ += static_cast<std::int64_t>(packed.sample_count);
+        header_.sequence = header_.sequence % 999999 + 1;
+    }
+
+    record::RecordHeader header_;
+    std::vector<std::int32_t> counts_;
+    std::int64_t first_ = 0;
+};
+
+/// Neighbouring days are read with some of each other.
+void note(ExportReport& report, const std::vector<record::ArchiveDamage>& damage) {
+    for (const record::ArchiveDamage& one : damage) {
+        const auto is_known = [&](const record::ArchiveDamage& known) {
+            return known.file == one.file && known.offset == one.offset;
+        };
+        if (std::none_of(report.damage.begin(), report.damage.end(), is_known))
+            report.damage.push_back(one);
+    }
+}
+
+std::unique_ptr<GridWriter> writer_for(const ExportOptions& options,
+                                       const record::StationCodes& codes,
+                                       const std::function<void(std::string_view)>& write) {
+    if (options.format == ExportFormat::csv)
+        return std::make_unique<CsvGrid>(write, options.rate_hz);
+    return std::make_unique<MiniseedGrid>(write, options.rate_hz, codes, options.channel);
+}
+
+}  // namespace
+
+ExportReport export_channel(const ExportOptions& options,
+                            const std::function<void(std::string_view)>& write) {
+    const auto metadata =
+        record::read_station_xml(options.root / "metadata" / "station.xml", options.from);
+    const auto writer = writer_for(options, metadata.codes, write);
+    ExportReport report;
+    std::optional<UtcGrid> grid;
+    double source_rate_hz = 0.0;
+    for (UtcTime begin = options.from; begin < options.to;) {
+        const UtcTime end =
+            std::min<UtcTime>(options.to, std::chrono::floor<days>(begin) + days(1));
+        // What the kernel needs on either side: 32 zero crossings, 32 s at 1 Hz.
+        const std::chrono::seconds margin(33 / options.rate_hz + 1);
+        record::ChannelData data =
+            record::read_channel(options.root / "archive", metadata.codes, options.channel,
+                                 begin - margin, end + margin);
+        for (const record::Segment& segment : data.segments) {
+            if (segment.rate_hz != source_rate_hz) {
+                source_rate_hz = segment.rate_hz;
+                if (options.rate_hz > 1.01 * source_rate_hz) {
+                    throw InputError("--rate = " + std::to_string(options.rate_hz) +
+                                     "; allowed: up to the " + text::shortest(source_rate_hz) +
+                                     " Hz of " + options.channel);
+                }
+                grid.emplace(source_rate_hz, options.rate_hz);
+            }
+            writer->take(grid->resample(segment, begin, end), report);
+        }
+        note(report, data.damage);
+        begin = end;
+    }
+    if (report.values == 0) {
+        throw InputError(options.root.string() + ": no samples of " + options.channel + " from " +
+                         to_rfc3339(options.from) + " to " + to_rfc3339(options.to));
+    }
+    writer->end_run();
+    return report;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,125 @@
+#include "corrector/export/utc_grid.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace a351::corrector {
+namespace {
+
+constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+constexpr double kZeroCrossings = 32.0;  // Z: 0.64 s at 50 Hz are lost beside a gap.
+constexpr double kBeta = 10.0;           // b: stop band below -95 dB.
+// Linear interpolation between the steps is off by (pi / steps)^2 / 8 of a weight: 3e-7.
+constexpr int kSteps = 2048;
+
+double kernel(double zero_crossings) {
+    const double x = std::numbers::pi * zero_crossings;
+    const double sinc = x == 0.0 ? 1.0 : std::sin(x) / x;
+    const double inside = std::max(0.0, 1.0 - std::pow(zero_crossings / kZeroCrossings, 2));
+    return sinc * std::cyl_bessel_i(0.0, kBeta * std::sqrt(inside)) / std::cyl_bessel_i(0.0, kBeta);
+}
+
+/// Follows u(t) as t rises.
+class Position {
+public:
+    explicit Position(const record::Segment& segment)
+        : segment_(segment), samples_per_s_(segment.rate_hz) {
+        measure();
+    }
+
+    double at(UtcTime time) {
+        const auto& anchors = segment_.anchors;
+        while (i_ + 1 < anchors.size() && anchors[i_ + 1].time <= time) {
+            ++i_;
+            measure();
+        }
+        return static_cast<double>(anchors[i_].offset) +
+               seconds_between(anchors[i_].time, time) * samples_per_s_;
+    }
+
+private:
+    void measure() {
+        if (i_ + 1 == segment_.anchors.size()) return;
+        const auto& anchor = segment_.anchors[i_];
+        const auto& next = segment_.anchors[i_ + 1];
+        samples_per_s_ = static_cast<double>(next.offset - anchor.offset) /
+                         seconds_between(anchor.time, next.time);
+    }
+
+    const record::Segment& segment_;
+    double samples_per_s_;
+    std::size_t i_ = 0;
+};
+
+}  // namespace
+
+UtcTime grid_time(std::int64_t k, int rate_hz) {
+    const auto second = std::chrono::floor<std::chrono::seconds>(
+        UtcTime(Nanoseconds((k >= 0 ? k : k - rate_hz + 1) / rate_hz * kNanosecondsPerSecond)));
+    const std::int64_t rest = k - second.time_since_epoch().count() * rate_hz;
+    return second + Nanoseconds(rest * kNanosecondsPerSecond / rate_hz);
+}
+
+std::int64_t first_on_grid(UtcTime time, int rate_hz) {
+    const auto second = std::chrono::floor<std::chrono::seconds>(time);
+    const std::int64_t within = (time - second).count();
+    const std::int64_t k =
+        second.time_since_epoch().count() * rate_hz + within * rate_hz / kNanosecondsPerSecond;
+    return grid_time(k, rate_hz) < time ? k + 1 : k;
+}
+
+UtcGrid::UtcGrid(double source_rate_hz, int rate_hz) : rate_hz_(rate_hz) {
+    if (rate_hz < 1 || rate_hz > 1.01 * source_rate_hz) {
+        throw std::invalid_argument("rate_hz = " + std::to_string(rate_hz) +
+                                    "; allowed: 1 to the samples' " +
+                                    std::to_string(source_rate_hz));
+    }
+    const double scale = std::min(1.0, rate_hz / source_rate_hz);
+    half_width_ = kZeroCrossings / scale;
+    for (int i = 0; i <= static_cast<int>(std::ceil(half_width_ * kSteps)) + 1; ++i) {
+        const double crossings = scale * i / kSteps;
+        kernel_.push_back(crossings < kZeroCrossings ? kernel(crossings) : 0.0);
+    }
+}
+
+GridRun UtcGrid::resample(const record::Segment& segment, UtcTime from, UtcTime to) const {
+    const UtcTime begin = std::max(from, segment.anchors.front().time);
+    const UtcTime end = std::min(to, segment.time_of(segment.counts.size() - 1) + Nanoseconds(1));
+    GridRun run;
+    Position position(segment);
+    const double last = static_cast<double>(segment.counts.size() - 1) - half_width_;
+    for (std::int64_t k = first_on_grid(begin, rate_hz_); grid_time(k, rate_hz_) < end; ++k) {
+        const double u = position.at(grid_time(k, rate_hz_));
+        if (u < half_width_) continue;
+        if (u > last) break;
+        if (run.values.empty()) run.first = k;
+        run.values.push_back(at(segment.counts, u));
+    }
+    return run;
+}
+
+/// Differences from a neighbour, so that what all samples share costs no digits.
+double UtcGrid::at(const std::vector<std::int32_t>& counts, double position) const {
+    const double origin = counts[static_cast<std::size_t>(position)];
+    const auto first = static_cast<std::size_t>(std::ceil(position - half_width_));
+    const auto last = static_cast<std::size_t>(std::floor(position + half_width_));
+    double sum = 0.0;
+    double weights = 0.0;
+    for (std::size_t j = first; j <= last; ++j) {
+        const double step = std::abs(position - static_cast<double>(j)) * kSteps;
+        const auto i = static_cast<std::size_t>(step);
+        const double weight =
+            kernel_[i] + (step - static_cast<double>(i)) * (kernel_[i + 1] - kernel_[i]);
+        sum += weight * (counts[j] - origin);
+        weights += weight;
+    }
+    return origin + sum / weights;
+}
+
+}  // namespace a351::corrector

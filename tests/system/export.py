@@ -1,0 +1,50 @@
+"""`export`: an exact 50 Hz grid of UTC, in both formats the same, beside the sensor's own samples; refusals."""
+
+import datetime
+import math
+
+from programs import BIN, TOOLS, Scratch, demand, rows, run
+
+FROM, TO = "2017-07-15T23:50:00Z", "2017-07-16T00:10:00Z"
+SECONDS = 1200
+
+
+def export(root, out, rate, form, channel="BNZ", check=True):
+    return run(BIN / "a351-correct", "export", root, "--from", FROM, "--to", TO, "--channel", channel, "--rate", rate,
+               "--format", form, "--out", out, check=check)
+
+
+with Scratch() as scratch:
+    root = scratch / "day"
+    run(BIN / "a351-sim", "survey", "--scenario", "ideal", "--seed", 3, "--out", root)
+    print(export(root, scratch / "grid.csv", 50, "csv").stdout, end="")
+    grid = rows(scratch / "grid.csv")
+    demand(f"{len(grid)} values over a midnight, none missing", len(grid) == 50 * SECONDS)
+    first = datetime.datetime.fromisoformat(FROM.replace("Z", "+00:00"))
+    demand("each on a whole multiple of 20 ms", all(
+        row["time_utc"] == (first + datetime.timedelta(milliseconds=20 * i)).strftime("%Y-%m-%dT%H:%M:%S.%f000Z")
+        for i, row in enumerate(grid)))
+
+    archived = run(BIN / "a351-correct", "export", root, "--from", FROM, "--to", TO, "--channel", "BNZ", "--rate", 1,
+                   "--format", "csv", "--out", scratch / "slow.csv")
+    slow = [float(row["counts"]) for row in rows(scratch / "slow.csv")]
+    fast = [float(row["counts"]) for row in grid]
+    means = [sum(fast[50 * i - 25:50 * i + 25]) / 50 for i in range(1, SECONDS)]
+    offset = sum(a - b for a, b in zip(slow[1:], means)) / len(means)
+    demand(f"1 Hz and the means of 50 Hz agree in the mean ({offset:+.4f} counts)", abs(offset) < 0.05)
+
+    export(root, scratch / "grid.mseed", 50, "mseed")
+    traces = run(TOOLS / "mseed-traces", scratch, "grid.mseed").stdout
+    print(traces, end="")
+    found = dict(part.split("=") for part in traces.split())
+    demand("libmseed joins its records to one trace that ends when it should",
+           found["traces"] == "1" and int(found["samples"]) == 50 * SECONDS and abs(float(found["end_error_s"])) < 2e-6)
+    raw = (scratch / "grid.mseed").read_bytes()
+    demand("its location code is 10, its rate 50 Hz", raw[13:15] == b"10" and raw[32:36] == b"\0\x32\0\1")
+
+    for rate, channel, form, word in ((60, "BNZ", "csv", "--rate = 60"), (50, "BNX", "csv", "no samples of BNX"),
+                                      (50, "BNZ", "wav", "--format")):
+        refused = export(root, scratch / "refused", rate, form, channel, check=False)
+        demand(f"refused: {refused.stderr.strip()}", refused.returncode == 2 and word in refused.stderr
+               and refused.stderr.count("\n") == 1)
+    demand("a refusal leaves nothing", not list(scratch.glob("refused*")))

@@ -1,0 +1,112 @@
+#include "corrector/export/utc_grid.hpp"
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace a351::corrector {
+namespace {
+
+const UtcTime kStart = *parse_rfc3339("2026-03-01T12:00:00.013Z");
+constexpr double kAmplitude = 1e8;  // counts: what rounding to counts adds is 1e-8 of it
+
+/// Two minutes of a sine, from a clock that is `ppm` fast, in records of 500 samples.
+record::Segment sine(double frequency_hz, double ppm, double offset = 0.0) {
+    record::Segment segment;
+    segment.rate_hz = 50.0;
+    const double true_rate_hz = 50.0 * (1.0 + 1e-6 * ppm);
+    for (int i = 0; i < 6000; ++i) {
+        const double t = i / true_rate_hz;
+        if (i % 500 == 0) {
+            segment.anchors.push_back({static_cast<std::size_t>(i), kStart + from_seconds(t)});
+        }
+        segment.counts.push_back(static_cast<std::int32_t>(std::lround(
+            offset + kAmplitude * std::sin(2.0 * std::numbers::pi * frequency_hz * t))));
+    }
+    return segment;
+}
+
+/// Largest departure from the sine at the grid's instants, of the amplitude.
+double error(const GridRun& run, int rate_hz, double frequency_hz) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < run.values.size(); ++i) {
+        const double t =
+            seconds_between(kStart, grid_time(run.first + static_cast<std::int64_t>(i), rate_hz));
+        const double expected = kAmplitude * std::sin(2.0 * std::numbers::pi * frequency_hz * t);
+        largest = std::max(largest, std::abs(run.values[i] - expected));
+    }
+    return largest / kAmplitude;
+}
+
+GridRun resampled(const record::Segment& segment, int rate_hz) {
+    return UtcGrid(segment.rate_hz, rate_hz)
+        .resample(segment, kStart - std::chrono::hours(1), kStart + std::chrono::hours(1));
+}
+
+}  // namespace
+
+TEST_CASE("grid instants are whole multiples of the period, before 1970 too", "[export]") {
+    CHECK(to_rfc3339(grid_time(50 * 86400LL + 1, 50), 3) == "1970-01-02T00:00:00.020Z");
+    CHECK(to_rfc3339(grid_time(-1, 50), 3) == "1969-12-31T23:59:59.980Z");
+    CHECK(to_rfc3339(grid_time(4, 3), 9) == "1970-01-01T00:00:01.333333333Z");
+    for (const int rate_hz : {1, 3, 50}) {
+        const std::int64_t k = first_on_grid(kStart, rate_hz);
+        CHECK(grid_time(k, rate_hz) >= kStart);
+        CHECK(grid_time(k - 1, rate_hz) < kStart);
+        CHECK(first_on_grid(grid_time(k, rate_hz), rate_hz) == k);
+    }
+}
+
+TEST_CASE("sines up to 0.4 of the rate come back within 1e-5, of a clock 100 ppm off", "[export]") {
+    for (const int rate_hz : {50, 10, 1}) {
+        for (const double share : {0.001, 0.1, 0.2, 0.3, 0.4}) {
+            const double frequency_hz = share * rate_hz;
+            const GridRun run = resampled(sine(frequency_hz, 100.0), rate_hz);
+            const double found = error(run, rate_hz, frequency_hz);
+            WARN(rate_hz << " Hz, sine of " << frequency_hz << " Hz: largest error " << found);
+            CHECK(found < 1e-5);
+            CHECK(run.values.size() > 50);
+        }
+    }
+}
+
+TEST_CASE("what the lower rate cannot hold is down to 1e-4", "[export]") {
+    for (const double frequency_hz : {6.0, 8.0, 14.0}) {
+        double largest = 0.0;
+        for (const double value : resampled(sine(frequency_hz, 20.0), 10).values)
+            largest = std::max(largest, std::abs(value));
+        WARN("10 Hz, sine of " << frequency_hz << " Hz: " << largest / kAmplitude << " is left");
+        CHECK(largest / kAmplitude < 1e-4);
+    }
+}
+
+TEST_CASE("a constant comes back as it is", "[export]") {
+    record::Segment segment = sine(1.0, 20.0);
+    for (auto& count : segment.counts) count = 16'777'215;
+    for (const double value : resampled(segment, 50).values)
+        CHECK(std::abs(value - 16'777'215.0) < 1e-9);
+}
+
+TEST_CASE("nothing is made where samples lie outside the segment, or the range", "[export]") {
+    const record::Segment segment = sine(1.0, 0.0);
+    const GridRun all = resampled(segment, 50);
+    CHECK(all.values.size() == 5999 - 64);  // The grid stands between the samples.
+    CHECK(seconds_between(kStart, grid_time(all.first, 50)) == Approx(0.64).margin(0.02));
+    const UtcTime from = kStart + std::chrono::seconds(10);
+    const GridRun part = UtcGrid(50.0, 50).resample(segment, from, from + std::chrono::seconds(2));
+    CHECK(part.values.size() == 100);
+    CHECK(grid_time(part.first, 50) >= from);
+    record::Segment shortest = segment;
+    shortest.counts.resize(64);
+    shortest.anchors.resize(1);
+    CHECK(resampled(shortest, 50).values.empty());
+}
+
+TEST_CASE("a rate above that of the samples is refused", "[export]") {
+    CHECK_THROWS_AS(UtcGrid(50.0, 51), std::invalid_argument);
+    CHECK_THROWS_AS(UtcGrid(50.0, 0), std::invalid_argument);
+}
+
+}  // namespace a351::corrector
