@@ -37,6 +37,10 @@ struct StationCodes {
     bool operator==(const StationCodes&) const = default;
 };
 
+/// Whether each has the characters and the length said there.  They name directories: others than
+/// these must not come out of a file.
+[[nodiscard]] bool are_valid(const StationCodes& codes) noexcept;
+
 /// Chunks of an earlier segment, from `sequence` on.
 struct RepeatedChunks {
     std::uint64_t segment = 0;
@@ -76,6 +80,16 @@ struct JournalHeader {
 /// Whether a stream under `next` reads as one under `last`, by the same host clock: only then can it
 /// go on in the session.
 [[nodiscard]] bool is_same_stream(const JournalHeader& last, const JournalHeader& next);
+
+// What a journal can hold.  Raw time counts as UTC does when time is simulated.  Within these bounds
+// an instant and a difference of two others add up to less than 2^63 ns.
+inline constexpr Nanoseconds kEarliestInstant{-(std::int64_t{1} << 58U)};   ///< 1960.
+inline constexpr Nanoseconds kLatestInstant{3'900'000'000'000'000'000};     ///< 2093.
+inline constexpr Nanoseconds kLongestSpan{std::int64_t{1} << 58U};          ///< 9 years.
+inline constexpr std::int64_t kMostClockError_us = std::int64_t{1} << 47U;  ///< 4 years.
+inline constexpr std::int64_t kLargestIndex = std::int64_t{1} << 53U;
+
+[[nodiscard]] bool is_in_range(const timing::ClockReading& clock) noexcept;
 
 /// One read() of the port: its bytes end at `end` within the chunk.
 struct ReadStamp {

@@ -33,7 +33,8 @@ void put(std::vector<std::byte>& out, std::string_view text) {
     out.insert(out.end(), bytes, bytes + text.size());
 }
 
-/// Takes fields from the front of a payload; once one is missing, all further ones are.
+/// Takes fields from the front of a payload; once one is missing or out of range, all further ones
+/// are missing.
 class Fields {
 public:
     explicit Fields(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -61,7 +62,24 @@ public:
         return front;
     }
 
-    Nanoseconds take_nanoseconds() { return Nanoseconds(take<std::int64_t>()); }
+    std::int64_t take_within(std::int64_t low, std::int64_t high) {
+        const auto value = take<std::int64_t>();
+        if (low <= value && value <= high) return value;
+        is_short_ = true;
+        bytes_ = {};
+        return 0;
+    }
+
+    Nanoseconds take_instant() {
+        return Nanoseconds(take_within(kEarliestInstant.count(), kLatestInstant.count()));
+    }
+    RawTime take_raw_time() { return RawTime(take_instant()); }
+    UtcTime take_utc() { return UtcTime(take_instant()); }
+    Nanoseconds take_span() {
+        return Nanoseconds(take_within(-kLongestSpan.count(), kLongestSpan.count()));
+    }
+    std::int64_t take_index() { return take_within(-kLargestIndex, kLargestIndex); }
+    std::int64_t take_clock_error() { return take_within(-kMostClockError_us, kMostClockError_us); }
 
     [[nodiscard]] std::size_t left() const noexcept { return bytes_.size(); }
     [[nodiscard]] bool is_short() const noexcept { return is_short_; }
@@ -165,15 +183,16 @@ struct PayloadWriter {
 
 std::optional<JournalChunk> decode_rx(Fields fields) {
     RxChunk rx;
-    const auto first = RawTime(fields.take_nanoseconds());
+    const auto first = fields.take_raw_time();
     const auto read_count = fields.take<std::uint32_t>();
     // The count is checked against the payload before anything is allocated for it.
     if (fields.is_short() || read_count > fields.left() / 12) return std::nullopt;
     rx.reads.reserve(read_count);
     for (std::uint32_t i = 0; i < read_count; ++i) {
         const auto end = fields.take<std::uint32_t>();
-        rx.reads.push_back({end, first + fields.take_nanoseconds()});
+        rx.reads.push_back({end, first + fields.take_span()});
     }
+    if (fields.is_short()) return std::nullopt;
     const auto bytes = fields.take_bytes(fields.left());
     rx.bytes.assign(bytes.begin(), bytes.end());
     if (!do_reads_fit(rx)) return std::nullopt;
@@ -182,7 +201,7 @@ std::optional<JournalChunk> decode_rx(Fields fields) {
 
 std::optional<JournalChunk> decode_tx(Fields fields) {
     TxChunk tx;
-    tx.time = RawTime(fields.take_nanoseconds());
+    tx.time = fields.take_raw_time();
     if (fields.is_short()) return std::nullopt;
     const auto bytes = fields.take_bytes(fields.left());
     tx.bytes.assign(bytes.begin(), bytes.end());
@@ -191,23 +210,23 @@ std::optional<JournalChunk> decode_tx(Fields fields) {
 
 std::optional<JournalChunk> decode_clock(Fields fields) {
     ClockReading clock;
-    clock.raw = RawTime(fields.take_nanoseconds());
-    clock.boottime = fields.take_nanoseconds();
-    clock.realtime = UtcTime(fields.take_nanoseconds());
+    clock.raw = fields.take_raw_time();
+    clock.boottime = fields.take_instant();
+    clock.realtime = fields.take_utc();
     const auto state = fields.take<std::uint8_t>();
     clock.is_synchronised = (state & 1U) != 0;
     clock.leap = static_cast<timing::LeapSecond>(state >> 1U);
-    clock.max_error_us = fields.take<std::int64_t>();
-    clock.estimated_error_us = fields.take<std::int64_t>();
+    clock.max_error_us = fields.take_clock_error();
+    clock.estimated_error_us = fields.take_clock_error();
     if (!fields.is_used_up() || clock.leap > timing::LeapSecond::removed) return std::nullopt;
     return clock;
 }
 
 std::optional<JournalChunk> decode_model(Fields fields) {
     ModelChunk model;
-    model.index = fields.take<std::int64_t>();
-    model.time.utc = UtcTime(fields.take_nanoseconds());
-    model.time.uncertainty = fields.take_nanoseconds();
+    model.index = fields.take_index();
+    model.time.utc = fields.take_utc();
+    model.time.uncertainty = fields.take_span();
     const auto state = fields.take<std::uint8_t>();
     if (!fields.is_used_up()) return std::nullopt;
     if (state > static_cast<std::uint8_t>(timing::TimingState::holdover)) return std::nullopt;
@@ -221,8 +240,8 @@ std::optional<JournalChunk> decode_mark(Fields fields) {
     while (fields.left() > 0) {
         ChannelMark channel;
         channel.channel = to_text(fields.take_bytes(fields.take<std::uint8_t>()));
-        channel.index = fields.take<std::int64_t>();
-        channel.utc = UtcTime(fields.take_nanoseconds());
+        channel.index = fields.take_index();
+        channel.utc = fields.take_utc();
         mark.channels.push_back(std::move(channel));
     }
     if (!fields.is_used_up()) return std::nullopt;
@@ -231,7 +250,7 @@ std::optional<JournalChunk> decode_mark(Fields fields) {
 
 std::optional<JournalChunk> decode_oven(Fields fields) {
     OvenChunk poll;
-    poll.time = RawTime(fields.take_nanoseconds());
+    poll.time = fields.take_raw_time();
     const auto outcome = fields.take<std::uint8_t>();
     poll.outcome = static_cast<OvenOutcome>(outcome);
     poll.decimals = fields.take<std::uint8_t>();

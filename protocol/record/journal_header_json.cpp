@@ -30,6 +30,7 @@ timing::ClockReading clock_from_json(const Json& json) {
     const int leap = json.value("leap", 0);
     if (leap < 0 || leap > 2) throw std::invalid_argument("leap");
     clock.leap = static_cast<timing::LeapSecond>(leap);
+    if (!is_in_range(clock)) throw std::invalid_argument("clock");
     return clock;
 }
 
@@ -44,6 +45,7 @@ JournalHeader header_from_json(const Json& json) {
     header.codes.station = json.at("station").get<std::string>();
     header.codes.location = json.at("location").get<std::string>();
     header.codes.axes = json.at("axes").get<std::array<std::string, 3>>();
+    if (!are_valid(header.codes)) throw std::invalid_argument("codes");
     header.profile = json.at("profile").get<std::string>();
     header.product_id = json.at("product_id").get<std::string>();
     header.serial_number = json.at("serial_number").get<std::string>();

@@ -1,6 +1,8 @@
 #include "protocol/record/journal_codec.hpp"
 
 #include <catch2/catch.hpp>
+#include <functional>
+#include <vector>
 
 #include "protocol/record/journal_header_json.hpp"
 #include "tests/unit/record/journal_samples.hpp"
@@ -110,6 +112,42 @@ TEST_CASE("a header that lacks a field or holds another type is none", "[record]
     auto of_other_type = json;
     of_other_type.replace(of_other_type.find("460800"), 6, "\"fast\"");
     CHECK_FALSE(parse_header(of_other_type));
+}
+
+TEST_CASE("codes that would name another directory than the archive's make no header",
+          "[record][journal]") {
+    CHECK(parse_header(header_to_json(JournalHeader())));
+    for (const auto& spoil : std::vector<std::function<void(StationCodes&)>>{
+             [](auto& codes) { codes.network = "."; }, [](auto& codes) { codes.network = ""; },
+             [](auto& codes) { codes.station = "../.."; },
+             [](auto& codes) { codes.station = "A35-"; }, [](auto& codes) { codes.location = "/"; },
+             [](auto& codes) { codes.axes[1] = "/x"; }}) {
+        JournalHeader header;
+        spoil(header.codes);
+        CHECK_FALSE(parse_header(header_to_json(header)));
+    }
+}
+
+TEST_CASE("instants that nothing can be reckoned with make no chunk", "[record][journal]") {
+    timing::ClockReading clock;
+    const auto comes_back = [&] {
+        return decode_payload(ChunkType::clock, payload_of(encode_chunk(clock, 1))).has_value();
+    };
+    clock.realtime = UtcTime(kLatestInstant);
+    clock.raw = RawTime(kEarliestInstant);
+    CHECK(comes_back());
+    clock.realtime += Nanoseconds(1);
+    CHECK_FALSE(comes_back());
+    clock.realtime = UtcTime();
+    clock.raw -= Nanoseconds(1);
+    CHECK_FALSE(comes_back());
+    JournalHeader header;
+    header.clock = clock;
+    CHECK_FALSE(parse_header(header_to_json(header)));
+    RxChunk rx;
+    rx.bytes.resize(1);
+    rx.reads.push_back({1, RawTime(kLatestInstant + Nanoseconds(1))});
+    CHECK_FALSE(decode_payload(ChunkType::rx, payload_of(encode_chunk(rx, 1))));
 }
 
 TEST_CASE("stamps of reads keep their order and their nanoseconds", "[record][journal]") {

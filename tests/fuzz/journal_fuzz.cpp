@@ -1,0 +1,77 @@
+/// @file
+/// Journal segments.  The input is a segment as it is, and a second time with its lengths, numbers and
+/// checksums made right, so that payloads come as far as they can: into the archiver.
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "protocol/core/input_error.hpp"
+#include "protocol/record/archiver.hpp"
+#include "protocol/record/journal_codec.hpp"
+#include "protocol/record/journal_reader.hpp"
+#include "tests/fuzz/fuzz_file.hpp"
+
+namespace {
+
+using namespace a351;
+using namespace a351::record;
+using fuzz::require;
+
+class Sink : public ArchiveSink {
+public:
+    void record(const std::string&, const PackedRecord& packed, std::int64_t) override {
+        require(decode_record(packed.bytes).has_value());
+    }
+};
+
+void put(std::vector<std::byte>& out, std::uint32_t value) {
+    for (int shift = 0; shift < 32; shift += 8)
+        out.push_back(static_cast<std::byte>(value >> shift));
+}
+
+/// The chunks of the input, put right.
+std::vector<std::byte> put_right(std::span<const std::byte> input) {
+    std::vector<std::byte> out = encode_preamble();
+    input = input.subspan(std::min(input.size(), kPreambleSize));
+    for (std::uint32_t sequence = 0; input.size() >= kChunkHeaderSize; ++sequence) {
+        ChunkHeader header = decode_chunk_header(input.first(kChunkHeaderSize));
+        input = input.subspan(kChunkHeaderSize);
+        header.length = static_cast<std::uint32_t>(
+            std::min<std::size_t>({header.length, input.size(), kMostPayloadBytes}));
+        header.sequence = sequence;
+        const auto payload = input.first(header.length);
+        input = input.subspan(header.length);
+        put(out, header.length);
+        out.push_back(static_cast<std::byte>(header.type));
+        put(out, sequence);
+        put(out, chunk_crc(header, payload));
+        out.insert(out.end(), payload.begin(), payload.end());
+    }
+    return out;
+}
+
+/// @param is_archived  whether the chunks go to the archiver.
+void read(std::string_view bytes, bool is_archived) {
+    JournalReader reader(fuzz::file_of(bytes, "00000001_20260301T130000Z.a351j"));
+    Sink sink;
+    Archiver archiver(sink);
+    while (const auto chunk = reader.next()) {
+        if (!is_archived) continue;
+        try {
+            archiver.take(*chunk);
+        } catch (const InputError&) {
+            return;
+        }
+    }
+    archiver.close_records();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    read(fuzz::text_of(data, size), false);
+    const auto right = put_right(std::as_bytes(std::span(data, size)));
+    read({reinterpret_cast<const char*>(right.data()), right.size()}, true);
+    return 0;
+}

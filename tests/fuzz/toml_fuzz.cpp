@@ -1,0 +1,37 @@
+/// @file
+/// Configuration, calibration, scenario and fault script: taken, or refused by an InputError of one line.
+
+#include "corrector/calibration/calibration.hpp"
+#include "daemon/config/config.hpp"
+#include "protocol/core/input_error.hpp"
+#include "protocol/core/utc_time.hpp"
+#include "protocol/wire/device_profile.hpp"
+#include "sim/line/fault_script.hpp"
+#include "sim/scenario/scenario.hpp"
+#include "tests/fuzz/fuzz_file.hpp"
+
+namespace {
+
+using namespace a351;
+
+template <class Read>
+void take_or_refuse(Read read) {
+    try {
+        read();
+    } catch (const InputError& error) {
+        fuzz::require(std::string_view(error.what()).find('\n') == std::string_view::npos);
+    }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string text(fuzz::text_of(data, size));
+    const auto file = fuzz::file_of(text, "input.toml");
+    take_or_refuse([&] { (void)daemon::read_config(file); });
+    take_or_refuse([&] { (void)corrector::parse_calibration(text, "calibration.toml"); });
+    take_or_refuse([&] { (void)sim::parse_scenario(text, "scenario.toml"); });
+    const sim::FaultRules rules{.profile = *wire::find_profile("A351")};
+    take_or_refuse([&] { (void)sim::parse_fault_script(text, "faults.toml", UtcTime(), rules); });
+    return 0;
+}
