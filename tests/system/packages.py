@@ -97,7 +97,7 @@ def inside(root, command, user=None):
     as_user = f"setpriv --reuid={user} --regid={user} --init-groups " if user else ""
     script = (f"mount --bind /dev {root}/dev && mount -t devpts -o newinstance,ptmxmode=0666 devpts {root}/dev/pts && "
               f"mount --bind {root}/dev/pts/ptmx {root}/dev/ptmx && mount -t proc proc {root}/proc && "
-              f"exec chroot {root} /usr/bin/env PATH=/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive HOME=/tmp "
+              f"exec chroot {root} /usr/bin/env -u TMPDIR PATH=/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive HOME=/tmp "
               f"{as_user}/bin/bash -euc \"$0\"")
     result = subprocess.run(["unshare", "--mount", "--pid", "--fork", "--kill-child", "sh", "-euc", script, command],
                             capture_output=True, text=True)
