@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 #include <string>
 
+#include "daemon/live/live_record.hpp"
 #include "daemon/page/api.hpp"
+#include "daemon/page/assets.hpp"
 #include "daemon/page/guard.hpp"
+#include "protocol/wire/device_profile.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
 #include "tests/unit/daemon/fake_recorder.hpp"
 
@@ -46,6 +50,12 @@ Request request_of(std::string_view input) {
 
 }  // namespace
 
+/// Stands for the page's files, which are made elsewhere in the build.
+std::span<const a351::daemon::Asset> a351::daemon::compiled_assets() noexcept {
+    static constexpr Asset kIndex[] = {{"index.html", "<meta content=\"@TOKEN@\">"}};
+    return kIndex;
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const Request request = request_of(fuzz::text_of(data, size));
     const Guard guard(8351, {"gravbox"}, kToken);
@@ -59,9 +69,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});
+    static LiveRecord live(*wire::find_profile("A351"), 50, {});
     Api api({.status = [] { return Status(); },
              .occupations = occupations,
-             .sites = two_sites(),
+             .live = live,
              .events = [&] { return recorder.log; }},
             kToken);
     const Response response = api.answer(request);
