@@ -90,6 +90,7 @@ void take_archived_past(const std::filesystem::path& archive, const record::Stat
                         UtcTime now, LiveRecord& record) {
     for (UtcTime from = now - kPast; from < now; from += kPiece)
         take_samples(archive, codes, from, from + kPiece, record);
+    record.past_is_told();
     take_oven(archive, codes, now - kPast, now, record);
 }
 

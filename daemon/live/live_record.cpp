@@ -37,7 +37,11 @@ LiveRecord::LiveRecord(const wire::DeviceProfile& profile, int rate_hz,
 
 void LiveRecord::take(const PlacedSample& sample) {
     const std::lock_guard lock(mutex_);
-    if (last_ && sample.time <= *last_ && *last_ - sample.time < kKept) return;
+    if (told_until_) {
+        if (sample.time < *told_until_ + from_seconds(0.5 / rate_hz_)) return;
+        told_until_.reset();
+    }
+    if (last_ && sample.time <= *last_) forget_from(sample.time);
     last_ = sample.time;
     recent_.take(sample);
     std::array<float, kLiveChannelCount> values{};
@@ -49,11 +53,27 @@ void LiveRecord::take(const PlacedSample& sample) {
     fresh_.clear();
     thinning_.take(sample, fresh_);
     for (const LiveSample& one : fresh_) {
-        while (!thinned_.empty() && thinned_.back().time >= one.time) thinned_.pop_back();
         thinned_.push_back(one);
         keep_a_day(thinned_);
         judge_.take(one);
     }
+}
+
+void LiveRecord::past_is_told() {
+    const std::lock_guard lock(mutex_);
+    told_until_ = last_;
+}
+
+/// What was judged at times that are to come again knows nothing of them.
+void LiveRecord::forget_from(UtcTime time) {
+    if (thinned_.empty() || thinned_.back().time < time) return;
+    while (!thinned_.empty() && thinned_.back().time >= time) thinned_.pop_back();
+    judge_anew();
+}
+
+void LiveRecord::judge_anew() {
+    judge_ = VerdictJudge(options_);
+    for (const LiveSample& sample : thinned_) judge_.take(sample);
 }
 
 void LiveRecord::take(const OvenPoint& point) {
@@ -95,8 +115,7 @@ std::vector<OvenPoint> LiveRecord::oven_history(UtcTime from, UtcTime to,
 void LiveRecord::judge_by(const VerdictOptions& options) {
     const std::lock_guard lock(mutex_);
     options_ = options;
-    judge_ = VerdictJudge(options);
-    for (const LiveSample& sample : thinned_) judge_.take(sample);
+    judge_anew();
 }
 
 Verdict LiveRecord::verdict(UtcTime now) {

@@ -38,11 +38,14 @@ public:
     /// `profile` must outlive this.
     LiveRecord(const wire::DeviceProfile& profile, int rate_hz, const VerdictOptions& options);
 
-    /// Samples in the order of their time; one that is not later than the last is passed over, for
-    /// a replay brings in what the archive's past has told already, unless it is earlier by more
-    /// than the past goes back: then the clock was set.
+    /// Samples in the order of their time.  One that is earlier than the last was placed by a clock
+    /// that was set back: what was remembered from there on is forgotten.
     void take(const PlacedSample& sample);
     void take(const OvenPoint& point);
+
+    /// What came so far is the archive's past: the samples with which a replay tells it again are
+    /// passed over, up to the first new one.
+    void past_is_told();
 
     /// @name Of RecentSamples and History.
     /// @{
@@ -73,6 +76,9 @@ public:
     [[nodiscard]] int rate_hz() const noexcept { return rate_hz_; }
 
 private:
+    void forget_from(UtcTime time);
+    void judge_anew();
+
     const wire::DeviceProfile& profile_;
     int rate_hz_;
     VerdictOptions options_;
@@ -85,6 +91,7 @@ private:
     std::deque<LiveSample> thinned_;
     std::deque<OvenPoint> oven_;
     std::optional<UtcTime> last_;
+    std::optional<UtcTime> told_until_;  ///< Set while a replay may tell the past again.
 };
 
 }  // namespace a351::daemon

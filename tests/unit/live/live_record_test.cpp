@@ -43,11 +43,46 @@ TEST_CASE("a viewer that stayed away goes on with the oldest that is kept", "[li
     CHECK(cursor == 10000);
 }
 
-TEST_CASE("what a replay tells again is passed over", "[live]") {
+TEST_CASE("what a replay tells again is passed over, though the archive rounds times", "[live]") {
     LiveRecord record(kProfile, 50, {});
     for (std::int64_t i = 0; i < 100; ++i) record.take(placed(i, 0.0, 0.0, 980000.0));
-    for (std::int64_t i = 50; i < 120; ++i) record.take(placed(i, 0.0, 0.0, 980000.0));
+    record.past_is_told();
+    for (std::int64_t i = 50; i < 120; ++i) {
+        PlacedSample again = placed(i, 0.0, 0.0, 980000.0);
+        again.time += std::chrono::microseconds(1);
+        record.take(again);
+    }
     CHECK(record.end() == 120);
+}
+
+/// Alive in temperature and acceleration, as a judge demands.
+PlacedSample steady(std::int64_t i) {
+    PlacedSample sample = placed(i, 0.0, 0.0, 980000.0);
+    sample.counts[3] += static_cast<std::int32_t>(i % 7) - 3;
+    sample.counts[2] += static_cast<std::int32_t>(i % 5) - 2;
+    return sample;
+}
+
+TEST_CASE("a clock that is set back begins anew from there", "[live]") {
+    constexpr std::int64_t kBefore = 40 * 60 * 50, kBehind = 60 * 50;
+    constexpr Nanoseconds kBack = std::chrono::minutes(30);
+    LiveRecord record(kProfile, 50, {});
+    for (std::int64_t i = 0; i < kBefore; ++i) {
+        PlacedSample sample = steady(i);
+        if (i > kBefore - 5000 && i % 20 == 0) sample.counts[0] = counts_of(5000.0);  // Knocks.
+        record.take(sample);
+    }
+    CHECK(record.verdict(after(2400.0)).state == VerdictState::disturbed);
+    for (std::int64_t i = kBefore; i < kBefore + kBehind; ++i) {
+        PlacedSample sample = steady(i);
+        sample.time -= kBack;
+        record.take(sample);
+    }
+    CHECK(record.end() == kBefore + kBehind);
+    CHECK(record.verdict(after(660.0)).state == VerdictState::settling);
+    CHECK(record.history(LiveChannel::x, after(600.0), after(4000.0), 4000).size() == 30);
+    const auto reading = record.reading(after(600.0), after(4000.0), MilliGal(1.0));
+    CHECK(reading.used_s == Approx(60.0 - 20.0).margin(4.0));
 }
 
 TEST_CASE("the live series is the decimation of the evening", "[live][thinning]") {
@@ -116,12 +151,7 @@ TEST_CASE("a missing sample costs what it touches, a long gap begins anew", "[li
 TEST_CASE("the record tells verdict and reading of what it was given", "[live]") {
     LiveRecord record(kProfile, 50, {});
     CHECK(record.verdict(kZero).state == VerdictState::no_data);
-    for (std::int64_t i = 0; i < 40 * 60 * 50; ++i) {
-        PlacedSample sample = placed(i, 0.0, 0.0, 980000.0);
-        sample.counts[3] += static_cast<std::int32_t>(i % 7) - 3;  // A temperature that is alive.
-        sample.counts[2] += static_cast<std::int32_t>(i % 5) - 2;
-        record.take(sample);
-    }
+    for (std::int64_t i = 0; i < 40 * 60 * 50; ++i) record.take(steady(i));
     CHECK(record.verdict(after(2400.0)).state == VerdictState::stable);
     const auto reading = record.reading(after(1200.0), after(2380.0), MilliGal(1.0));
     REQUIRE(reading.value);
