@@ -13,6 +13,13 @@ constexpr int kLevelSeconds = 2;    // Traffic is 20 mGal: 0.1' and less.
 constexpr Nanoseconds kKept = std::chrono::hours(24);
 constexpr Nanoseconds kOvenStep = std::chrono::seconds(2);
 
+/// @param values  at least one; their order is changed.
+double median(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
 template <class Point>
 void keep_a_day(std::deque<Point>& points) {
     while (points.front().time < points.back().time - kKept) points.pop_front();
@@ -128,7 +135,7 @@ RunningReading LiveRecord::reading(UtcTime from, UtcTime to, MilliGal target) co
     RunningValue value(options_, from);
     for (const LiveSample& sample : thinned_) {
         if (sample.time < from) continue;
-        if (sample.time > to) break;
+        if (seconds_between(sample.time, to) < kReachSeconds) break;
         value.take(sample);
     }
     return value.reading(target, judge_.verdict().state);
@@ -136,25 +143,23 @@ RunningReading LiveRecord::reading(UtcTime from, UtcTime to, MilliGal target) co
 
 std::optional<Level> LiveRecord::level_against(UtcTime from, UtcTime to) const {
     const std::lock_guard lock(mutex_);
-    std::array<double, 2> sum_mgal{};
-    int count = 0;
+    std::array<std::vector<double>, 2> stood_mgal;
     for (const LiveSample& sample : thinned_) {
         // Nothing of how the box was carried there may enter.
         if (seconds_between(from, sample.time) < kReachSeconds) continue;
         if (seconds_between(sample.time, to) < kReachSeconds) break;
         const double x = sample.axes[0].value(), y = sample.axes[1].value();
         if (!std::isfinite(x + y)) continue;
-        sum_mgal[0] += x;
-        sum_mgal[1] += y;
-        ++count;
+        stood_mgal[0].push_back(x);
+        stood_mgal[1].push_back(y);
     }
     const auto now = recent_.mean_of_last(static_cast<std::size_t>(kLevelSeconds * rate_hz_));
-    if (count == 0 || !now) return std::nullopt;
+    if (stood_mgal[0].empty() || !now) return std::nullopt;
     std::array<StandardGravity, 2> horizontal{}, reference{};
     const double g_per_count = profile_.acceleration(1).value();
     for (std::size_t axis = 0; axis < 2; ++axis) {
         horizontal[axis] = StandardGravity(g_per_count * (*now)[axis]);
-        reference[axis] = to_standard_gravity(MilliGal(sum_mgal[axis] / count));
+        reference[axis] = to_standard_gravity(MilliGal(median(stood_mgal[axis])));
     }
     return level(horizontal, reference);
 }

@@ -65,11 +65,11 @@ public:
     /// What is to be told now, be there samples or not.
     [[nodiscard]] Verdict verdict(UtcTime now);
 
-    /// Of the set-up from `from` to `to`, as far as it is remembered.
+    /// Of the set-up from `from` to `to`, as far as it is remembered; nothing from outside enters.
     [[nodiscard]] RunningReading reading(UtcTime from, UtcTime to, MilliGal target) const;
 
-    /// The box as it stood in the last 2 s, against the mean of a set-up; std::nullopt where one of
-    /// the two is not known.
+    /// The box as it stood in the last 2 s, against the median of a set-up, to which also belongs
+    /// how the box was lifted at its end; std::nullopt where one of the two is not known.
     [[nodiscard]] std::optional<Level> level_against(UtcTime from, UtcTime to) const;
 
     [[nodiscard]] const wire::DeviceProfile& profile() const noexcept { return profile_; }
