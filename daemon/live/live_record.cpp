@@ -9,7 +9,9 @@ namespace a351::daemon {
 namespace {
 
 constexpr int kRecentSeconds = 90;  // The page shows 60.
-constexpr int kLevelSeconds = 2;    // Traffic is 20 mGal: 0.1' and less.
+// A quarter of a second of the fastest simulated time, of which the page asks every tenth.
+constexpr int kLeastRecent = 50'000 / 4;
+constexpr int kLevelSeconds = 2;  // Traffic is 20 mGal: 0.1' and less.
 constexpr Nanoseconds kKept = std::chrono::hours(24);
 constexpr Nanoseconds kOvenStep = std::chrono::seconds(2);
 
@@ -38,7 +40,8 @@ LiveRecord::LiveRecord(const wire::DeviceProfile& profile, int rate_hz,
     : profile_(profile),
       rate_hz_(rate_hz),
       options_(options),
-      recent_(static_cast<std::size_t>(kRecentSeconds * rate_hz), 1.0 / rate_hz),
+      recent_(static_cast<std::size_t>(std::max(kRecentSeconds * rate_hz, kLeastRecent)),
+              1.0 / rate_hz),
       thinning_(profile, rate_hz),
       judge_(options) {}
 

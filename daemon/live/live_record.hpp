@@ -32,7 +32,8 @@ struct OvenPoint {
 /// std::nullopt unless the poll was answered.
 [[nodiscard]] std::optional<OvenPoint> oven_point(const record::OvenChunk& poll, UtcTime time);
 
-/// Thread-safe.  Memory: 24 h of envelopes and of the 2 s series, 90 s at full rate; 7 MB at 50 Hz.
+/// Thread-safe.  Memory: 24 h of envelopes and of the 2 s series, 90 s and more at full rate; 7 MB at
+/// 50 Hz.
 class LiveRecord {
 public:
     /// `profile` must outlive this.

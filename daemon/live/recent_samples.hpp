@@ -16,7 +16,7 @@ enum class LiveChannel : std::size_t { x, y, z, temperature };
 
 /// A sample as the archive has it.
 struct PlacedSample {
-    std::int64_t index = 0;  ///< Of the session.
+    std::int64_t index = 0;  ///< Of the session; of the archive's past, which knows none, any.
     UtcTime time;
     std::array<std::int32_t, kLiveChannelCount> counts{};  ///< In the order of LiveChannel.
 };

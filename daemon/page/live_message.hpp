@@ -22,7 +22,8 @@ struct LiveMessage {
 ///            1   u8   kind, 1: samples
 ///            2   u16  mask of the channels: bit 0 x, 1 y, 2 z, 3 temperature
 ///            4   u32  count of samples
-///            8   i64  index of the first sample in its session
+///            8   i64  index of the first sample in its session, or in what a restarted daemon
+///                     recalled of the archive
 ///           16   f64  its Unix time, ms
 ///           24   f64  interval, ms
 ///           32   i32  of each channel in the mask, lowest bit first, `count` values in counts

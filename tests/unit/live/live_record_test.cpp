@@ -35,12 +35,27 @@ TEST_CASE("a viewer reads every sample once, in blocks without a gap", "[live]")
 
 TEST_CASE("a viewer that stayed away goes on with the oldest that is kept", "[live]") {
     LiveRecord record(kProfile, 50, {});
-    for (std::int64_t i = 0; i < 10000; ++i) record.take(placed(i, 0.0, 0.0, 980000.0));
+    for (std::int64_t i = 0; i < 20000; ++i) record.take(placed(i, 0.0, 0.0, 980000.0));
     std::uint64_t cursor = 17;
     const auto block = record.block_from(cursor, 100000);
     REQUIRE(block);
-    CHECK(block->first_index == 10000 - 4500);  // 90 s
-    CHECK(cursor == 10000);
+    CHECK(block->first_index == 20000 - 12500);  // The least that is kept.
+    CHECK(cursor == 20000);
+}
+
+TEST_CASE("a look every tenth of a second misses nothing at 50 000 samples/s", "[live]") {
+    LiveRecord record(kProfile, 50, {});
+    std::uint64_t cursor = 0;
+    std::int64_t next = 0;
+    for (int look = 0; look < 5; ++look) {
+        for (std::int64_t i = 0; i < 5000; ++i)
+            record.take(placed(5000 * look + i, 0.0, 0.0, 980000.0));
+        while (const auto block = record.block_from(cursor, 4000)) {
+            CHECK(block->first_index == next);
+            next = block->first_index + static_cast<std::int64_t>(block->counts[0].size());
+        }
+    }
+    CHECK(next == 25000);
 }
 
 TEST_CASE("what a replay tells again is passed over, though the archive rounds times", "[live]") {
