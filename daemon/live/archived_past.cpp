@@ -1,5 +1,6 @@
 #include "daemon/live/archived_past.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -9,8 +10,9 @@
 namespace a351::daemon {
 namespace {
 
-constexpr Nanoseconds kPast = std::chrono::hours(24);
-constexpr Nanoseconds kPiece = std::chrono::hours(6);  ///< 17 MB at 50 Hz.
+constexpr Nanoseconds kPast = std::chrono::hours(24);  ///< At 50 Hz and below, ...
+constexpr int kRateOfPast_hz = 50;                     ///< ... at more as many samples.
+constexpr int kPieces = 4;                             ///< Of 17 MB.
 constexpr double kDegcPerCount = 0.001;                ///< Of the oven's channels.
 
 /// Goes through a channel sample by sample.
@@ -88,8 +90,10 @@ void take_oven(const std::filesystem::path& archive, const record::StationCodes&
 
 void take_archived_past(const std::filesystem::path& archive, const record::StationCodes& codes,
                         UtcTime now, LiveRecord& record) {
-    for (UtcTime from = now - kPast; from < now; from += kPiece)
-        take_samples(archive, codes, from, from + kPiece, record);
+    const Nanoseconds piece =
+        kPast * kRateOfPast_hz / std::max(record.rate_hz(), kRateOfPast_hz) / kPieces;
+    for (int left = kPieces; left > 0; --left)
+        take_samples(archive, codes, now - left * piece, now - (left - 1) * piece, record);
     record.past_is_told();
     take_oven(archive, codes, now - kPast, now, record);
 }

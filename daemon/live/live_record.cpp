@@ -128,9 +128,10 @@ void LiveRecord::judge_by(const VerdictOptions& options) {
     judge_anew();
 }
 
-Verdict LiveRecord::verdict(UtcTime now) {
+Verdict LiveRecord::verdict(UtcTime now) const {
     const std::lock_guard lock(mutex_);
-    return judge_.at(now);
+    VerdictJudge asked = judge_;  // Who asks in the midst of the past must not end what it finds.
+    return asked.at(now);
 }
 
 RunningReading LiveRecord::reading(UtcTime from, UtcTime to, MilliGal target) const {

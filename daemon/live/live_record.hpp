@@ -64,7 +64,7 @@ public:
     void judge_by(const VerdictOptions& options);
 
     /// What is to be told now, be there samples or not.
-    [[nodiscard]] Verdict verdict(UtcTime now);
+    [[nodiscard]] Verdict verdict(UtcTime now) const;
 
     /// Of the set-up from `from` to `to`, as far as it is remembered; nothing from outside enters.
     [[nodiscard]] RunningReading reading(UtcTime from, UtcTime to, MilliGal target) const;

@@ -1,7 +1,6 @@
 #include "daemon/page/server.hpp"
 
 #include <array>
-#include <atomic>
 #include <optional>
 #include <system_error>
 #include <thread>
@@ -97,7 +96,6 @@ public:
 
     std::uint16_t port_ = 0;
     std::vector<std::string> addresses_;
-    std::atomic<std::uint64_t> failures_{0};
 
     [[nodiscard]] bool is_exposed() const noexcept { return !listen_.is_loopback; }
 
@@ -200,7 +198,6 @@ private:
                 }
             }
             if (!response) response = api_->answer(request);
-            failures_ = api_->use().failures;
             const auto reply = packed(*std::move(response), message.version(), message.keep_alive(),
                                       request.method == "HEAD");
             stream.expires_after(options_.request_limit);
@@ -254,6 +251,5 @@ void Server::stop() noexcept { impl_->stop(); }
 std::uint16_t Server::port() const noexcept { return impl_->port_; }
 const std::vector<std::string>& Server::addresses() const noexcept { return impl_->addresses_; }
 bool Server::is_exposed() const noexcept { return impl_->is_exposed(); }
-std::uint64_t Server::failures() const noexcept { return impl_->failures_; }
 
 }  // namespace a351::daemon

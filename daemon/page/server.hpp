@@ -57,9 +57,6 @@ public:
     /// True when others than this host can connect: worth a loud line in the log.
     [[nodiscard]] bool is_exposed() const noexcept;
 
-    /// Requests that ended in an exception of a source, and were answered with 500.
-    [[nodiscard]] std::uint64_t failures() const noexcept;
-
 private:
     class Impl;
     std::unique_ptr<Impl> impl_;

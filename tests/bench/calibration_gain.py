@@ -188,6 +188,7 @@ failures = []
 seeds = seeds_of(sys.argv[1] if len(sys.argv) > 1 else "8101-8120")
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
     store = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else scratch
+    store.mkdir(parents=True, exist_ok=True)
     units = list(pool.map(lambda seed: kept(store, scratch, seed), seeds))
 means = {}
 for group, names in units[0][0].items():

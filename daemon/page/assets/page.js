@@ -11,6 +11,7 @@ import { show_tilt, show_verdict } from "./verdict.js";
 
 const kRedraw_ms = 200;
 const kStale_s = 3;
+const kSetBack_ms = 1000; // Less is the correction of a clock that is not known well yet.
 
 const minute = new Minute();
 const charts = new Charts(minute);
@@ -56,6 +57,10 @@ const stream = {
         refresh();
     },
     block(block) {
+        if (minute.newest_ms !== null && block.first_ms < minute.newest_ms - kSetBack_ms) {
+            minute.clear();
+            newest_ms = null;
+        }
         minute.append(block);
         if (minute.newest_ms !== null) advance_to(minute.newest_ms);
     },

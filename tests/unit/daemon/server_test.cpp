@@ -183,7 +183,6 @@ TEST_CASE("bytes that are no request do no harm", "[daemon][server]") {
         CHECK(client.rest().find("(no end)") == std::string::npos);
     }
     CHECK(served.is_well());
-    CHECK(served.server.failures() == 0);
 }
 
 TEST_CASE("a client that leaves before the answer does no harm", "[daemon][server]") {
