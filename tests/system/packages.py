@@ -114,7 +114,7 @@ def kept(root):
 def fresh_root(scratch, debs, newer):
     root = scratch / "root"
     began = time.monotonic()
-    run("debootstrap", "--variant=minbase", "bookworm", root, "http://deb.debian.org/debian")
+    run("debootstrap", "--variant=minbase", "bookworm", root)
     mirror_files(root)
     for deb in (*debs.values(), *newer.values()):
         shutil.copy(deb, root / "root")
