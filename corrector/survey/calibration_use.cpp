@@ -31,6 +31,11 @@ bool is_contradicted(const std::optional<Disagreement>& test) {
     return test && test->p < kContradictionP;
 }
 
+bool is_harmful(const CalibrationUse& use, const ModelScore& score) {
+    return use.loso_without_mgal && score.loso_mgal &&
+           *score.loso_mgal > (1.0 + kHarm) * *use.loso_without_mgal;
+}
+
 std::string name_of(const Calibration& calibration) {
     return "calibration of unit " + calibration.serial_number + " (" + calibration.program +
            ", from " + to_rfc3339(calibration.valid_from) + ")";
@@ -119,14 +124,13 @@ std::optional<Disagreement> disagreement(const DayFit& fit,
     return test;
 }
 
-void tell_prior_use(SurveyCorrection& result, const DayRecord& day,
-                    const std::vector<DayStation>& stations, const DayFit& fit) {
+void tell_prior_use(SurveyCorrection& result, const DayFit& fit, const DayFit& without,
+                    const std::optional<double>& without_loso_mgal) {
     const Calibration& calibration = result.options.calibration.value();
     CalibrationUse use;
     use.is_prior = true;
     if (calibration.axis_bias) use.axis_bias = disagreement(fit, kAxisPlaces);
     if (calibration.thermal) use.thermal = disagreement(fit, kThermalPlaces);
-    const DayFit without = fit_day(day, stations).value();
     double squares = 0.0;
     for (std::size_t i = 0; i < fit.set_ups.size(); ++i)
         squares += std::pow((fit.set_ups[i].corrected - without.set_ups[i].corrected).value(), 2);
@@ -141,6 +145,12 @@ void tell_prior_use(SurveyCorrection& result, const DayRecord& day,
                                : ""));
     if (calibration.axis_bias) remark_test(result, "axis biases", use.axis_bias);
     if (calibration.thermal) remark_test(result, "thermal response", use.thermal);
+    use.loso_without_mgal = without_loso_mgal;
+    if (is_harmful(use, result.score))
+        result.remarks.push_back(
+            "with the calibration the survey is worse: stations left out come back to " +
+            fixed(*result.score.loso_mgal, 2) + " mGal rms, without it to " +
+            fixed(*without_loso_mgal, 2) + "; is it of this unit, and still true?");
     result.calibration = use;
 }
 
@@ -227,6 +237,10 @@ Json calibration_json(const SurveyCorrection& result) {
     json["thermal"] =
         part_json(calibration.thermal.has_value(), use.is_prior, "prior", use.thermal);
     json["effect_rms_mgal"] = use.effect_rms_mgal;
+    json["loso_without_mgal"] =
+        use.loso_without_mgal ? Json(*use.loso_without_mgal) : Json(nullptr);
+    json["worse_with_it"] =
+        use.loso_without_mgal ? Json(is_harmful(use, result.score)) : Json(nullptr);
     return json;
 }
 

@@ -30,10 +30,14 @@ inline constexpr double kContradictionP = 0.01;
 [[nodiscard]] std::optional<Disagreement> disagreement(const DayFit& fit,
                                                        const std::vector<Eigen::Index>& places);
 
+/// A day that comes out worse with a calibration by more than this, each station left out, is told.
+inline constexpr double kHarm = 0.03;
+
 /// Says what the calibration did as prior of the whole-day model: SurveyCorrection::calibration.
-/// @param fit  with day_priors_of(); rows of `result` are corrected.
-void tell_prior_use(SurveyCorrection& result, const DayRecord& day,
-                    const std::vector<DayStation>& stations, const DayFit& fit);
+/// @param fit  with day_priors_of(); rows and score of `result` are corrected.
+/// @param without, without_loso_mgal  by the usual priors.
+void tell_prior_use(SurveyCorrection& result, const DayFit& fit, const DayFit& without,
+                    const std::optional<double>& without_loso_mgal);
 
 /// correct_survey(), and where it is by another model than the whole-day one, readings are first
 /// freed from what tilt makes of the calibration's axis biases.

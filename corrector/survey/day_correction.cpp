@@ -290,7 +290,11 @@ void correct_by_day(SurveyCorrection& result, const DayRowSets& sets, const DayR
     for (std::size_t i = 0; i < rows.size(); ++i) correct_row(result.rows[i], i, fits, averaged[i]);
     result.coefficients = coefficients_of(fits.fit);
     result.stations = station_values(result.rows, fits, {in_use, use_flags});
-    if (result.options.calibration) tell_prior_use(result, day, fits.stations, fits.fit);
+    if (result.options.calibration) {
+        const DayFits usual =
+            fit_with_and_without(rows, {in_use, use_flags}, day, usual_day_priors());
+        tell_prior_use(result, fits.fit, usual.fit, score_of(rows, in_use, usual).loso_mgal);
+    }
     const double lead_s = seconds_between(day.temperature.series.start(), day.bins.front().time);
     if (lead_s < kWantedLead_s)
         result.remarks.push_back(

@@ -91,6 +91,8 @@ struct CalibrationUse {
     bool is_prior = false;  ///< Else the axis biases were held, and the thermal part left alone.
     std::optional<Disagreement> axis_bias, thermal;  ///< As priors only.
     double effect_rms_mgal = 0.0;                    ///< On the corrected values.
+    /// Of the day without it, each station left out; as prior only, where stations can be.
+    std::optional<double> loso_without_mgal;
 };
 
 struct SurveyCorrection {

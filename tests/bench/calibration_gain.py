@@ -105,6 +105,11 @@ def is_contradicted(out, part):
     return calibration.get(part, {}).get("contradicted") is True
 
 
+def is_called_worse(out):
+    calibration = read_json(out / "result.json").get("calibration") or {}
+    return calibration.get("worse_with_it") is True
+
+
 def hide_all_but_datum(day):
     """@return the truth, by site."""
     sites = rows(day / "sites.csv")
@@ -148,8 +153,10 @@ def whole_day(folder, seed, calibrations):
         part = "axis_bias" if name.startswith("axis") else "thermal"
         flags[f"nothing to calibrate from, {name}"] = not options
         flags[f"said to be contradicted, {name}"] = is_contradicted(out, part)
+        flags[f"said to be worse with it, {name}"] = is_called_worse(out)
         flags[f"harm above {100 * MOST_LOSS:.0f} % without a word, {name}"] = (
-            errors[name] > (1.0 + MOST_LOSS) * errors[NOTHING] and not is_contradicted(out, part))
+            errors[name] > (1.0 + MOST_LOSS) * errors[NOTHING] and not is_contradicted(out, part)
+            and not is_called_worse(out))
     return errors, flags
 
 

@@ -11,9 +11,10 @@ import time
 import urllib.request
 
 from emulated_session import Session, wait_for
-from programs import BIN, Scratch, daemon_config, demand, rows, run
+from programs import BIN, IS_SANITIZED, Scratch, daemon_config, demand, rows, run
 
 G_MGAL = 980665.0
+MOST_S = 40 if IS_SANITIZED else 10
 COUNTS_PER_G = 1 << 24
 
 
@@ -72,9 +73,9 @@ with Scratch() as scratch:
         session.daemon.wait()
         session.daemon = session.start_daemon()
         begun = time.monotonic()
-        wait_for("stable again", lambda: state(session) == "stable", 30)
+        wait_for("stable again", lambda: state(session) == "stable", 60)
         took_s = time.monotonic() - begun
-        demand(f"after {how.name} the verdict is back within 10 s: {took_s:.1f} s", took_s < 10)
+        demand(f"after {how.name} the verdict is back within {MOST_S} s: {took_s:.1f} s", took_s < MOST_S)
         wait_for("the reading goes on", lambda: session.status()["occupation"]["reading"]["used_s"] > used_s, 20)
         demand("and its target stands", session.status()["target_mgal"] == 5)
 

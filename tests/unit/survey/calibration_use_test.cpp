@@ -100,6 +100,10 @@ TEST_CASE("a day agrees with its unit's calibration and contradicts another's",
     CHECK(own.calibration->thermal.value().p > kContradictionP);
     CHECK(has_remark(own, "calibration of unit 7"));
     CHECK_FALSE(has_remark(own, "contradict"));
+    CHECK_FALSE(has_remark(own, "the survey is worse"));
+    CHECK(calibration_json(own)["worse_with_it"] == false);
+    REQUIRE(own.calibration->loso_without_mgal);
+    CHECK(*own.calibration->loso_without_mgal >= *own.score.loso_mgal);
 
     known.axis_bias->values(0) = -900.0;
     const auto turned = correct_with_calibration(rows, with(known, "day"), &day);
@@ -107,6 +111,9 @@ TEST_CASE("a day agrees with its unit's calibration and contradicts another's",
     CHECK_FALSE(has_remark(turned, "contradict the calibration's thermal response"));
     CHECK(calibration_json(turned)["axis_bias"]["contradicted"] == true);
     CHECK(calibration_json(turned)["thermal"]["use"] == "prior");
+    CHECK(turned.calibration->loso_without_mgal == own.calibration->loso_without_mgal);
+    CHECK(has_remark(turned, "the survey is worse: stations left out"));
+    CHECK(calibration_json(turned)["worse_with_it"] == true);
 
     known = calibration();
     known.thermal = thermal(MadeUpDay{.level = 5.0, .slow = -45.0, .fast = 16.0});
