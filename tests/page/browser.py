@@ -101,6 +101,7 @@ class Browser:
                          "--disable-background-networking", f"--host-resolver-rules={rules}"):
             options.add_argument(argument)
         if os.geteuid() == 0:
+            options.add_argument("--disable-dev-shm-usage")  # Containers give it 64 MB, too little.
             options.add_argument("--no-sandbox")  # Chromium refuses to start as root with it.
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
         self.driver = webdriver.Chrome(service=Service(driver), options=options)
