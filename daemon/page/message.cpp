@@ -22,4 +22,10 @@ Response refusal(int status, std::string_view trouble) {
             .body = body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"};
 }
 
+std::string joined(const std::vector<std::string>& keys) {
+    std::string text;
+    for (const auto& key : keys) text += (text.empty() ? "" : ", ") + key;
+    return text.empty() ? "none" : text;
+}
+
 }  // namespace a351::daemon

@@ -27,4 +27,7 @@ struct Response {
 /// `{"error": trouble}` with that status.
 [[nodiscard]] Response refusal(int status, std::string_view trouble);
 
+/// Keys as a refusal lists them: "at, note", or "none".
+[[nodiscard]] std::string joined(const std::vector<std::string>& keys);
+
 }  // namespace a351::daemon

@@ -3,19 +3,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "daemon/page/message.hpp"
 #include "protocol/core/input_error.hpp"
 
 namespace a351::daemon {
-namespace {
-
-std::string joined(const std::vector<std::string>& keys) {
-    std::string text;
-    for (const auto& key : keys) text += (text.empty() ? "" : ", ") + key;
-    return text.empty() ? "none" : text;
-}
-
-}  // namespace
-
 Order parse_order(std::string_view body, const std::vector<std::string>& allowed) {
     const auto parsed = nlohmann::json::parse(body, nullptr, false);
     if (!parsed.is_object()) throw InputError("body: not a JSON object");

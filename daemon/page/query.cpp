@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "daemon/page/message.hpp"
 #include "protocol/core/input_error.hpp"
 
 namespace a351::daemon {
@@ -29,12 +30,6 @@ std::optional<std::string> percent_decoded(std::string_view text) {
         i += 2;
     }
     return decoded;
-}
-
-std::string joined(const std::vector<std::string>& keys) {
-    std::string text;
-    for (const auto& key : keys) text += (text.empty() ? "" : ", ") + key;
-    return text.empty() ? "none" : text;
 }
 
 }  // namespace

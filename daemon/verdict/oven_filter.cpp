@@ -8,8 +8,8 @@
 namespace a351::daemon {
 namespace {
 
-// Where the outlook of 10 min was likeliest on simulated warm-ups, visits and disturbances; factors
-// of two change it little.
+// Where the outlook of 10 min was likeliest on simulated warm-ups, visits and disturbances, seeds 1
+// to 50 and 251 to 350 of tests/bench/verdict_bench.cpp.
 constexpr double kRateSeconds = 700.0;    ///< An ambient that changes does so for so long.
 constexpr double kCycleSeconds = 2500.0;  ///< The oven's cycle keeps its phase for so long.
 constexpr double kLevelNoise = 5e-4;      ///< [degC / s^(1/2)]
