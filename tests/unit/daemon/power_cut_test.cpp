@@ -13,11 +13,15 @@ TEST_CASE_METHOD(Rig, "after a power cut every journaled sample is archived once
     store.start();
     begin_session();
     std::size_t lost = 0, mended = 0, torn = 0;
+    std::vector<std::chrono::steady_clock::time_point> fed_at;  // By sample.
+    std::chrono::duration<double> oldest_lost{0};
     for (int cut = 0; cut < kCuts; ++cut) {
         feed(static_cast<int>(random() % 1000));
+        fed_at.resize(static_cast<std::size_t>(fed), std::chrono::steady_clock::now());
         std::this_thread::sleep_for(std::chrono::milliseconds(random() % 40));
         const auto found = directory.path() / ("found-" + std::to_string(cut));
         const auto journaled = status_of(store).journaled;
+        const auto cut_at = std::chrono::steady_clock::now();
         forgetful.cut(root, found, random);
         StoreOptions again = options();
         again.root = found;
@@ -32,13 +36,15 @@ TEST_CASE_METHOD(Rig, "after a power cut every journaled sample is archived once
         REQUIRE(samples_in_records(found, "BNZ") == counts.size());
         REQUIRE(size > journaled.value_or(-1));
         lost += static_cast<std::size_t>(fed - size);
+        if (counts.size() < fed_at.size())
+            oldest_lost = std::max(oldest_lost, cut_at - fed_at[counts.size()]);
         CHECK(recover(record::posix_files(), again, clock).records_added == 0);
         std::filesystem::remove_all(found);
     }
     std::printf(
-        "power cuts: %d; samples fed that were not journaled yet and lost: %zu; journals "
-        "torn: %zu, day files mended: %zu\n",
-        kCuts, lost, torn, mended);
+        "power cuts: %d; samples fed that were not journaled yet and lost: %zu, the oldest fed "
+        "%.2f s before its cut; journals torn: %zu, day files mended: %zu\n",
+        kCuts, lost, oldest_lost.count(), torn, mended);
     CHECK(mended > 0);
     CHECK(torn > 0);
     CHECK(store.stop());
