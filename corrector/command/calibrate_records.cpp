@@ -8,11 +8,11 @@
 #include "corrector/fixed_point/record_calibration.hpp"
 #include "corrector/survey/aligned_text.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector {
 namespace {
 
-constexpr double kSecondsPerHour = 3600.0;
 // Power-on may be so long before the record: what was before the first sample is extrapolated.
 constexpr double kLatestBegin_h = 0.5;
 // Five of the slow path's lags: the fit takes them to be in equilibrium at the begin.

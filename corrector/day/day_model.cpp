@@ -11,9 +11,6 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr auto kLags = static_cast<Index>(kDayLags);
-constexpr auto kTerms = static_cast<Index>(kDayTerms);
-
 /// What is estimated, in the units of the terms.
 struct Estimates {
     Eigen::VectorXd values, standard_errors;  ///< (estimated)

@@ -7,17 +7,16 @@
 #include <cmath>
 #include <memory>
 
+#include "protocol/core/units.hpp"
+
 namespace a351::corrector {
 namespace {
 
 using Index = Eigen::Index;
 
-constexpr double kSecondsPerHour = 3600.0;
 constexpr double kReferenceTemperature_degc = 42.5;  // set point of the publication's oven
 constexpr double kWarmUp_h = 2.5;                    // of the publication's sensor, after power-on
 constexpr double kAnything_mgal = 1e4;               // of gravity: no prior
-constexpr auto kLags = static_cast<Index>(kDayLags);
-constexpr auto kTerms = static_cast<Index>(kDayTerms);
 
 // fit_day() documents them, methods.md where they come from.
 constexpr LogNormalPrior kPlacementPrior_mgal{1.2, 2.0}, kFlickerPrior_mgal{1.2, 2.0};

@@ -12,6 +12,10 @@
 
 namespace a351::corrector {
 
+/// As matrices count.
+inline constexpr auto kLags = static_cast<Eigen::Index>(kDayLags);
+inline constexpr auto kTerms = static_cast<Eigen::Index>(kDayTerms);
+
 /// Of a noise: median x factor^u, u normal.
 struct LogNormalPrior {
     double median = 0.0, factor = 1.0;

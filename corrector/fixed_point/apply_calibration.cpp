@@ -12,11 +12,11 @@
 #include "corrector/fixed_point/fourier.hpp"
 #include "corrector/fixed_point/regression.hpp"
 #include "corrector/survey/aligned_text.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector {
 namespace {
 
-constexpr double kSecondsPerHour = 3600.0;
 constexpr std::array<TwoPathTerm, 5> kTerms{TwoPathTerm::level, TwoPathTerm::slow,
                                             TwoPathTerm::fast, TwoPathTerm::fast_lag,
                                             TwoPathTerm::slow_lag};

@@ -27,11 +27,9 @@ using Day = std::chrono::sys_time<days>;
 
 constexpr std::size_t kChannels = kRecordChannels;
 constexpr std::size_t kVertical = 2;
-constexpr std::int64_t kBlock = 16384;  // samples: a channel's block stays in the cache
-constexpr double kLongestGap_s = 3600.0;
-constexpr double kSameRate = 1e-3;  // ten times what a sensor's clock is off
+constexpr std::int64_t kBlockSamples = 16384;  // a channel's block stays in the cache
+constexpr double kSameRate = 1e-3;             // ten times what a sensor's clock is off
 constexpr double kMilliGalPerMps2 = 1e5;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 using DayOfChannels = std::array<record::ChannelData, kChannels>;
 
@@ -178,8 +176,8 @@ private:
         for (std::size_t k = 0; k < kChannels; ++k)
             placed[k] = k == kVertical ? run : place(day[k], run);
         const std::int64_t behind = run.back().behind();
-        for (std::int64_t at = builder_->input_count(); at < behind; at += kBlock) {
-            const auto count = static_cast<std::size_t>(std::min(kBlock, behind - at));
+        for (std::int64_t at = builder_->input_count(); at < behind; at += kBlockSamples) {
+            const auto count = static_cast<std::size_t>(std::min(kBlockSamples, behind - at));
             for (std::size_t k = 0; k < kChannels; ++k) fill(block_[k], placed[k], k, at, count);
             builder_->push(block_);
         }

@@ -15,12 +15,10 @@
 namespace a351::corrector {
 namespace {
 
-constexpr std::size_t kBlock = 16384;     // rows
+constexpr std::size_t kBlockRows = 16384;
 constexpr std::size_t kFirstRows = 1000;  // whose steps tell the rate, whatever gaps they have
-constexpr double kLongestGap_s = 3600.0;
 constexpr double kStepTolerance = 0.1;
 constexpr double kMostSeconds = 9e9;  // of from_seconds()
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 struct Row {
     std::size_t line = 0;
@@ -125,7 +123,7 @@ public:
             builder_->set_time(number / builder_->inputs_per_sample(), row.time);
         for (std::size_t k = 0; k < block_.size(); ++k) block_[k].push_back(row.values[k]);
         last_ = row.time;
-        if (pending() >= kBlock) flush();
+        if (pending() >= kBlockRows) flush();
     }
 
     void finish() {
@@ -249,7 +247,7 @@ LongRecord read_csv_record(const std::filesystem::path& file, const RecordWindow
     const std::size_t megabytes = std::filesystem::file_size(file) / kMegabyte;
     for (std::size_t count = 0; rows.read(row); ++count) {
         take(row);
-        if (count % kBlock == 0) progress(rows.bytes_read() / kMegabyte, megabytes);
+        if (count % kBlockRows == 0) progress(rows.bytes_read() / kMegabyte, megabytes);
     }
     check.finish();
     stream.finish();

@@ -15,7 +15,6 @@ namespace a351::corrector {
 namespace {
 
 constexpr double kSameStep = 1e-3;  // ten times what a sensor's clock is off
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 struct Part {
     RecordStretch stretch;

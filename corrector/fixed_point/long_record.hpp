@@ -3,6 +3,7 @@
 /// A record of hours to weeks at one point, at the rate on which it is analysed.
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,11 @@ namespace a351::corrector {
 inline constexpr double kRecordStep_s = 20.0;
 inline constexpr int kRecordFactor = 10;
 inline constexpr int kMostRecordStages = 3;
+
+/// A longer gap begins a new stretch.
+inline constexpr double kLongestGap_s = 3600.0;
+/// A sample that is not there.
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Samples on one clock; missing ones are NaN.  All vectors have the same length, but `raw` is empty
 /// where nothing was decimated.

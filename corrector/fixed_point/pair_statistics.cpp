@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "corrector/survey/aligned_text.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -70,7 +71,6 @@ double phase_of_peaks_deg(const PairStatistics& pair) {
 }
 
 double rate_coefficient(const PairStatistics& pair) {
-    constexpr double kSecondsPerHour = 3600.0;
     const CorrelationPeak& negative = pair.correlation.negative;
     const double gain =
         std::abs(negative.value) * pair.acceleration_swing_mgal / pair.temperature_swing_degc;

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "corrector/survey/aligned_text.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -28,7 +29,6 @@ constexpr double kDetermined = 0.5;        // of the prior's deviation, as in th
 constexpr double kLeastInformation = 1.0;  // as much as the prior
 constexpr double kOpenDeviation = 100.0;   // of the prior's deviation
 constexpr double kOneSided95 = 1.645;
-constexpr double kSecondsPerHour = 3600.0;
 
 /// What a record says beyond the priors, in units of their deviations about their means.
 struct Information {

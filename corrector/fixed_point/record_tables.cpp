@@ -1,11 +1,10 @@
 #include "corrector/fixed_point/record_tables.hpp"
 
 #include "corrector/survey/aligned_text.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector {
 namespace {
-
-constexpr double kSecondsPerHour = 3600.0;
 
 std::string limits(const Limits& value) {
     return fixed(value.low, 0) + " to " + fixed(value.high, 0);

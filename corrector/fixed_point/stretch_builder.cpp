@@ -7,8 +7,6 @@
 namespace a351::corrector {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 double norm_at(const std::vector<std::vector<double>>& channels, std::size_t i) {
     if (channels.size() == 2) return channels[0][i];
     return std::sqrt(channels[0][i] * channels[0][i] + channels[1][i] * channels[1][i] +

@@ -11,6 +11,7 @@
 #include "corrector/day/day_columns.hpp"
 #include "corrector/fixed_point/fourier.hpp"
 #include "corrector/fixed_point/regression.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -18,7 +19,6 @@ namespace {
 using Index = Eigen::Index;
 using Lags = std::array<double, 3>;  // logarithms over the priors' deviations: fast, slow, warm-up
 
-constexpr double kSecondsPerHour = 3600.0;
 constexpr double kShortest_s = 240.0;  // below, the thermometer's noise outweighs what it shows
 constexpr Index kLinear = 5;           // drift ... slow
 constexpr std::array<double, kLinear> kPriorDeviation{1.0, 60.0, 60.0, 30.0, 60.0};
@@ -213,11 +213,11 @@ private:
 
     void smooth_noise(const Eigen::VectorXd& power) {
         constexpr Index kLowest = 8;
-        constexpr double kHalfOctave = 1.41421356;
+        constexpr double kBandRatio = 1.41421356;
         for (Index first = kLowest; first < frequencies_;) {
             const Index behind = std::min(
                 frequencies_,
-                std::max(first + 4, static_cast<Index>(kHalfOctave * static_cast<double>(first))));
+                std::max(first + 4, static_cast<Index>(kBandRatio * static_cast<double>(first))));
             noise_.segment(first, behind - first)
                 .setConstant(power.segment(first, behind - first).mean());
             first = behind;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "corrector/fixed_point/regression.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -12,7 +13,6 @@ constexpr std::size_t kMostPoints = 3000;
 
 /// About the mean, means of so many neighbours that the curve has at most kMostPoints.
 std::string curve_lines(const std::vector<double>& values, double step_s) {
-    constexpr double kSecondsPerHour = 3600.0;
     const double mean = mean_of(values);
     const std::size_t each = (values.size() + kMostPoints - 1) / kMostPoints;
     std::string lines;

@@ -2,13 +2,14 @@
 
 #include <cmath>
 
+#include "protocol/core/units.hpp"
+
 namespace a351::corrector {
 namespace {
 
 Closure close_pair(const std::vector<CorrectedRow>& rows, std::size_t earlier, std::size_t later) {
     const CorrectedRow& a = rows[earlier];
     const CorrectedRow& b = rows[later];
-    constexpr double kSecondsPerHour = 3600.0;
     Closure pair;
     pair.earlier = earlier;
     pair.later = later;

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "corrector/survey/aligned_text.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector {
 namespace {
 
-constexpr double kSecondsPerHour = 3600.0;
 constexpr std::size_t kMostSteps = 1500;   // of a curve: two to three per pixel
 constexpr std::size_t kMostPoints = 3000;  // of a scatter
 constexpr double kOverlay_h = 12.0;        // modes over each other: longer, and none is told apart

@@ -6,6 +6,7 @@
 
 #include "corrector/report/long_record_figures.hpp"
 #include "corrector/survey/aligned_text.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -31,7 +32,6 @@ double at(const Parameters& parameters, TwoPathTerm term) {
 
 /// Logarithm of the fit's transfer function, the lags given by their logarithms.
 std::complex<double> log_response(const Parameters& parameters, double period_s) {
-    constexpr double kSecondsPerHour = 3600.0;
     const std::complex<double> s(0.0, 2.0 * std::numbers::pi / period_s);
     return std::log(at(parameters, TwoPathTerm::level) +
                     at(parameters, TwoPathTerm::fast) * kSecondsPerHour * s /

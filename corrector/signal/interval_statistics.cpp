@@ -5,10 +5,11 @@
 #include <limits>
 #include <vector>
 
+#include "protocol/core/units.hpp"
+
 namespace a351::corrector {
 namespace {
 
-constexpr double kSecondsPerHour = 3600.0;
 constexpr double kShapeBlockSeconds = 60.0;
 constexpr double kMonotoneShare = 0.8;
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "corrector/survey/paper_correction.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -117,7 +118,6 @@ const LinearModel* find_linear_model(std::string_view name) {
 
 Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<SurveyRow>& rows,
                               UtcTime origin) {
-    constexpr double kSecondsPerHour = 3600.0;
     Eigen::MatrixXd columns(static_cast<Eigen::Index>(rows.size()),
                             static_cast<Eigen::Index>(model.parameter_count()) - 1);
     for (Eigen::Index i = 0; i < columns.rows(); ++i) {

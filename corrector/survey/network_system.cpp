@@ -4,11 +4,10 @@
 #include <optional>
 
 #include "corrector/survey/model_fit.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector {
 namespace {
-
-constexpr double kSecondsPerHour = 3600.0;
 
 /// The loop of every row, numbered over those that have a reading in use; std::nullopt in others.
 struct Loops {

@@ -4,12 +4,12 @@
 #include <limits>
 
 #include "corrector/survey/linear_fit.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kSecondsPerHour = 3600.0;
 
 }  // namespace
 

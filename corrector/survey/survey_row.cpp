@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/core/units.hpp"
 #include "protocol/text/csv.hpp"
 
 namespace a351::corrector {
@@ -115,7 +116,6 @@ std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
 }
 
 void set_backward_rates(std::vector<SurveyRow>& rows) {
-    constexpr double kSecondsPerHour = 3600.0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         rows[i].rate_degc_per_h =
             i == 0 ? 0.0

@@ -1,9 +1,9 @@
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "corrector/tide/earth_tide.hpp"
 #include "corrector/tide/lunar_terms.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -12,7 +12,6 @@ using Vector = std::array<double, 3>;
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kSecondsPerDay = 86400.0;
 constexpr double kDaysPerCentury = 36525.0;
 constexpr UtcTime kJ2000 =

@@ -2,14 +2,13 @@
 // J. Geophys. Res. 64(12), 2351-2355, 1959, doi:10.1029/JZ064i012p02351.  Symbols and centimetres,
 // grams and seconds are the paper's.
 #include <cmath>
-#include <numbers>
 
 #include "corrector/tide/earth_tide.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kSecondsPerCentury = 36525.0 * 86400.0;
 constexpr UtcTime kEpoch =
     std::chrono::sys_days(std::chrono::year(1899) / 12 / 31) + std::chrono::hours(12);

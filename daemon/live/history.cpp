@@ -6,7 +6,6 @@ namespace a351::daemon {
 namespace {
 
 constexpr Nanoseconds kBin = std::chrono::seconds(2);
-constexpr Nanoseconds kKept = std::chrono::hours(24);
 
 std::int64_t bin_of(UtcTime time) {
     const auto since = time.time_since_epoch().count(), width = kBin.count();
@@ -23,7 +22,7 @@ void History::take(UtcTime time, const std::array<float, kLiveChannelCount>& val
     while (!bins_.empty() && bins_.back().number > number) bins_.pop_back();
     if (bins_.empty() || bins_.back().number != number) {
         bins_.push_back({number, values, values});
-        while (bins_.front().number < number - kKept / kBin) bins_.pop_front();
+        while (bins_.front().number < number - kHistoryKept / kBin) bins_.pop_front();
         return;
     }
     Bin& bin = bins_.back();

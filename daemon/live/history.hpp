@@ -18,6 +18,8 @@ struct LiveEnvelope {
     float low = 0.0F, high = 0.0F;
 };
 
+inline constexpr Nanoseconds kHistoryKept = std::chrono::hours(24);
+
 /// The last day as envelopes of 2 s, in the channels' units.
 class History {
 public:

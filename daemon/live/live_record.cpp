@@ -12,7 +12,6 @@ constexpr int kRecentSeconds = 90;  // The page shows 60.
 // A quarter of a second of the fastest simulated time, of which the page asks every tenth.
 constexpr int kLeastRecent = 50'000 / 4;
 constexpr int kLevelSeconds = 2;  // Traffic is 20 mGal: 0.1' and less.
-constexpr Nanoseconds kKept = std::chrono::hours(24);
 constexpr Nanoseconds kOvenStep = std::chrono::seconds(2);
 
 /// @param values  at least one; their order is changed.
@@ -24,7 +23,7 @@ double median(std::vector<double>& values) {
 
 template <class Point>
 void keep_a_day(std::deque<Point>& points) {
-    while (points.front().time < points.back().time - kKept) points.pop_front();
+    while (points.front().time < points.back().time - kHistoryKept) points.pop_front();
 }
 
 }  // namespace

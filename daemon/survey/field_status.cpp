@@ -4,7 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <numbers>
+
+#include "protocol/core/units.hpp"
 
 namespace a351::daemon {
 namespace {
@@ -62,10 +63,9 @@ void compare_level(FieldStatus& field, const Occupations& occupations, const Liv
 
 /// Haversine formula.
 double distance_m(const text::Site& site, Degrees latitude, Degrees longitude) {
-    constexpr double kRadians = std::numbers::pi / 180.0;
-    const double phi_1 = kRadians * latitude.value(), phi_2 = kRadians * site.latitude.value();
+    const double phi_1 = kRadPerDeg * latitude.value(), phi_2 = kRadPerDeg * site.latitude.value();
     const double half_phi = 0.5 * (phi_2 - phi_1);
-    const double half_lambda = 0.5 * kRadians * (site.longitude - longitude).value();
+    const double half_lambda = 0.5 * kRadPerDeg * (site.longitude - longitude).value();
     const double h = std::pow(std::sin(half_phi), 2) +
                      std::cos(phi_1) * std::cos(phi_2) * std::pow(std::sin(half_lambda), 2);
     return 2.0 * kEarthRadiusMetres * std::asin(std::min(1.0, std::sqrt(h)));

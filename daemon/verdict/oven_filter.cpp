@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "protocol/core/units.hpp"
+
 namespace a351::daemon {
 namespace {
 
@@ -18,8 +20,6 @@ constexpr double kCycleNoise = 9.4e-5;    ///< [degC / s^(1/2)]
 
 // What is known of a box that was never seen before.
 constexpr double kBodyDegc = 0.1, kLevelDegc = 0.2, kRateDegcPerSecond = 1e-4, kCycleDegc = 0.01;
-
-constexpr double kSecondsPerHour = 3600.0;
 
 double square(double x) { return x * x; }
 

@@ -3,12 +3,10 @@
 #include <cmath>
 #include <utility>
 
+#include "protocol/core/units.hpp"
+
 namespace a351::daemon {
-namespace {
-
-constexpr double kSecondsPerHour = 3600.0;
-
-}  // namespace
+namespace {}  // namespace
 
 ReadingOutlook::ReadingOutlook(const VerdictOptions& options, const OvenFilter& filter)
     : options_(options),

@@ -5,15 +5,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "protocol/core/units.hpp"
+
 namespace a351::daemon {
 namespace {
 
-constexpr double kMinuteSeconds = 60.0;
 constexpr int kLeastInMinute = 15;       ///< Half of its values.
 constexpr double kKeptSeconds = 2400.0;  ///< Less than three cycles: the slope is that of now.
 constexpr double kMostRelated =
     0.9;  ///< Of neighbouring residuals: more cannot be told from so few.
-constexpr double kSecondsPerHour = 3600.0;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ void ReadingSlope::clear() {
 
 void ReadingSlope::take(UtcTime time, MilliGal norm) {
     if (!minutes_.empty() && time <= minutes_.back().time) clear();
-    if (count_ > 0 && !(seconds_between(begun_, time) < kMinuteSeconds)) close_minute();
+    if (count_ > 0 && !(seconds_between(begun_, time) < kSecondsPerMinute)) close_minute();
     if (count_ == 0) begun_ = time;
     if (minutes_.empty() && count_ == 0) zero_mgal_ = norm.value();
     sum_mgal_ += norm.value() - zero_mgal_;
@@ -35,7 +35,7 @@ void ReadingSlope::take(UtcTime time, MilliGal norm) {
 
 void ReadingSlope::close_minute() {
     if (count_ >= kLeastInMinute) {
-        minutes_.push_back({begun_ + from_seconds(0.5 * kMinuteSeconds), sum_mgal_ / count_});
+        minutes_.push_back({begun_ + from_seconds(0.5 * kSecondsPerMinute), sum_mgal_ / count_});
         while (seconds_between(minutes_.front().time, minutes_.back().time) >= kKeptSeconds) {
             minutes_.pop_front();
         }

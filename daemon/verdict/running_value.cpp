@@ -8,7 +8,6 @@ namespace a351::daemon {
 namespace {
 
 constexpr double kStepSeconds = 2.0;
-constexpr double kMinuteSeconds = 60.0;
 constexpr int kPerMinute = 30;
 constexpr int kLeastMinutes = 3;  ///< Fewer have no scatter to speak of.
 constexpr double kMilliGalPerGal = 1000.0;
@@ -56,7 +55,7 @@ RunningReading RunningValue::reading(MilliGal target, VerdictState state) const 
     const auto variance = minute_variance();
     if (!variance) return reading;
 
-    const double scatter = *variance * kMinuteSeconds;  // by u
+    const double scatter = *variance * kSecondsPerMinute;  // by u
     const double cycle = options_.cycle_mgal / (2.0 * std::numbers::sqrt2);
     const double bend_s = options_.cycle_s / std::numbers::pi;
     const double share = std::min(1.0, bend_s / reading.used_s);

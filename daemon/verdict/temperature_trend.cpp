@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "protocol/core/units.hpp"
+
 namespace a351::daemon {
 namespace {
 
@@ -10,7 +12,6 @@ constexpr double kMeanSeconds = OvenFilter::kStepSeconds;
 constexpr double kLongestGapSeconds = 300.0;  ///< A third of a cycle: it can be continued.
 constexpr double kVarianceShare = 0.05;       ///< Of a new variance: an average over some 20 means.
 constexpr double kLeastErrorDegc = 3e-4;      ///< What the sensor's noise leaves in a mean.
-constexpr double kSecondsPerHour = 3600.0;
 
 }  // namespace
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
+
+#include "protocol/core/units.hpp"
 
 namespace a351::daemon {
 namespace {
@@ -80,8 +81,7 @@ void TouchWatch::follow_tilt(const LiveSample& sample) {
     const double x = tilts_mgal_.back()[0] - tilts_mgal_.front()[0];
     const double y = tilts_mgal_.back()[1] - tilts_mgal_.front()[1];
     tilts_mgal_.pop_front();
-    const double most_mgal =
-        kMilliGalPerStandardGravity * options_.tilt_deg * std::numbers::pi / 180.0;
+    const double most_mgal = kMilliGalPerStandardGravity * options_.tilt_deg * kRadPerDeg;
     if (std::hypot(x, y) > most_mgal) {
         last_handled_ = last_knock_ = sample.seen_at;
         tilts_mgal_.clear();

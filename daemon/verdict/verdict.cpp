@@ -5,10 +5,11 @@
 #include <cstdio>
 #include <utility>
 
+#include "protocol/core/units.hpp"
+
 namespace a351::daemon {
 namespace {
 
-constexpr double kSecondsPerHour = 3600.0;
 constexpr double kAheadHours = 600.0 / kSecondsPerHour;
 constexpr double kWatchedHours = 1.0;  ///< A box that was switched on has warmed by then.
 

@@ -3,6 +3,7 @@
 /// Physical quantities as types.  A unit mismatch does not compile; a conversion has a name.
 
 #include <compare>
+#include <numbers>
 
 namespace a351 {
 
@@ -38,6 +39,9 @@ using Percent = Quantity<struct PercentUnit>;                  ///< Of full driv
 using Hertz = Quantity<struct HertzUnit>;                      ///< Events or samples per second.
 using Metres = Quantity<struct MetresUnit>;
 using Degrees = Quantity<struct DegreesUnit>;  ///< Angle; latitude north, longitude east.
+
+inline constexpr double kSecondsPerMinute = 60.0, kSecondsPerHour = 3600.0;
+inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 /// Standard gravity, 3rd CGPM 1901: 9.80665 m/s2, exactly.
 inline constexpr double kMilliGalPerStandardGravity = 980665.0;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <utility>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/record/arrivals.hpp"
 #include "protocol/record/channel_code.hpp"
 #include "protocol/record/channel_packer.hpp"
 #include "protocol/record/retiming.hpp"
@@ -53,11 +53,6 @@ wire::BurstLayout layout_of(const JournalHeader& header) {
     return *layout;
 }
 
-Nanoseconds wire_time(std::uint64_t bytes, int baud) {
-    constexpr std::int64_t kBitTimesPerByte_ns = 10 * std::int64_t{1'000'000'000};
-    return Nanoseconds(static_cast<std::int64_t>(bytes) * kBitTimesPerByte_ns / baud);
-}
-
 timing::SampleClockOptions clock_options(const JournalHeader& header) {
     const auto& profile = profile_of(header);
     const auto* filter = profile.filter_named(header.filter);
@@ -66,29 +61,6 @@ timing::SampleClockOptions clock_options(const JournalHeader& header) {
             filter_delay + profile.data_ready_delay +
                 wire_time(layout_of(header).frame_size(), header.baud)};
 }
-
-/// Arrival of every byte that no event of the decoder covers yet.
-class Arrivals {
-public:
-    void add(const RxChunk& chunk) {
-        for (const auto& read : chunk.reads) reads_.push_back({received_ + read.end, read.time});
-        received_ += chunk.bytes.size();
-    }
-    /// Of the byte before stream offset `end`; ends rise.
-    [[nodiscard]] RawTime of(std::uint64_t end, int baud) {
-        while (reads_.size() > 1 && reads_.front().end < end) reads_.pop_front();
-        const auto& read = reads_.front();
-        return read.time - wire_time(read.end - std::min(end, read.end), baud);
-    }
-
-private:
-    struct Read {
-        std::uint64_t end;
-        RawTime time;
-    };
-    std::deque<Read> reads_;
-    std::uint64_t received_ = 0;
-};
 
 }  // namespace
 

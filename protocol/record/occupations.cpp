@@ -20,7 +20,7 @@ void remark(Occupation& occupation, const Event& event) {
 }
 
 /// Follows the events one by one.
-class Replay {
+class EventReplay {
 public:
     void take(const Event& event) {
         if (event.type == "start") start(event);
@@ -85,7 +85,7 @@ private:
 }  // namespace
 
 std::vector<Occupation> occupations_of(const std::vector<Event>& events) {
-    Replay replay;
+    EventReplay replay;
     for (const Event& event : events) replay.take(event);
     auto occupations = replay.take_finished();
     std::stable_sort(occupations.begin(), occupations.end(),
@@ -98,7 +98,7 @@ std::vector<Occupation> occupations_of(const std::vector<Event>& events) {
 }
 
 std::optional<std::string> running_site(const std::vector<Event>& events) {
-    Replay replay;
+    EventReplay replay;
     for (const Event& event : events) replay.take(event);
     return replay.running_site();
 }

@@ -11,8 +11,6 @@ namespace {
 using std::chrono::abs;
 using std::chrono::milliseconds;
 
-constexpr Nanoseconds kBreak = milliseconds(5);
-
 // A host's crystal at another temperature: some tenths of a ppm per degC.
 constexpr double kHostRateWander = 5e-6;
 

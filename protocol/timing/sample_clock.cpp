@@ -13,7 +13,6 @@ using std::chrono::abs;
 using std::chrono::milliseconds;
 
 constexpr Nanoseconds kLargestPull = std::chrono::microseconds(200);  // per second of data
-constexpr Nanoseconds kBreak = milliseconds(5);
 constexpr Nanoseconds kUnlocked = std::chrono::seconds(60);
 constexpr Nanoseconds kLocked = milliseconds(3);
 constexpr Nanoseconds kRemembered = std::chrono::hours(24);

@@ -23,7 +23,7 @@ constexpr Nanoseconds kLate = std::chrono::seconds(10);
 // Long enough to hold frames that came without delay, short enough for kRateError not to matter.
 constexpr double kWindow_s = 512.0;
 
-double seconds(Nanoseconds duration) { return std::chrono::duration<double>(duration).count(); }
+double in_seconds(Nanoseconds duration) { return std::chrono::duration<double>(duration).count(); }
 
 }  // namespace
 
@@ -80,13 +80,13 @@ std::optional<std::int64_t> SampleIndex::advance_by_time(std::uint16_t differenc
     const std::int64_t least = counts / count_step_;  // 0 ... period - 1
 
     const double predicted =
-        seconds(arrival - earliest_start_) * rate_hz_ - static_cast<double>(*last_index_);
+        in_seconds(arrival - earliest_start_) * rate_hz_ - static_cast<double>(*last_index_);
     const double periods =
         std::round((predicted - static_cast<double>(least)) / static_cast<double>(period_));
     const std::int64_t advance =
         least + period_ * std::max(static_cast<std::int64_t>(periods), std::int64_t{0});
     if (advance == 0) return std::nullopt;
-    const double tolerance_s = kAgreement_s + kRateError * seconds(arrival - last_arrival_);
+    const double tolerance_s = kAgreement_s + kRateError * in_seconds(arrival - last_arrival_);
     const double error_s = std::abs(predicted - static_cast<double>(advance)) / rate_hz_;
     return error_s <= tolerance_s ? std::optional(advance) : std::nullopt;
 }

@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Nanoseconds kLongestWait = 100ms;  ///< So that a signal is noticed.
+constexpr Nanoseconds kLongestPatience = 100ms;  ///< So that a signal is noticed.
 
 void wait(std::vector<pollfd>& descriptors, Nanoseconds timeout) {
     const auto seconds = std::chrono::floor<std::chrono::seconds>(timeout);
@@ -35,7 +35,7 @@ void attend(std::span<Service* const> services, const ClockScale& clock,
     while (!should_stop()) {
         for (Service* service : services) service->serve(instant());
         descriptors.clear();
-        Nanoseconds patience = kLongestWait;
+        Nanoseconds patience = kLongestPatience;
         const Instant now = instant();
         for (const Service* service : services) {
             service->watch(descriptors);

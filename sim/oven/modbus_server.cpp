@@ -14,7 +14,6 @@ constexpr std::size_t kLongestRequest = 264;
 constexpr std::size_t kBabble = 64;
 constexpr std::byte kBroadcast{0};
 constexpr std::uint16_t kCommandAddress = 0x0000, kOtherCommandAddress = 0xFFFF;
-constexpr std::uint8_t kSoftwareReset = 0x06;
 
 std::size_t index_of(OvenFault fault) { return static_cast<std::size_t>(fault); }
 

@@ -20,7 +20,6 @@ enum Command : std::uint8_t {
     kAutoTuning = 0x03,
     kWriteMode = 0x04,
     kSaveRam = 0x05,
-    kSoftwareReset = 0x06,
     kMoveToSetupArea1 = 0x07,
     kMoveToProtectLevel = 0x08,
     kAutoManual = 0x09,

@@ -37,6 +37,9 @@ inline constexpr std::uint32_t kStopped = 1U << 24;
 inline constexpr std::uint32_t kWritingEnabled = 1U << 25;
 }  // namespace oven_status
 
+/// The operation command that restarts the controller, H175 section 4.
+inline constexpr std::uint8_t kSoftwareReset = 0x06;
+
 struct ControllerOptions {
     bool has_two_byte_addresses = true;  ///< The earlier E5CN has none.
     DegC set_point_low = DegC(-20.0);    ///< Limits of the set point; within the input's range,

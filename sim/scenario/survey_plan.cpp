@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
-#include <numbers>
 #include <system_error>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/core/units.hpp"
 #include "protocol/text/csv.hpp"
 #include "sim/noise/random.hpp"
 
@@ -17,8 +17,6 @@ using text::shortest;
 
 /// What a stay may be moved beyond its jitter to make room for the one before and the drive.
 constexpr double kMostMovedSeconds = 60.0;
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 UtcTime whole_milliseconds(UtcTime time) {
     return std::chrono::floor<std::chrono::milliseconds>(time);
@@ -80,7 +78,7 @@ std::vector<Interval> draw_intervals(const Scenario& scenario, std::uint64_t see
 class SetUpDraws {
 public:
     SetUpDraws(const Scenario& scenario, std::uint64_t seed)
-        : sigma_rad_(scenario.sensor.levelling_sigma_deg * kRadiansPerDegree),
+        : sigma_rad_(scenario.sensor.levelling_sigma_deg * kRadPerDeg),
           placement_rms_mgal_(scenario.slow_noise.placement_mgal),
           levelling_(seed, "levelling"),
           placement_(seed, "placement") {}
@@ -138,8 +136,8 @@ std::vector<PlannedSetUp> plan_survey(const Scenario& scenario, std::uint64_t se
             draws.draw(set_up);
             if (!listed.levelling.empty()) {
                 const Levelling& angles = listed.levelling[static_cast<std::size_t>(part - 1)];
-                set_up.about_y_rad = angles.about_y_deg * kRadiansPerDegree;
-                set_up.about_x_rad = angles.about_x_deg * kRadiansPerDegree;
+                set_up.about_y_rad = angles.about_y_deg * kRadPerDeg;
+                set_up.about_x_rad = angles.about_x_deg * kRadPerDeg;
             }
             plan.push_back(set_up);
         }

@@ -6,12 +6,11 @@
 
 #include "daemon/page/api.hpp"
 #include "tests/unit/daemon/fake_recorder.hpp"
+#include "tests/unit/daemon/page_token.hpp"
 
 namespace a351::daemon {
 
 using nlohmann::json;
-
-inline const std::string kToken = "0123456789abcdef0123456789abcdef";
 
 inline Request get(const std::string& target) {
     return {"GET", target, {{"Host", "127.0.0.1:8351"}}, ""};

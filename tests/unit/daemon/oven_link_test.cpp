@@ -24,11 +24,11 @@ using State = OvenLinkStatus::State;
 namespace {
 
 /// The link to a controller, and what it hands on.
-class Rig {
+class OvenRig {
 public:
     FakeController controller;
 
-    explicit Rig(std::filesystem::path port = {})
+    explicit OvenRig(std::filesystem::path port = {})
         : link({.line = {.port = port.empty() ? std::filesystem::path(controller.path()) : port,
                          .parity = 'N'},
                 .decimals = 1},
@@ -63,7 +63,7 @@ public:
 
 TEST_CASE("a controller is asked for its values again and again, and for nothing else",
           "[daemon][oven_link]") {
-    Rig rig;
+    OvenRig rig;
     CHECK(rig.link.status().is_stale);
     CHECK_FALSE(rig.link.status().age);
     rig.link.start();
@@ -106,7 +106,7 @@ TEST_CASE("each way of not answering has its own counter, and the next answer is
                                              {Manner::other_unit, OvenOutcome::other_unit},
                                              {Manner::other_question, OvenOutcome::malformed}}));
     CAPTURE(static_cast<int>(manner));
-    Rig rig;
+    OvenRig rig;
     rig.link.start();
     REQUIRE(rig.reaches(OvenOutcome::answered));
     rig.controller.manner = manner;
@@ -130,7 +130,7 @@ TEST_CASE("each way of not answering has its own counter, and the next answer is
 
 TEST_CASE("one lost answer is no change of state, a last answer that has grown old is",
           "[daemon][oven_link]") {
-    Rig rig;
+    OvenRig rig;
     rig.link.start();
     REQUIRE(rig.reaches(OvenOutcome::answered));
     rig.controller.manner = Manner::mute;
@@ -147,7 +147,7 @@ TEST_CASE("one lost answer is no change of state, a last answer that has grown o
 }
 
 TEST_CASE("the controller's own decimals come before the configured ones", "[daemon][oven_link]") {
-    Rig rig;
+    OvenRig rig;
     rig.controller.decimals = 2;
     rig.link.start();
     REQUIRE(rig.reaches(OvenOutcome::answered));
@@ -158,7 +158,7 @@ TEST_CASE("the controller's own decimals come before the configured ones", "[dae
 
 TEST_CASE("decimals that are not told, or cannot be, leave the configured ones and every value",
           "[daemon][oven_link]") {
-    Rig rig;
+    OvenRig rig;
     SECTION("no such register") { rig.controller.decimals_manner = Manner::refused; }
     SECTION("a number that makes no sense") { rig.controller.decimals = 425; }
     SECTION("silence") { rig.controller.decimals_manner = Manner::mute; }
@@ -171,7 +171,7 @@ TEST_CASE("decimals that are not told, or cannot be, leave the configured ones a
 }
 
 TEST_CASE("a controller of four-byte mode is read as one of two-byte mode", "[daemon][oven_link]") {
-    Rig rig;
+    OvenRig rig;
     rig.controller.is_four_byte = true;
     rig.link.start();
     REQUIRE(rig.reaches(OvenOutcome::answered, 5));
@@ -192,7 +192,7 @@ TEST_CASE("a link that is stopped asks no second question", "[daemon][oven_link]
     bool is_left_alone = false;
     // Some tries, for a busy host may come to stop it after the answer.
     for (int i = 0; i < 5 && !is_left_alone; ++i) {
-        Rig rig;
+        OvenRig rig;
         rig.controller.manner = Manner::refused;  // Else it would be asked in four-byte mode.
         rig.controller.delay = ModbusLine::kResponseTimeout / 2;
         rig.link.start();
@@ -208,7 +208,7 @@ TEST_CASE("a controller that comes back under another name is found through its 
           "[daemon][oven_link]") {
     const TemporaryDirectory directory;
     const auto port = directory.path() / "oven";
-    Rig rig(port);
+    OvenRig rig(port);
     rig.link.start();
     REQUIRE(rig.reaches(OvenOutcome::no_port));
     CHECK(rig.link.status().state == State::searching);
@@ -229,7 +229,7 @@ TEST_CASE("a controller that comes back under another name is found through its 
 }
 
 TEST_CASE("a port is one link's alone", "[daemon][oven_link]") {
-    Rig rig;
+    OvenRig rig;
     const auto sensor = open_port({rig.controller.path(), {}}, 460800);
     rig.link.start();
     REQUIRE(rig.reaches(OvenOutcome::no_port));

@@ -37,7 +37,8 @@ TEST_CASE_METHOD(Rig, "after a power cut every journaled sample is archived once
         REQUIRE(size > journaled.value_or(-1));
         lost += static_cast<std::size_t>(fed - size);
         if (counts.size() < fed_at.size())
-            oldest_lost = std::max(oldest_lost, cut_at - fed_at[counts.size()]);
+            oldest_lost = std::max<std::chrono::duration<double>>(oldest_lost,
+                                                                  cut_at - fed_at[counts.size()]);
         CHECK(recover(record::posix_files(), again, clock).records_added == 0);
         std::filesystem::remove_all(found);
     }

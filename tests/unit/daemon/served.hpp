@@ -7,11 +7,10 @@
 
 #include "daemon/page/server.hpp"
 #include "tests/unit/daemon/live_records.hpp"
+#include "tests/unit/daemon/page_token.hpp"
 #include "tests/unit/daemon/raw_client.hpp"
 
 namespace a351::daemon {
-
-inline const std::string kToken = "0123456789abcdef0123456789abcdef";
 
 /// A real server on a free port of loopback.
 struct Served {

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace a351::daemon {
+
+/// Of the page in tests.
+inline const std::string kToken = "0123456789abcdef0123456789abcdef";
+
+}  // namespace a351::daemon
