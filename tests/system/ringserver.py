@@ -57,10 +57,10 @@ ringserver, slarchive = program("ringserver", "A351_RINGSERVER"), program("slarc
 with Scratch() as scratch:
     archive, fetched, port = scratch / "data" / "archive", scratch / "fetched", free_port()
     archive.mkdir(parents=True)
-    # Served from memory, to this host alone.
+    # Served from memory, to this host alone.  Only names of day files end in a digit: not those of files to be.
     (scratch / "ring.conf").write_text(
         f"VolatileRing 1\nRingSize 64M\nListenPort {port} SeedLink IPv4\nAcceptIP 127.0.0.1\n"
-        f"MSeedScan {archive} StateFile=scan.state\n")
+        f"MSeedScan {archive} StateFile=scan.state Match=[0-9]$\n")
     server = subprocess.Popen([ringserver, "ring.conf"], cwd=scratch, stdout=subprocess.DEVNULL,
                               stderr=subprocess.DEVNULL)
     wait_for("ringserver listens", lambda: is_listening(port))
@@ -78,6 +78,9 @@ with Scratch() as scratch:
         written = day_files(archive)
         wait_for("what was written is fetched", lambda: day_files(fetched).keys() == written.keys() and all(
             len(data) >= len(written[name]) for name, data in day_files(fetched).items()))
+        for name, data in written.items():
+            (archive / f"{name}.tmp").write_bytes(data[:512])
+            (archive / f"{name}.512.torn").write_bytes(data[512:1024])
         time.sleep(2.0)  # Nothing may come twice.
         demand("ringserver and slarchive run to the end", server.poll() is None and client.poll() is None)
     finally:
