@@ -20,8 +20,7 @@ with Scratch() as scratch:
     demand("ten minutes hold 30 000 samples within one",
            all(abs(trace.stats.npts - 30000) <= 1 for trace in stream))
     inventory = obspy.read_inventory(str(root / "metadata" / "station.xml"))
-    stream.attach_response(inventory)
-    stream.remove_sensitivity()
+    stream.remove_sensitivity(inventory)
     norm = sum(float(trace.data.mean()) ** 2 for trace in stream) ** 0.5
     demand(f"the norm of the means is gravity ({norm:.5f} m/s2)", 9.79 < norm < 9.83)
 
