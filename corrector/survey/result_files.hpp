@@ -1,7 +1,7 @@
 #pragma once
 /// @file
 /// The tables and the JSON of a corrected survey.  Run twice, the bytes are the same.
-/// Columns: corrector/methods.md, "Output".
+/// Columns and keys: table-format.md.
 
 #include <cstdint>
 #include <filesystem>

@@ -1,0 +1,68 @@
+"""The page on a survey's tables names every column and key that is written, and its formulas hold."""
+
+import json
+import re
+
+from programs import BIN, TOP, Scratch, demand, rows, run
+
+GOLDEN = TOP / "tests" / "golden" / "tsukuba"
+NAMED = set(re.findall(r"`([a-z0-9_]+)`", (TOP / "corrector" / "survey" / "table-format.md").read_text()))
+# Not told one by one there: options of the run, parts of a calibration and of a network.
+ASIDE = {"settings", "calibration", "network"}
+# Of five or more numbers of six decimals each.
+ROUNDING_MGAL = 5e-6
+
+
+def keys(value):
+    """All of an object and of what it holds."""
+    if isinstance(value, list):
+        return set().union(*map(keys, value)) if value else set()
+    if not isinstance(value, dict):
+        return set()
+    return value.keys() | set().union(*(keys(part) for name, part in value.items() if name not in ASIDE))
+
+
+def check_names(title, result):
+    written = keys(json.loads((result / "result.json").read_text()))
+    for table in ("occupations", "stations", "models"):
+        written |= rows(result / f"{table}.csv")[0].keys()
+    demand(f"{title}: of {len(written)} columns and keys the page lacks {sorted(written - NAMED) or 'none'}", written <= NAMED)
+
+
+def check_formulas(title, result):
+    """By the page alone: a correction is a column that says so."""
+    occupations = [row for row in rows(result / "occupations.csv") if row["corrected_mgal"]]
+    added = [column for column in occupations[0] if column.endswith("_correction_mgal")]
+    worst = 0.0
+    for row in occupations:
+        value = {column: float(cell) for column, cell in row.items() if column.endswith("_mgal") and cell}
+        without_tide = value["acceleration_mgal"] - value["tide_mgal"]
+        worst = max(worst, abs(without_tide + sum(value.get(column, 0.0) for column in added) - value["corrected_mgal"]))
+        if "reference_mgal" in value:
+            worst = max(worst, abs(value["reference_mgal"] - value["corrected_mgal"] - value["residual_mgal"]),
+                        abs(without_tide - value["reference_mgal"] - value["difference_mgal"]))
+    demand(f"{title}: {len(occupations)} rows, {len(added)} corrections: the formulas hold within {worst:.1e} mGal",
+           worst < ROUNDING_MGAL)
+
+
+def check_json(title, result):
+    """Its rows are those of the tables, in full."""
+    whole = json.loads((result / "result.json").read_text())
+    for table in ("occupations", "stations", "models"):
+        written = [row for row in rows(result / f"{table}.csv") if table != "occupations" or row["time_utc"]]
+        demand(f"{title}: {table}: the {len(written)} rows of CSV and JSON are the same", len(written) == len(whole[table]) and all(
+            cell == "" if value is None else cell == str(int(value)) if isinstance(value, bool)
+            else abs(float(cell) - value) < 1e-6 if isinstance(value, float) else cell == str(value)
+            for row, full in zip(written, whole[table]) for cell, value in ((row[key], full[key]) for key in full)))
+
+
+with Scratch() as scratch:
+    run(BIN / "a351-sim", "survey", "--scenario", "tsukuba", "--seed", 3, "--out", scratch / "day")
+    for model in ("day", "t-rate-drift-axes", "paper"):
+        run(BIN / "a351-correct", "survey", "survey.toml", "--model", model, "--out", model, cwd=scratch / "day")
+    for model in ("robust", "network"):
+        run(BIN / "a351-correct", "table", "--observations", GOLDEN / "observations.csv", "--sites", GOLDEN / "sites.csv",
+            "--model", model, "--out", scratch / "day" / model)
+    for model in ("day", "t-rate-drift-axes", "paper", "robust", "network"):
+        for check in (check_names, check_formulas, check_json):
+            check(model, scratch / "day" / model)
