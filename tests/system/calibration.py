@@ -2,8 +2,9 @@
 
 import math
 import shutil
+import tomllib
 
-from programs import BIN, Scratch, demand, read_json, rows, run
+from programs import BIN, TOP, Scratch, demand, read_json, rows, run
 
 SEED = 4
 
@@ -23,9 +24,11 @@ def true_biases(series):
     return [odd["x"] / sine, odd["y"] / sine]
 
 
-def numbers(text, table, key):
-    part = text.split(f"[{table}]")[1].split(f"{key} = [")[1].split("]")[0]
-    return [float(number) for number in part.replace(",", " ").split()]
+def keys(value):
+    """All of a table and of what it holds."""
+    if isinstance(value, list):
+        return set().union(*map(keys, value))
+    return value.keys() | set().union(*map(keys, value.values())) if isinstance(value, dict) else set()
 
 
 with Scratch() as scratch:
@@ -33,7 +36,11 @@ with Scratch() as scratch:
         run(BIN / "a351-sim", "survey", "--scenario", scenario, "--seed", SEED, "--out", scratch / scenario)
     print(correct("calibrate", "--tilt", "tilt-series", "--out", "c.toml", cwd=scratch).stdout)
     text = (scratch / "c.toml").read_text()
-    values, covariance = numbers(text, "axis_bias", "values"), numbers(text, "axis_bias", "covariance")
+    unit = tomllib.loads(text)
+    page = (TOP / "corrector" / "calibration" / "calibration-format.md").read_text()
+    lacking = sorted(key for key in keys(unit) if f"`{key}`" not in page and f"`[{key}]`" not in page and f"`[[{key}]]`" not in page)
+    demand(f"it is TOML; of {len(keys(unit))} keys its page lacks {lacking or 'none'}", not lacking)
+    values, covariance = unit["axis_bias"]["values"], unit["axis_bias"]["covariance"]
     for k, (axis, truth) in enumerate(zip("xy", true_biases(scratch / "tilt-series"))):
         error = math.sqrt(covariance[3 * k])
         print(f"{axis}: {values[k]:.1f} +- {error:.1f} mGal/g, true {truth:.1f}")
