@@ -170,7 +170,7 @@ std::string record_json(const RecordResult& result, const Json& settings) {
     for (const InputFile& input : result.record.inputs) {
         json["inputs"].push_back({{"role", input.role},
                                   {"name", input.name},
-                                  {"bytes", input.byte_count},
+                                  {"byte_count", input.byte_count},
                                   {"crc32", input.crc32}});
     }
     json["serial_number"] = serial_json(result.segment());

@@ -1,4 +1,4 @@
-"""The page on a survey's tables names every column and key that is written, and its formulas hold."""
+"""The pages on the corrector's tables name every column and key that is written, and their formulas hold."""
 
 import json
 import re
@@ -6,7 +6,7 @@ import re
 from programs import BIN, TOP, Scratch, demand, rows, run
 
 GOLDEN = TOP / "tests" / "golden" / "tsukuba"
-NAMED = set(re.findall(r"`([a-z0-9_]+)`", (TOP / "corrector" / "survey" / "table-format.md").read_text()))
+PAGE, RECORD_PAGE = (TOP / "corrector" / name for name in ("survey/table-format.md", "fixed_point/long_record.md"))
 # Not told one by one there: options of the run, parts of a calibration and of a network.
 ASIDE = {"settings", "calibration", "network"}
 # Of five or more numbers of six decimals each.
@@ -22,11 +22,18 @@ def keys(value):
     return value.keys() | set().union(*(keys(part) for name, part in value.items() if name not in ASIDE))
 
 
+def demand_named(title, written, page):
+    lacking = sorted(written - set(re.findall(r"`([a-z0-9_]+)`", page.read_text())))
+    demand(f"{title}: of {len(written)} columns and keys {page.name} lacks {lacking or 'none'}", not lacking)
+
+
+def columns(result, *tables):
+    return set().union(*(rows(result / f"{table}.csv")[0].keys() for table in tables))
+
+
 def check_names(title, result):
     written = keys(json.loads((result / "result.json").read_text()))
-    for table in ("occupations", "stations", "models"):
-        written |= rows(result / f"{table}.csv")[0].keys()
-    demand(f"{title}: of {len(written)} columns and keys the page lacks {sorted(written - NAMED) or 'none'}", written <= NAMED)
+    demand_named(title, written | columns(result, "occupations", "stations", "models"), PAGE)
 
 
 def check_formulas(title, result):
@@ -66,3 +73,6 @@ with Scratch() as scratch:
     for model in ("day", "t-rate-drift-axes", "paper", "robust", "network"):
         for check in (check_names, check_formulas, check_json):
             check(model, scratch / "day" / model)
+    run(BIN / "a351-correct", "record", scratch / "day", "--ensemble", 4, "--out", scratch / "record")
+    written = json.loads((scratch / "record" / "result.json").read_text()).keys()
+    demand_named("record", written | columns(scratch / "record", "record", "response"), RECORD_PAGE)
