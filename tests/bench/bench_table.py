@@ -15,13 +15,11 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parents[1]
-sys.path.insert(0, str(TOP / "tests" / "system"))
-from programs import SKIPPED  # noqa: E402
-
 TOOLS = pathlib.Path(os.environ.get("A351_TOOLS", TOP / "build/release/tests"))
 BIN = pathlib.Path(os.environ.get("A351_BIN", TOP / "build/release/bin"))
 GOLDEN = TOP / "tests" / "golden" / "tsukuba"
 
+OUTCOMES = {0: "kept", 77: "skipped"}  # What a system test ends with: tests/system/programs.py.
 PYTHON = [sys.executable]
 COMMANDS = [
     [TOOLS / "micro_bench"], [TOOLS / "eemd_accuracy"], [*PYTHON, HERE / "eemd_peers.py"], [*PYTHON, HERE / "decimation_peer.py"],
@@ -31,7 +29,7 @@ COMMANDS = [
     [*PYTHON, HERE / "survey_accuracy.py", "5001-5001"], [*PYTHON, HERE / "system_bench.py"], [*PYTHON, HERE / "survey_speed.py"],
     [*PYTHON, HERE / "record_speed.py"], [TOOLS / "timing_test", "times behind*"], [*PYTHON, TOP / "tests/system/kill_daemon.py"],
     [TOOLS / "daemon_test", "[power_cut]"], [*PYTHON, TOP / "tests/system/same_bytes.py"],
-    *([*PYTHON, TOP / "tests/system" / f"{name}.py"] for name in ("obspy_reads", "ringserver", "miniseed_headers")),
+    *([*PYTHON, TOP / "tests/system" / f"{name}.py"] for name in ("obspy_reads", "ringserver", "msi", "gsadjust", "stranger_reads")),
 ]
 
 DAY = r"{}, units within {} %, {} set-ups?\n(?:.*\n)*?    {}: ([\d.]+)"
@@ -67,7 +65,9 @@ PROMISES = [
     ("same input, same bytes", "kept", r"^same_bytes.py: (\w+)"),
     ("archive and StationXML open in ObsPy", "kept", r"^obspy_reads.py: (\w+)"),
     ("ringserver to slarchive, byte by byte", "kept", r"^ringserver.py: (\w+)"),
-    ("miniSEED by a reader of its own", "kept", r"^miniseed_headers.py: (\w+)"),
+    ("every sample by msi, of libmseed's makers", "kept", r"^msi.py: (\w+)"),
+    ("gsadjust.csv by GSadjust's reader", "kept", r"^gsadjust.py: (\w+)"),
+    ("journal, miniSEED and events by a stranger's readers", "kept", r"^stranger_reads.py: (\w+)"),
 ]
 
 
@@ -82,7 +82,7 @@ def measured():
                 print(line, end="", flush=True)
                 text += line
         name = pathlib.Path(command[1] if command[0] == sys.executable else command[0]).name
-        ended = f"{name}: {{0: 'kept', SKIPPED: 'skipped'}.get(process.returncode, 'FAILED')}\n"
+        ended = f"{name}: {OUTCOMES.get(process.returncode, 'FAILED')}\n"
         print(ended, end="")
         text += ended
     return text
