@@ -6,6 +6,7 @@ import os
 import shutil
 import signal
 import struct
+import threading
 import time
 
 from emulated_session import INTACT, Session, gaps_of
@@ -137,19 +138,28 @@ def end_in_1970(session):
 
 
 def fall_asleep(session):
-    """The raw clock stands still, the sensor does not; what it sends is lost."""
+    """The raw clock stands still, the sensor does not; what it sends is lost.
+    @return  a thread that wakes the host again, and tells in `slept_s` how long it slept.
+    """
     session.wait_for_frames(50 * BEFORE_S)
     session.order(f"silence seconds={SLEEP_S + 2 * UNDER_WAY_S}")
     time.sleep(UNDER_WAY_S)  # What was sent is read before the sleep, nothing is sent in it.
     session.daemon.send_signal(signal.SIGSTOP)
-    return time.monotonic()
+    since = time.monotonic()
+
+    def wake():
+        alarm.slept_s = time.monotonic() - since
+        set_clocks(session.scratch, slept_s=alarm.slept_s)
+        session.daemon.send_signal(signal.SIGCONT)
+
+    alarm = threading.Timer(SLEEP_S, wake)
+    alarm.start()
+    return alarm
 
 
-def wake(session, since):
-    time.sleep(max(0.0, SLEEP_S - (time.monotonic() - since)))
-    slept_s = time.monotonic() - since
-    set_clocks(session.scratch, slept_s=slept_s)
-    session.daemon.send_signal(signal.SIGCONT)
+def end_awake(session, alarm):
+    alarm.join()
+    slept_s = alarm.slept_s
     time.sleep(AFTER_S)
     report, counters = session.end()
     gaps, missing = gaps_of(session.truth())
@@ -208,10 +218,10 @@ def logs_lost(sessions):
 logs_lost(start_with_lost_logs())
 if not IS_SANITIZED:
     in_1970, sleeper, before_leap = start_in_1970(), session_on_clocks(), start_before_leap_second()
-    asleep_since = fall_asleep(sleeper)
+    alarm = fall_asleep(sleeper)
     end_in_1970(in_1970)
     end_after_leap_second(*before_leap)
-    wake(sleeper, asleep_since)
+    end_awake(sleeper, alarm)
 else:
     print("left out: #27, #28 and #29, for what is preloaded would come before a sanitizer")
 if FAKETIME and not IS_SANITIZED:

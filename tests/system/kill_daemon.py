@@ -25,6 +25,7 @@ RATE_HZ = 50
 LOSS_S = 0.2  # Before a kill, of real time.
 LATE_S = 0.1  # Real time; an emulator later than half the bound says that the host had no time for the daemon either.
 TRIALS = 3
+LEFT_OPEN = 200  # Frames; of a stream of fewer than about 100 a clean end leaves the archive to the next start.
 # From the instant a sample stands for until its frame is sent: 511 / 2 samples of the filter at 4000 Hz, 430 us to data
 # ready, 24 bytes of 10 bits at 460800 baud (M-A352AD10 data sheet, 5.4, table 2.2, 6.2).
 DELAY_NS = 63_875_000 + 430_000 + 24 * 10 * 1_000_000_000 // 460_800
@@ -192,6 +193,7 @@ def session_of_kills(number, kills, speed):
             session.kill_in(aims.get(kill, "early" if generator.random() < 1 / 3 else "recording"), generator)
             session.start_again()
         wait_for("the last life records", session.publishes)
+        wait_for("the last stream is long enough", lambda: session.emulated()["runs"][-1]["frames"] > LEFT_OPEN)
         report, _ = session.end()
         session.recovery_is_good()
         session.recovery_adds_nothing()

@@ -47,7 +47,7 @@ def hour_by_hour(session, hours):
 
 
 with Scratch() as scratch:
-    (scratch / "days.toml").write_text(f'base = "week"\nname = "days"\n[schedule]\nduration_h = {HOURS + 0.5}\n')
+    (scratch / "days.toml").write_text(f'base = "week"\nname = "days"\n[schedule]\nduration_h = {HOURS + 1}\n')
     session = Session(scratch, speed=SPEED, scenario="days.toml")
     session.wait_for_frames(50 * 600)
     before = session.status()["counters"]  # A sensor that starts up does not answer at first.
