@@ -1,6 +1,7 @@
 # Brings the staged files of each package into the form that Debian's policy asks for; run by cpack.
 set(source ${CMAKE_CURRENT_LIST_DIR})
 find_program(GZIP gzip REQUIRED)
+find_program(STRIP strip REQUIRED)
 
 function(compress file)
   execute_process(COMMAND ${GZIP} -9nf ${file} COMMAND_ERROR_IS_FATAL ANY)
@@ -8,6 +9,8 @@ endfunction()
 
 foreach(package IN LISTS CPACK_COMPONENTS_ALL)
   set(root ${CPACK_TEMPORARY_DIRECTORY}/${package})
+  file(GLOB programs ${root}/usr/bin/*)
+  execute_process(COMMAND ${STRIP} --remove-section=.comment --remove-section=.note ${programs} COMMAND_ERROR_IS_FATAL ANY)
   file(GLOB_RECURSE pages ${root}/usr/share/man/*.[1-8])
   foreach(page IN LISTS pages)
     compress(${page})

@@ -74,9 +74,11 @@ def lint(debs):
     if shutil.which("lintian") is None:
         print("lintian is not installed: left out")
         return
-    said = run("lintian", "--allow-root", "--no-cfg", "--tag-display-limit", 3, *debs.values(), check=False).stdout
+    # A first upload closes a bug of Debian's own list, which is not ours.
+    said = run("lintian", "--allow-root", "--no-cfg", "--suppress-tags", "initial-upload-closes-no-bugs", "--display-info",
+               "--tag-display-limit", 3, *debs.values(), check=False).stdout
     print(said)
-    demand("lintian finds no error", not any(line.startswith("E:") for line in said.splitlines()))
+    demand("lintian finds neither error nor warning", not any(line[:2] in ("E:", "W:") for line in said.splitlines()))
 
 
 def mirror_files(root):
