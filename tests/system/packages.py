@@ -1,14 +1,15 @@
-"""The Debian packages: what they hold and need; with A351_LONG=1 also a survey in a fresh Debian 12 with nothing but them.
+"""The Debian packages: what they hold and need; with A351_LONG=1 also a survey in a fresh Debian 12 with nothing but them,
+and the service under its systemd.
 
-The fresh root wants root, debootstrap and a mirror, and takes five minutes.
+The fresh root wants root, debootstrap and a mirror, and takes six minutes.
 """
 
 import os
-import pathlib
 import shutil
-import subprocess
 import time
 
+from booted_service import as_a_service
+from fresh_root import inside, make_root
 from programs import BIN, IS_LONG, IS_SANITIZED, TOP, Scratch, demand, run, skip
 
 BUILD = BIN.parent
@@ -81,34 +82,6 @@ def lint(debs):
     demand("lintian finds neither error nor warning", not any(line[:2] in ("E:", "W:") for line in said.splitlines()))
 
 
-def mirror_files(root):
-    """The fresh root asks the mirrors that this host asks, in its way."""
-    for name in ("resolv.conf", "hosts", "apt/sources.list", "apt/sources.list.d/debian.sources", "apt/apt.conf.d",
-                 "ssl/certs"):
-        source, target = pathlib.Path("/etc") / name, root / "etc" / name
-        if source.is_dir():
-            shutil.copytree(source, target, dirs_exist_ok=True, symlinks=True)
-        elif source.is_file():
-            target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(source, target)
-    shutil.copytree("/usr/local/share/ca-certificates", root / "usr/local/share/ca-certificates", dirs_exist_ok=True)
-
-
-def inside(root, command, user=None):
-    """Runs a shell command in the root, with terminals and processes of its own, as root or as a user."""
-    as_user = f"setpriv --reuid={user} --regid={user} --init-groups " if user else ""
-    script = (f"mount --bind /dev {root}/dev && mount -t devpts -o newinstance,ptmxmode=0666 devpts {root}/dev/pts && "
-              f"mount --bind {root}/dev/pts/ptmx {root}/dev/ptmx && mount -t proc proc {root}/proc && "
-              f"exec chroot {root} /usr/bin/env -u TMPDIR PATH=/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive HOME=/tmp "
-              f"{as_user}/bin/bash -euc \"$0\"")
-    result = subprocess.run(["unshare", "--mount", "--pid", "--fork", "--kill-child", "sh", "-euc", script, command],
-                            capture_output=True, text=True)
-    if result.returncode != 0:
-        print(result.stdout[-3000:], result.stderr[-3000:], sep="\n")
-        demand(f"in the fresh root: {command}", False)
-    return result.stdout
-
-
 def kept(root):
     return inside(root, f"cd / && find etc/a351 var/lib/a351 -type f | sort | xargs -r sha256sum")
 
@@ -116,8 +89,7 @@ def kept(root):
 def fresh_root(scratch, debs, newer):
     root = scratch / "root"
     began = time.monotonic()
-    run("debootstrap", "--variant=minbase", "bookworm", root)
-    mirror_files(root)
+    make_root(root)
     for deb in (*debs.values(), *newer.values()):
         shutil.copy(deb, root / "root")
     inside(root, "apt-get update -qq && cd /root && apt-get install -y --no-install-recommends " +
@@ -134,6 +106,7 @@ def fresh_root(scratch, debs, newer):
            "/usr/share/a351/a351d.toml >/etc/a351/base.toml")
     demand("the example, with port and root, is a configuration",
            inside(root, "a351d --config /etc/a351/base.toml --check-config", "a351") == "ok\n")
+    as_a_service(root, debs["a351"])
 
     # The demonstration is a script around the four programs: a whole day, as the user of the service.
     shutil.copy(TOP / "sim" / "demo", root / "usr/local/bin/a351-demo")

@@ -1,0 +1,120 @@
+"""A fresh Debian 12 in a directory: commands in it, and its systemd booted.  Wants root, debootstrap and a mirror."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import time
+
+from programs import demand, run
+
+ENVIRONMENT = ["/usr/bin/env", "-u", "TMPDIR", "PATH=/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin",
+               "DEBIAN_FRONTEND=noninteractive", "HOME=/tmp"]
+MOUNTS = pathlib.Path("/proc/self/mounts")
+
+# The first process of namespaces of its own, in a cgroup of its own: it sees neither the host's processes nor its
+# network, and what of the kernel is not divided (clock, settings, devices) it may only read.
+BOOT = """root=$0
+mount --bind $root $root
+mount -t tmpfs -o mode=755 tmpfs $root/dev
+cd $root/dev
+for node in null zero full random urandom tty; do touch $node; mount --bind /dev/$node $node; done
+mkdir pts shm
+mount -t devpts -o newinstance,ptmxmode=0666,mode=620,gid=5 devpts pts
+ln -s pts/ptmx ptmx
+ln -s /proc/self/fd fd
+mount -t proc proc $root/proc
+mount --bind $root/proc/sys $root/proc/sys
+mount -o remount,ro,bind $root/proc/sys
+mount -t sysfs -o ro sysfs $root/sys
+mount -t cgroup2 cgroup2 $root/sys/fs/cgroup
+mount -t tmpfs tmpfs $root/run
+mount -t tmpfs tmpfs $root/tmp
+exec setpriv --bounding-set=-sys_time,-sys_module,-sys_rawio,-syslog \
+    chroot $root /usr/bin/env -i container=other PATH=/usr/sbin:/usr/bin:/sbin:/bin /lib/systemd/systemd
+"""
+
+
+def make_root(root):
+    run("debootstrap", "--variant=minbase", "bookworm", root)
+    # It asks the mirrors that this host asks, in its way.
+    for name in ("resolv.conf", "hosts", "apt/sources.list", "apt/sources.list.d/debian.sources", "apt/apt.conf.d",
+                 "ssl/certs"):
+        source, target = pathlib.Path("/etc") / name, root / "etc" / name
+        if source.is_dir():
+            shutil.copytree(source, target, dirs_exist_ok=True, symlinks=True)
+        elif source.is_file():
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(source, target)
+    shutil.copytree("/usr/local/share/ca-certificates", root / "usr/local/share/ca-certificates", dirs_exist_ok=True)
+
+
+def output(result, command):
+    """What a command wrote in the root, or the end of the test."""
+    if result.returncode != 0:
+        print(result.stdout[-3000:], result.stderr[-3000:], sep="\n")
+        demand(f"in the fresh root: {command}", False)
+    return result.stdout
+
+
+def inside(root, command, user=None):
+    """Runs a shell command in the root, with terminals and processes of its own, as root or as a user."""
+    as_user = f"setpriv --reuid={user} --regid={user} --init-groups " if user else ""
+    script = (f"mount --bind /dev {root}/dev && mount -t devpts -o newinstance,ptmxmode=0666 devpts {root}/dev/pts && "
+              f"mount --bind {root}/dev/pts/ptmx {root}/dev/ptmx && mount -t proc proc {root}/proc && "
+              f"exec chroot {root} {' '.join(ENVIRONMENT)} {as_user}/bin/bash -euc \"$0\"")
+    return output(subprocess.run(["unshare", "--mount", "--pid", "--fork", "--kill-child", "sh", "-euc", script, command],
+                                 capture_output=True, text=True), command)
+
+
+class Booted:
+    """The systemd of the root, running as that of a machine; `trouble` says why it does not."""
+
+    def __init__(self, root):
+        tops = [line.split()[1] for line in MOUNTS.read_text().splitlines() if line.split()[2] == "cgroup2"]
+        self.cgroup = pathlib.Path(tops[0] if tops else "/none", f"a351-test-{os.getpid()}")
+        self.root, self.trouble = root, None
+
+    def __enter__(self):
+        try:
+            self.cgroup.mkdir()
+        except OSError as error:
+            self.trouble = f"no cgroup of version 2: {error}"
+            return self
+        self.messages = open(self.root / "var/log/boot.log", "w+")
+        self.outer = subprocess.Popen(
+            ["sh", "-euc", "echo $$ >$1/cgroup.procs && exec unshare --mount --pid --fork --kill-child --cgroup --ipc --uts "
+             "--net sh -euc \"$2\" $0", self.root, self.cgroup, BOOT], stdin=subprocess.DEVNULL, stdout=self.messages,
+            stderr=self.messages)
+        end = time.monotonic() + 60
+        while (state := self.try_run("systemctl is-system-running").stdout.strip()) not in ("running", "degraded"):
+            if time.monotonic() > end or self.outer.poll() is not None:
+                self.messages.seek(0)
+                self.trouble = f"systemd is {state or 'not there'}: {self.messages.read()[-1000:]}"
+                break
+            time.sleep(0.5)
+        return self
+
+    def try_run(self, command):
+        """A shell command beside systemd; `outer` is unshare, and systemd its only child."""
+        try:
+            first = pathlib.Path(f"/proc/{self.outer.pid}/task/{self.outer.pid}/children").read_text().split()[0]
+        except (OSError, IndexError):
+            first = "none"
+        return subprocess.run(["nsenter", f"--target={first}", "--mount", "--pid", "--net", "--ipc", "--uts", "--cgroup",
+                               "--root", "--wd", *ENVIRONMENT, "bash", "-euc", command], capture_output=True, text=True)
+
+    def run(self, command):
+        return output(self.try_run(command), command)
+
+    def __exit__(self, *_):
+        if not self.cgroup.exists():
+            return
+        self.outer.kill()
+        self.outer.wait()
+        self.messages.close()
+        while (self.cgroup / "cgroup.events").read_text().startswith("populated 1"):  # Processes not yet buried.
+            time.sleep(0.1)
+        for folder in sorted(self.cgroup.rglob("*/"), reverse=True):
+            folder.rmdir()
+        self.cgroup.rmdir()
