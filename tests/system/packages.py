@@ -5,6 +5,7 @@ The fresh root wants root, debootstrap and a mirror, and takes six minutes.
 """
 
 import os
+import re
 import shutil
 import time
 
@@ -17,9 +18,11 @@ PACKAGES = ["a351", "a351-correct", "a351-sim"]
 PROGRAMS = {"a351": ["a351d", "a351ctl"], "a351-correct": ["a351-correct"], "a351-sim": ["a351-sim"]}
 MORE_FILES = {
     "a351": ["lib/systemd/system/a351d@.service", "lib/udev/rules.d/60-a351.rules", "usr/lib/sysusers.d/a351.conf",
-             "usr/share/a351/a351d.toml", "usr/share/a351/sites.csv", "usr/share/man/man5/a351d.toml.5.gz"],
-    "a351-correct": ["usr/share/a351/survey.toml"],
-    "a351-sim": ["usr/share/a351/scenarios/tsukuba.toml", "usr/share/a351/faults/example.toml"],
+             "usr/share/a351/a351d.toml", "usr/share/a351/sites.csv", "usr/share/man/man5/a351d.toml.5.gz",
+             "usr/share/doc/a351/daemon/field-guide.md", "usr/share/doc/a351/protocol/record/journal-format.md"],
+    "a351-correct": ["usr/share/a351/survey.toml", "usr/share/doc/a351/corrector/methods.md"],
+    "a351-sim": ["usr/share/a351/scenarios/tsukuba.toml", "usr/share/a351/faults/example.toml",
+                 "usr/share/doc/a351/sim/truth/truth-format.md"],
 }
 # What each links, besides the C and C++ libraries; and what of the others it must do without.
 NEEDED = {"a351": ["libmodbus5", "libserialport0", "libmseed", "libzstd1"], "a351-correct": ["libnlopt0", "libmseed"],
@@ -60,6 +63,13 @@ def look_into(package, deb, tree):
     print(f"{package} depends on {depends}; recommends {field(deb, 'Recommends') or 'nothing'}")
     demand(f"{package} depends on what it links", all(name in depends for name in NEEDED[package] + ["libc6", "libstdc++6"]))
     demand(f"{package} depends on nothing of the others", not any(name in depends for name in NOT_NEEDED[package]))
+
+
+def pages_refer_to_each_other(tree):
+    pages = sorted((tree / "usr/share/doc/a351").rglob("*.md"))
+    links = [(page, link) for page in pages for link in re.findall(r"\]\(([^):]+\.md)\)", page.read_text())]
+    lost = [f"{page.name}: {link}" for page, link in links if not (page.parent / link).is_file()]
+    demand(f"of {len(links)} links between {len(pages)} pages lead nowhere: {lost or 'none'}", links and not lost)
 
 
 def completed(tree, *words):
@@ -138,6 +148,7 @@ with Scratch() as scratch:
     for package in PACKAGES:
         look_into(package, debs[package], scratch / "tree")
     tree = scratch / "tree"
+    pages_refer_to_each_other(tree)
     demand("completion of subcommands", completed(tree, "a351ctl", "st") == ["status", "start", "stop"])
     demand("completion of options", completed(tree, "a351-correct", "survey", "--mo") == ["--model"])
     demand("completion without subcommands", "--check-config" in completed(tree, "a351d", "--"))
