@@ -7,7 +7,7 @@ from emulated_session import wait_for
 from fresh_root import Booted
 from programs import compare_truth, demand
 
-SETTLED_S = 5  # Of signal at 50 Hz, before the next thing happens.
+SETTLED_S = 5  # Of signal before the next thing happens; times are known, and archived, after 2.
 
 
 class Recorder:
