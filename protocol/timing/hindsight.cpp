@@ -19,6 +19,8 @@ constexpr std::int64_t kFitEvery_s = 2;
 
 constexpr Nanoseconds kSetBackWithin = std::chrono::seconds(60);
 
+constexpr Nanoseconds kFar = std::chrono::hours(24);  // as SampleClock
+
 double ratio(Nanoseconds a, Nanoseconds b) {
     return static_cast<double>(a.count()) / static_cast<double>(b.count());
 }
@@ -137,28 +139,26 @@ void Hindsight::host_slept(std::size_t sleeps) {
 }
 
 void Hindsight::observe(std::int64_t index, RawTime arrival) {
-    if (begins_stretch_)
+    if (begins_stretch_ || period_.of(index - stretches_.back().last) > kFar)
         stretches_.push_back(
-            {index, sleeps_, ArrivalEdge(options_.rate, ArrivalEdge::Memory::all)});
+            {index, index, sleeps_, ArrivalEdge(options_.rate, ArrivalEdge::Memory::all)});
     begins_stretch_ = false;
     stretches_.back().edge.observe(index, arrival);
-    last_ = index;
+    stretches_.back().last = index;
 }
 
 std::vector<TimePiece> Hindsight::times(const UtcHistory& history) const {
     std::vector<TimePiece> pieces;
     const std::int64_t second = period_.per_second();
-    for (auto stretch = stretches_.begin(); stretch != stretches_.end(); ++stretch) {
-        const std::int64_t end =
-            std::next(stretch) == stretches_.end() ? last_ + 1 : std::next(stretch)->first;
-        EdgeLine line = stretch->edge.line_around(stretch->first);
-        UtcHistory::Point point = history.at(line.arrival, stretch->sleeps);
+    for (const Stretch& stretch : stretches_) {
+        EdgeLine line = stretch.edge.line_around(stretch.first);
+        UtcHistory::Point point = history.at(line.arrival, stretch.sleeps);
         bool is_break = !pieces.empty();
-        for (std::int64_t k = stretch->first; k < end; k += second) {
-            const bool is_fitted = (k - stretch->first) / second % kFitEvery_s != 0;
-            const EdgeLine next_line = is_fitted ? stretch->edge.line_around(k + second) : line;
+        for (std::int64_t k = stretch.first; k <= stretch.last; k += second) {
+            const bool is_fitted = (k - stretch.first) / second % kFitEvery_s != 0;
+            const EdgeLine next_line = is_fitted ? stretch.edge.line_around(k + second) : line;
             const UtcHistory::Point next =
-                history.at(next_line.at(k + second, period_), stretch->sleeps);
+                history.at(next_line.at(k + second, period_), stretch.sleeps);
             const bool jumps = next.stretch != point.stretch;
             const Nanoseconds nominal = period_.of(second);
             const Nanoseconds step =

@@ -80,21 +80,21 @@ public:
     /// As SampleClock::observe.
     void observe(std::int64_t index, RawTime arrival);
 
-    /// The host has slept so often, by UtcHistory: the next arrival stands for itself.
+    /// The host has slept so often, by UtcHistory: the next arrival stands for itself, as does the
+    /// first after more than 24 h of data were lost.
     void host_slept(std::size_t sleeps);
 
     [[nodiscard]] std::vector<TimePiece> times(const UtcHistory& history) const;
 
 private:
     struct Stretch {
-        std::int64_t first;
+        std::int64_t first, last;
         std::size_t sleeps;
         ArrivalEdge edge;
     };
     SampleClockOptions options_;
     SamplePeriod period_;
     std::vector<Stretch> stretches_;
-    std::int64_t last_ = 0;
     std::size_t sleeps_;
     bool begins_stretch_ = true;
 };

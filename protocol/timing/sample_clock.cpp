@@ -47,13 +47,16 @@ void SampleClock::observe(std::int64_t index, RawTime arrival) {
         first_ = index;
         fixed_until_ = index - index % period_.per_second();
     }
+    const bool is_far = last_ && period_.of(index - *last_) > kRemembered;
     last_ = index;
     if (is_given_) {
         const TimePiece& piece = piece_of(index);
         if (piece.is_break) last_break_ = piece.first;
         return;
     }
-    if (edge_.is_empty()) fixed_until_ = std::max(fixed_until_, index);  // the first after a sleep
+    if (is_far) may_jump_ = true;
+    // The first after a sleep, or after a loss of more than is remembered: none has a time between.
+    if (edge_.is_empty() || is_far) fixed_until_ = std::max(fixed_until_, index);
     edge_.observe(index, awake(arrival));
     fix_until(index);
 }

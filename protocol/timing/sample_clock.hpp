@@ -55,7 +55,8 @@ struct SampleClockOptions {
 /// is fixed a second of data at a time, when the first frame of that second is observed, at the
 /// line's rate plus at most 0.2 ms towards the line.  So they never jump, and a replay of the same
 /// observations gives the same times.  They do jump where the mapping follows a step of the host's
-/// clock, or the host slept, if that is more than 5 ms: a break, which begins with a sample.
+/// clock, the host slept, or more than 24 h of data were lost, if that is more than 5 ms: a break,
+/// which begins with a sample.
 ///
 /// Nothing is fixed before 2 s of data are complete; times asked for until then are provisional.
 ///

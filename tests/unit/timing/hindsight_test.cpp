@@ -94,3 +94,17 @@ TEST_CASE("in hindsight a step that stays is at its reading", "[timing][hindsigh
     CHECK(std::chrono::abs(host.error(before + 500ms, 100s + 500ms)) < Nanoseconds(1ms));
     CHECK(std::chrono::abs(host.error(host.raw(), host.now) - 5s) < Nanoseconds(1ms));
 }
+
+TEST_CASE("in hindsight a loss of 60 years costs nothing", "[timing][hindsight]") {
+    Host host;
+    host.run(100);
+    Hindsight hindsight({Hertz(50.0), 0s}, 0);
+    constexpr std::int64_t kAfter = 60 * 366LL * 24 * 3600 * 50;
+    for (const std::int64_t begin : {std::int64_t{0}, kAfter})
+        for (std::int64_t k = begin; k < begin + 5000; ++k)
+            hindsight.observe(k, RawTime(500s + k * 20ms));
+    const auto pieces = hindsight.times(host.history);
+    CHECK(pieces.size() == 200);
+    CHECK(pieces[100].first == kAfter);
+    CHECK(pieces[100].time - kNoon == kAfter * Nanoseconds(20ms));
+}

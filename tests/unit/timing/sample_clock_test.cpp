@@ -166,6 +166,18 @@ TEST_CASE("times older than 24 h of data are forgotten and newer ones kept",
     CHECK(world.clock.index_at(world.truth(day + 100)));
 }
 
+// A damaged instant in a journal, found by fuzzing: a piece was made for every second of the loss.
+TEST_CASE("a loss of 60 years costs nothing and ends in a break", "[timing][sample_clock]") {
+    World world;
+    world.device_ppm = 5.0004;  // no whole number of nanoseconds a second
+    for (std::int64_t k = 0; k < 10'000; ++k) world.frame(k, 0s);
+    const std::int64_t after = 60 * 366LL * 24 * 3600 * 50;
+    for (std::int64_t k = after; k < after + 1000; ++k) world.frame(k, 0s);
+    CHECK(world.clock.last_break() == after);
+    for (std::int64_t k = after; k < after + 1000; ++k)
+        REQUIRE(std::chrono::abs(world.clock.time_of(k)->utc - world.truth(k)) < Nanoseconds(1ms));
+}
+
 TEST_CASE("the stated uncertainty covers the true error behind a 16 ms adapter for an hour",
           "[timing][sample_clock]") {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
