@@ -1,15 +1,18 @@
 /// @file
 /// Journal segments.  The input is a segment as it is, and a second time with its lengths, numbers and
-/// checksums made right, so that payloads come as far as they can: into the archiver.
+/// checksums made right, so that payloads come as far as they can: into the archiver, and once more with
+/// times in hindsight.
 
 #include <algorithm>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/record/archiver.hpp"
 #include "protocol/record/journal_codec.hpp"
 #include "protocol/record/journal_reader.hpp"
+#include "protocol/record/retiming.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
 
 namespace {
@@ -51,27 +54,35 @@ std::vector<std::byte> put_right(std::span<const std::byte> input) {
     return out;
 }
 
-/// @param is_archived  whether the chunks go to the archiver.
-void read(std::string_view bytes, bool is_archived) {
+std::vector<JournalChunk> chunks(std::string_view bytes) {
     JournalReader reader(fuzz::file_of(bytes, "00000001_20260301T130000Z.a351j"));
+    std::vector<JournalChunk> chunks;
+    while (auto chunk = reader.next()) chunks.push_back(std::move(*chunk));
+    return chunks;
+}
+
+/// @return  whether the archiver took them all.
+bool archive(const std::vector<JournalChunk>& chunks, Retiming& retiming) {
     Sink sink;
-    Archiver archiver(sink);
-    while (const auto chunk = reader.next()) {
-        if (!is_archived) continue;
-        try {
-            archiver.take(*chunk);
-        } catch (const InputError&) {
-            return;
-        }
+    Archiver archiver(sink, &retiming);
+    try {
+        for (const JournalChunk& chunk : chunks) archiver.take(chunk);
+    } catch (const InputError&) {
+        return false;
     }
     archiver.close_records();
+    return true;
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    read(fuzz::text_of(data, size), false);
+    (void)chunks(fuzz::text_of(data, size));
     const auto right = put_right(std::as_bytes(std::span(data, size)));
-    read({reinterpret_cast<const char*>(right.data()), right.size()}, true);
+    const auto taken = chunks({reinterpret_cast<const char*>(right.data()), right.size()});
+    Retiming retiming;
+    if (!archive(taken, retiming)) return 0;
+    retiming.begin_second_pass();
+    require(archive(taken, retiming));
     return 0;
 }
