@@ -52,7 +52,7 @@ struct PackedRecord {
 
 /// The most samples one record can hold: seven Steim-2 frames of 15 words, less the two words for
 /// first and last sample, seven differences in a word.
-inline constexpr std::size_t kMostSamplesPerRecord = (7 * 15 - 2) * 7;
+inline constexpr std::size_t kMostSamplesPerRecord = (std::size_t{7} * 15 - 2) * 7;
 
 struct DecodedRecord {
     RecordHeader header;

@@ -22,7 +22,7 @@ bool fits(std::int64_t counts) {
 
 }  // namespace
 
-SlowChannels::SlowChannels(const wire::DeviceProfile& profile, RecordContext context)
+SlowChannels::SlowChannels(const wire::DeviceProfile& profile, const RecordContext& context)
     : profile_(profile),
       context_(context),
       sensor_temperature_(kSensorTemperature),

@@ -31,7 +31,7 @@ namespace a351::record {
 class SlowChannels final : public ArchiveSink {
 public:
     /// @param context  of the archive itself; what it refers to must outlive this.
-    SlowChannels(const wire::DeviceProfile& profile, RecordContext context);
+    SlowChannels(const wire::DeviceProfile& profile, const RecordContext& context);
 
     /// Indices begin at 0.  @param reference  channel whose records LCE is told of.
     void begin_run(std::string reference, bool has_temperature);

@@ -36,7 +36,8 @@ SensorPort::SensorPort(Pty& pty, LineDevice& device, Line& line, FaultInjector* 
       on_trouble_(std::move(on_trouble)) {}
 
 LineSink& SensorPort::sink() noexcept {
-    return faults_ != nullptr ? static_cast<LineSink&>(*faults_) : line_;
+    if (faults_ != nullptr) return *faults_;
+    return line_;
 }
 
 void SensorPort::serve(const Instant& now) {
