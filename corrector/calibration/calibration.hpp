@@ -75,6 +75,6 @@ struct Calibration {
 [[nodiscard]] Calibration read_calibration(const std::filesystem::path& file);
 
 /// The same from text in memory; `origin` stands for the file name in messages.
-[[nodiscard]] Calibration parse_calibration(std::string text, std::filesystem::path origin);
+[[nodiscard]] Calibration parse_calibration(std::string_view text, std::filesystem::path origin);
 
 }  // namespace a351::corrector

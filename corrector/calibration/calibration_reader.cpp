@@ -113,8 +113,8 @@ std::vector<CalibrationData> data_of(text::TomlTable& document) {
 
 }  // namespace
 
-Calibration parse_calibration(std::string text, std::filesystem::path origin) {
-    text::TomlTable document = text::parse_toml(std::move(text), std::move(origin));
+Calibration parse_calibration(std::string_view text, std::filesystem::path origin) {
+    text::TomlTable document = text::parse_toml(text, std::move(origin));
     if (!document.has("format")) document.refuse("format", "missing", "1");
     static_cast<void>(document.integer_or("format", 1, 1, 1));
     Calibration calibration;

@@ -180,7 +180,7 @@ void TomlTable::require_all_read() const {
     }
 }
 
-TomlTable parse_toml(std::string text, std::filesystem::path origin) {
+TomlTable parse_toml(std::string_view text, std::filesystem::path origin) {
     auto document = std::make_shared<TomlTable::Document>();
     document->origin = std::move(origin);
     try {

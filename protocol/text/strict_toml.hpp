@@ -59,7 +59,7 @@ public:
     void require_all_read() const;
 
 private:
-    friend TomlTable parse_toml(std::string text, std::filesystem::path origin);
+    friend TomlTable parse_toml(std::string_view text, std::filesystem::path origin);
     struct Document;
 
     TomlTable(std::shared_ptr<const Document> document, const toml::table* table, std::string name);
@@ -75,6 +75,6 @@ private:
 [[nodiscard]] TomlTable read_toml(const std::filesystem::path& file);
 
 /// The same from text in memory; `origin` stands for the file name in messages.
-[[nodiscard]] TomlTable parse_toml(std::string text, std::filesystem::path origin);
+[[nodiscard]] TomlTable parse_toml(std::string_view text, std::filesystem::path origin);
 
 }  // namespace a351::text

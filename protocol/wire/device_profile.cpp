@@ -86,7 +86,7 @@ bool DeviceProfile::has_output_rate(int output_rate_hz) const noexcept {
 }
 
 Nanoseconds DeviceProfile::group_delay(const FilterSpec& filter) const noexcept {
-    return Nanoseconds((filter.taps - 1) * kNanosecondsPerSecond / (2 * internal_rate_hz));
+    return Nanoseconds((filter.taps - 1) * kNanosecondsPerSecond / 2 / internal_rate_hz);
 }
 
 const FilterSpec* DeviceProfile::filter_named(std::string_view filter_name) const noexcept {

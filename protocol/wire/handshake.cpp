@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 #include "protocol/wire/burst_frame.hpp"
 
@@ -256,8 +257,7 @@ void Handshake::take_window(std::uint16_t value) {
     if ((value & kWinCtrl.defined_bits) != 0) {
         return retry(mismatch(kWinCtrl, 0, value, kWinCtrl.defined_bits));
     }
-    send((*std::move(config_)).start_sampling().second);
-    config_.reset();
+    send(std::exchange(config_, std::nullopt).value().start_sampling().second);
     queue_.push_back(Sampling{identity_});
 }
 

@@ -41,9 +41,9 @@ PlannedFault read_planned(text::TomlTable& table, UtcTime start, const FaultRule
 
 }  // namespace
 
-FaultScript parse_fault_script(std::string toml, const std::filesystem::path& origin, UtcTime start,
-                               const FaultRules& rules) {
-    text::TomlTable root = text::parse_toml(std::move(toml), origin);
+FaultScript parse_fault_script(std::string_view toml, const std::filesystem::path& origin,
+                               UtcTime start, const FaultRules& rules) {
+    text::TomlTable root = text::parse_toml(toml, origin);
     FaultScript script;
     script.answers_cut_frames = root.boolean_or("answers_cut_frames", false);
     for (text::TomlTable& table : root.tables("fault")) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "protocol/core/utc_time.hpp"
@@ -38,7 +39,8 @@ struct FaultScript {
                                             const FaultRules& rules);
 
 /// The same from text; `origin` stands for the file name in messages.
-[[nodiscard]] FaultScript parse_fault_script(std::string toml, const std::filesystem::path& origin,
-                                             UtcTime start, const FaultRules& rules);
+[[nodiscard]] FaultScript parse_fault_script(std::string_view toml,
+                                             const std::filesystem::path& origin, UtcTime start,
+                                             const FaultRules& rules);
 
 }  // namespace a351::sim

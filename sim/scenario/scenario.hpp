@@ -188,7 +188,7 @@ struct Scenario {
 [[nodiscard]] Scenario load_scenario(const std::string& name_or_file);
 
 /// As load_scenario, from text.  `origin` stands for the file name in messages.
-[[nodiscard]] Scenario parse_scenario(std::string toml, const std::filesystem::path& origin);
+[[nodiscard]] Scenario parse_scenario(std::string_view toml, const std::filesystem::path& origin);
 
 [[nodiscard]] std::vector<std::string_view> scenario_names();
 

@@ -254,14 +254,14 @@ std::string name_list() {
 
 }  // namespace
 
-Scenario parse_scenario(std::string toml, const std::filesystem::path& origin) {
-    text::TomlTable document = text::parse_toml(std::move(toml), origin);
+Scenario parse_scenario(std::string_view toml, const std::filesystem::path& origin) {
+    text::TomlTable document = text::parse_toml(toml, origin);
     const std::string base = document.string_or("base", "");
     Scenario scenario;
     if (!base.empty()) {
         const EmbeddedScenario* found = find_embedded(base);
         if (found == nullptr) document.refuse("base", "no such scenario", name_list());
-        scenario = parse_scenario(std::string(found->toml), base + ".toml");
+        scenario = parse_scenario(found->toml, base + ".toml");
     }
     scenario.name = required_name(document);
     const auto section = [&](std::string_view name) {
@@ -293,7 +293,7 @@ Scenario parse_scenario(std::string toml, const std::filesystem::path& origin) {
 
 Scenario load_scenario(const std::string& name_or_file) {
     if (const EmbeddedScenario* found = find_embedded(name_or_file)) {
-        return parse_scenario(std::string(found->toml), name_or_file + ".toml");
+        return parse_scenario(found->toml, name_or_file + ".toml");
     }
     if (!std::filesystem::is_regular_file(name_or_file)) {
         throw InputError("--scenario " + name_or_file +
