@@ -16,7 +16,7 @@ using boost::system::error_code;
 
 // A little more than the daemon grants a request, so that its own words arrive first.
 constexpr std::chrono::seconds kPatience{15};
-constexpr std::uint64_t kLargestAnswer = 64 * 1024 * 1024;
+constexpr std::uint64_t kLargestAnswer = std::uint64_t{64} * 1024 * 1024;
 
 auto into(error_code& error) { return asio::redirect_error(asio::use_awaitable, error); }
 

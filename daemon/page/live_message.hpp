@@ -30,7 +30,7 @@ struct LiveMessage {
 [[nodiscard]] std::string encoded(const LiveBlock& block);
 
 inline constexpr std::size_t kLiveHeaderSize = 32;
-inline constexpr std::size_t kLargestLiveMessage = 64 * 1024;
+inline constexpr std::size_t kLargestLiveMessage = std::size_t{64} * 1024;
 inline constexpr std::size_t kMostSamplesPerMessage =
     (kLargestLiveMessage - kLiveHeaderSize) / (kLiveChannelCount * sizeof(std::int32_t));
 
@@ -56,6 +56,6 @@ private:
 
 /// Six seconds at 50 Hz, one and a half at 50 000 samples/s.
 inline constexpr std::size_t kMostMessagesKept = 64;
-inline constexpr std::size_t kMostBytesKept = 1024 * 1024;
+inline constexpr std::size_t kMostBytesKept = std::size_t{1024} * 1024;
 
 }  // namespace a351::daemon

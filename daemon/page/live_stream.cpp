@@ -19,7 +19,7 @@ constexpr std::chrono::milliseconds kStep{100};
 constexpr std::chrono::seconds kStatusStep{1};
 constexpr std::chrono::seconds kLinger{1};
 constexpr std::uint64_t kPastSeconds = 60;
-constexpr std::size_t kLargestFromClient = 4 * 1024;
+constexpr std::size_t kLargestFromClient = std::size_t{4} * 1024;
 /// Left to itself the kernel takes megabytes for a viewer that does not read.
 constexpr int kSendBuffer = 128 * 1024;
 

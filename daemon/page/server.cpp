@@ -19,7 +19,7 @@ using asio::ip::tcp;
 using boost::system::error_code;
 
 constexpr std::uint32_t kHeaderLimit = 8 * 1024;
-constexpr std::uint64_t kBodyLimit = 16 * 1024;
+constexpr std::uint64_t kBodyLimit = std::uint64_t{16} * 1024;
 constexpr std::string_view kLivePath = "/live";
 constexpr std::chrono::seconds kLinger{1};
 constexpr std::chrono::milliseconds kAcceptPause{100};

@@ -26,7 +26,7 @@ std::optional<SessionId> SessionId::from_hex(std::string_view text) {
     for (std::size_t i = 0; i < text.size(); ++i) {
         const auto digit = kHexDigits.find(text[i]);
         if (digit == std::string_view::npos) return std::nullopt;
-        id.bytes[i / 2] = static_cast<std::uint8_t>(16u * id.bytes[i / 2] + digit);
+        id.bytes[i / 2] = static_cast<std::uint8_t>(std::size_t{id.bytes[i / 2]} << 4 | digit);
     }
     return id;
 }

@@ -100,7 +100,7 @@ struct ReadStamp {
 };
 
 /// A chunk on disk holds at most this, so that one write() stays small and a reader's memory bounded.
-inline constexpr std::size_t kMostPayloadBytes = 65'536;
+inline constexpr std::size_t kMostPayloadBytes = std::size_t{64} * 1024;
 
 /// Holds 1 byte or more; 12 + 12 x reads + bytes must stay within kMostPayloadBytes.
 struct RxChunk {
