@@ -35,11 +35,11 @@ void LiveThinning::begin_run() {
 
 void LiveThinning::take(const PlacedSample& sample, std::vector<LiveSample>& output) {
     if (last_) {
-        const double steps = std::round(seconds_between(*last_, sample.time) / interval_s_);
-        if (steps < 1.0 || steps * interval_s_ > kLongestFilledSeconds) {
+        const auto steps = std::llround(seconds_between(*last_, sample.time) / interval_s_);
+        if (steps < 1 || static_cast<double>(steps) * interval_s_ > kLongestFilledSeconds) {
             begin_run();
         } else {
-            for (double step = 1.0; step < steps; ++step)
+            for (auto step = 1LL; step < steps; ++step)
                 add(*last_ + from_seconds(interval_s_), {kNan, kNan, kNan, kNan}, output);
         }
     }
