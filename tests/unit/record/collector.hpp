@@ -36,6 +36,13 @@ struct Collector : ArchiveSink {
     std::vector<Sample> samples;
 };
 
+/// Samples first ... end - 1 of an axis of the stream.
+inline std::vector<std::int32_t> expected(unsigned axis, std::int64_t first, std::int64_t end) {
+    std::vector<std::int32_t> counts;
+    for (std::int64_t k = first; k < end; ++k) counts.push_back(values_of(k).axes[axis]);
+    return counts;
+}
+
 struct Run {
     Collector sink;
     ArchiverCounters counters;
