@@ -12,12 +12,6 @@ double decay(double period_s, double lag_s) {
 
 }  // namespace
 
-double flicker_correlation(double lag_s) {
-    double sum = 0.0;
-    for (const double period_s : kFlickerPeriods_s) sum += decay(period_s, lag_s);
-    return sum / static_cast<double>(kFlickerPeriods_s.size());
-}
-
 double whiten(const std::vector<DayBin>& bins, const DayNoise& noise, Eigen::MatrixXd& columns) {
     constexpr auto kFlicker = static_cast<Eigen::Index>(kFlickerPeriods_s.size());
     constexpr Eigen::Index kStates = kFlicker + 1;  // the last: placement

@@ -22,9 +22,6 @@ struct DayNoise {
 inline constexpr std::array<double, 7> kFlickerPeriods_s{40.0,   126.5,   400.0,  1265.0,
                                                          4000.0, 12649.0, 40000.0};
 
-/// Covariance of the flicker of unit variance at two instants so far apart.
-[[nodiscard]] double flicker_correlation(double lag_s);
-
 /// Multiplies by a root of the inverse covariance of the noise: rows that belong to the bins come out
 /// independent and of variance 1.  A Kalman filter in O(bins x columns); against the dense
 /// factorisation: day_noise_test.cpp, 1e-9.

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
+
+#include "corrector/signal/median.hpp"
 
 #include "protocol/core/units.hpp"
 
@@ -37,10 +40,7 @@ double bin_scatter_mgal(const std::vector<DayBin>& bins) {
         if (bins[i].set_up == bins[i - 1].set_up)
             steps.push_back(std::abs((bins[i].reading - bins[i - 1].reading).value()));
     if (steps.empty()) return 1.0;
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    constexpr double kMedianToDeviation = 1.4826;
-    return std::max(*middle * kMedianToDeviation / std::sqrt(2.0), 1e-3);
+    return std::max(kGaussianPerMad * median(std::move(steps)) / std::sqrt(2.0), 1e-3);
 }
 
 }  // namespace
