@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "corrector/signal/median.hpp"
 #include "protocol/oven/controller_values.hpp"
 
 namespace a351::daemon {
@@ -13,13 +15,6 @@ constexpr int kRecentSeconds = 90;  // The page shows 60.
 constexpr int kLeastRecent = 50'000 / 4;
 constexpr int kLevelSeconds = 2;  // Traffic is 20 mGal: 0.1' and less.
 constexpr Nanoseconds kOvenStep = std::chrono::seconds(2);
-
-/// @param values  at least one; their order is changed.
-double median(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 template <class Point>
 void keep_a_day(std::deque<Point>& points) {
@@ -51,6 +46,8 @@ void LiveRecord::take(const PlacedSample& sample) {
         told_until_.reset();
     }
     if (last_ && sample.time <= *last_) forget_from(sample.time);
+    if (!last_)
+        judge_.at(sample.time);  // There is no data from here on, until the filters are full.
     last_ = sample.time;
     recent_.take(sample);
     std::array<float, kLiveChannelCount> values{};
@@ -162,7 +159,8 @@ std::optional<Level> LiveRecord::level_against(UtcTime from, UtcTime to) const {
     const double g_per_count = profile_.acceleration(1).value();
     for (std::size_t axis = 0; axis < 2; ++axis) {
         horizontal[axis] = StandardGravity(g_per_count * (*now)[axis]);
-        reference[axis] = to_standard_gravity(MilliGal(median(stood_mgal[axis])));
+        reference[axis] =
+            to_standard_gravity(MilliGal(corrector::median(std::move(stood_mgal[axis]))));
     }
     return level(horizontal, reference);
 }

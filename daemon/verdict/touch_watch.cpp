@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "corrector/signal/median.hpp"
 #include "protocol/core/units.hpp"
 
 namespace a351::daemon {
@@ -16,12 +17,6 @@ constexpr std::size_t kUsualMinutes = 10;
 constexpr std::size_t kUsualShakes = 300;     ///< Samples: ten minutes.
 constexpr double kLongestTailSeconds = 30.0;  ///< Of a knock: after that something else shakes.
 constexpr double kMilliGalPerGal = 1000.0;
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 double rms_about_mean(const std::deque<double>& values) {
     double mean = 0.0, square = 0.0;
@@ -48,7 +43,7 @@ bool TouchWatch::is_clean(const LiveSample& sample) const noexcept {
 }
 
 double TouchWatch::usual_shake_mgal() const {
-    return median({shakes_mgal_.begin(), shakes_mgal_.end()});
+    return corrector::median({shakes_mgal_.begin(), shakes_mgal_.end()});
 }
 
 /// A knock begins above its threshold and ends where the shaking is back at its usual level.
@@ -106,7 +101,7 @@ void TouchWatch::follow_noise(const LiveSample& sample) {
 
 double TouchWatch::noise_ratio() const noexcept {
     if (minutes_mgal_.size() < kUsualMinutes) return 1.0;
-    const double usual = median({minutes_mgal_.begin(), minutes_mgal_.end()});
+    const double usual = corrector::median({minutes_mgal_.begin(), minutes_mgal_.end()});
     return noise_mgal_ / std::max(usual, options_.noise_floor_mgal);
 }
 

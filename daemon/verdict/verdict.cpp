@@ -95,7 +95,7 @@ void VerdictJudge::judge(UtcTime now) {
         return reasons.back().is_met;
     };
     if (!last_good_) {
-        least("good samples so far", 0.0, "", 1.0);
+        least("values so far (the first takes 20 s)", 0.0, "", 1.0);
         return decide(VerdictState::no_data, now, std::move(reasons));
     }
     if (!most("last good sample", seconds_between(*last_good_, now), "s ago", options_.gap_s) ||

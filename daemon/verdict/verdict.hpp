@@ -52,14 +52,11 @@ struct Verdict {
 ///     stable       none of these for hold_s
 ///
 /// Surely: by `sure` standard errors until it is settled, by `sure_stay` from then on until a hand is
-/// at the box.  A power-on that nobody told is taken for the first sample when the box is then colder
-/// than warm_up_degc below its set point, or warms by half of that within an hour.
+/// at the box.  The first sample passes for power-on when the box is then colder than warm_up_degc
+/// below its set point, or warms by half of that within an hour.
 class VerdictJudge {
 public:
     explicit VerdictJudge(const VerdictOptions& options = {});
-
-    /// When the sensor was switched on, where it is known.
-    void switched_on(UtcTime time) { switched_on_ = time; }
 
     /// The next value of the series.
     const Verdict& take(const LiveSample& sample);

@@ -52,7 +52,7 @@ bool measure_cases(std::uint64_t first, std::uint64_t last) {
     double by_touch_s = 0.0;
     for (std::uint64_t seed = first; seed <= last; ++seed) {
         const VerdictRecord record = simulated_case(seed);
-        const auto states = told(record, {}, std::nullopt);
+        const auto states = told(record);
         const VerdictScore one = score(states, record.truth);
         by_touch_s += false_by_touch_s(record, states);
         by_case.at(static_cast<std::size_t>(verdict_case(seed))).add(one);
@@ -80,7 +80,7 @@ bool measure_days(std::uint64_t days) {
     bool all = true;
     for (std::uint64_t seed = 1; seed <= days; ++seed) {
         const VerdictRecord record = verdict_record(load_scenario("tsukuba"), seed);
-        const auto states = told(record, {}, std::nullopt);
+        const auto states = told(record);
         for (const PlannedSetUp& set_up : record.plan) {
             const auto from = static_cast<std::size_t>(seconds_between(record.start, set_up.start));
             const auto to = static_cast<std::size_t>(seconds_between(record.start, set_up.end));

@@ -22,10 +22,8 @@ double VerdictScore::median_delay_s() const {
     return sorted[sorted.size() / 2];
 }
 
-std::vector<VerdictState> told(const VerdictRecord& record, const daemon::VerdictOptions& options,
-                               std::optional<UtcTime> switched_on) {
-    daemon::VerdictJudge judge(options);
-    if (switched_on) judge.switched_on(*switched_on);
+std::vector<VerdictState> told(const VerdictRecord& record) {
+    daemon::VerdictJudge judge;
     std::vector<VerdictState> states;
     for (const daemon::LiveSample& sample : record.samples) {
         const auto seen_s = static_cast<std::size_t>(seconds_between(record.start, sample.seen_at));

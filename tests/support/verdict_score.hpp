@@ -29,9 +29,7 @@ struct VerdictScore {
 };
 
 /// What was told, once a second from the start of the record; no_data before the first sample.
-[[nodiscard]] std::vector<daemon::VerdictState> told(const VerdictRecord& record,
-                                                     const daemon::VerdictOptions& options,
-                                                     std::optional<UtcTime> switched_on);
+[[nodiscard]] std::vector<daemon::VerdictState> told(const VerdictRecord& record);
 
 [[nodiscard]] VerdictScore score(const std::vector<daemon::VerdictState>& told,
                                  const std::vector<Allowed>& truth);

@@ -12,6 +12,14 @@ namespace {
 
 double wave(std::int64_t i) { return 500.0 * std::sin(0.01 * static_cast<double>(i)); }
 
+TEST_CASE("until the filters are full there is no data, since the first sample", "[live]") {
+    LiveRecord record(kProfile, 50, {});
+    for (std::int64_t i = 0; i < 500; ++i) record.take(placed(i, 0.0, 0.0, 980000.0));
+    const Verdict verdict = record.verdict(after(10.0));
+    CHECK(verdict.state == VerdictState::no_data);
+    CHECK(verdict.since == kZero);
+}
+
 TEST_CASE("a viewer reads every sample once, in blocks without a gap", "[live]") {
     LiveRecord record(kProfile, 50, {});
     for (std::int64_t i = 0; i < 1000; ++i)
