@@ -9,16 +9,9 @@
 namespace a351::daemon {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = boost::beast::http;
-using boost::system::error_code;
-
 // A little more than the daemon grants a request, so that its own words arrive first.
 constexpr std::chrono::seconds kPatience{15};
 constexpr std::uint64_t kLargestAnswer = std::uint64_t{64} * 1024 * 1024;
-
-auto into(error_code& error) { return asio::redirect_error(asio::use_awaitable, error); }
 
 asio::awaitable<void> exchange(const Url& url, const http::request<http::string_body>& request,
                                http::response_parser<http::string_body>& answer,

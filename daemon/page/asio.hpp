@@ -17,3 +17,16 @@
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
+
+namespace a351::daemon {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+/// `co_await async_...(into(error))`: what fails is a value.
+inline auto into(error_code& error) { return asio::redirect_error(asio::use_awaitable, error); }
+
+}  // namespace a351::daemon

@@ -47,14 +47,11 @@ std::size_t point_count(const Keys& keys) {
     return count;
 }
 
-double unix_ms(UtcTime time) {
-    return std::chrono::duration<double, std::milli>(time.time_since_epoch()).count();
-}
-
 /// `[t_ms, first, second]` in the fewest digits that bring the float back; NaN is null.
 void append_point(std::string& text, UtcTime time, std::array<float, 2> values) {
     text += text.ends_with('[') ? "[" : ",[";
-    text += std::to_string(std::llround(unix_ms(time)));
+    text += std::to_string(
+        std::chrono::round<std::chrono::milliseconds>(time.time_since_epoch()).count());
     for (const float value : values) {
         text += ',';
         std::array<char, 32> digits{};

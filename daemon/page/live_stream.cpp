@@ -9,11 +9,7 @@
 namespace a351::daemon {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
 namespace websocket = boost::beast::websocket;
-using asio::ip::tcp;
-using boost::system::error_code;
 
 constexpr std::chrono::milliseconds kStep{100};
 constexpr std::chrono::seconds kStatusStep{1};
@@ -22,8 +18,6 @@ constexpr std::uint64_t kPastSeconds = 60;
 constexpr std::size_t kLargestFromClient = std::size_t{4} * 1024;
 /// Left to itself the kernel takes megabytes for a viewer that does not read.
 constexpr int kSendBuffer = 128 * 1024;
-
-auto into(error_code& error) { return asio::redirect_error(asio::use_awaitable, error); }
 
 LiveMessage status_message(const nlohmann::json& status) {
     return {.is_text = true,

@@ -12,19 +12,11 @@
 namespace a351::daemon {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = boost::beast::http;
-using asio::ip::tcp;
-using boost::system::error_code;
-
 constexpr std::uint32_t kHeaderLimit = 8 * 1024;
 constexpr std::uint64_t kBodyLimit = std::uint64_t{16} * 1024;
 constexpr std::string_view kLivePath = "/live";
 constexpr std::chrono::seconds kLinger{1};
 constexpr std::chrono::milliseconds kAcceptPause{100};
-
-auto into(error_code& error) { return asio::redirect_error(asio::use_awaitable, error); }
 
 Request plain(const HttpRequest& message) {
     Request request;
