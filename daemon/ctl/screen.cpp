@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
@@ -10,6 +11,18 @@ namespace a351::daemon {
 namespace {
 
 using nlohmann::json;
+
+/// Counters that grow in health.
+constexpr std::string_view kNoTrouble[] = {"bytes",
+                                           "frames",
+                                           "sessions",
+                                           "link_sessions",
+                                           "integer_records",
+                                           "archive_records",
+                                           "archive_records_waiting",
+                                           "journal_bytes",
+                                           "journal_segments_compressed",
+                                           "journal_segments_removed"};
 
 /// The member at a path such as "device/port"; null when there is none.
 const json& at(const json& object, std::string_view path) {
@@ -82,13 +95,15 @@ std::string axes(const json& status) {
            number_of(values[2], "%.3f") + " mg";
 }
 
-/// Every counter that is not zero, with its own name.
+/// Every counter of trouble that is not zero, with its own name.
 std::string troubles(const json& status) {
     std::string text;
     const json& counters = at(status, "counters");
     if (!counters.is_object()) return "-";
     for (const auto& [name, count] : counters.items()) {
-        if (name == "bytes" || name == "frames" || name == "sessions") continue;
+        if (std::find(std::begin(kNoTrouble), std::end(kNoTrouble), name) != std::end(kNoTrouble)) {
+            continue;
+        }
         if (!count.is_number_integer() || count == 0) continue;
         text += (text.empty() ? "" : "  ") + printable(name) + " " + count.dump();
     }
@@ -109,8 +124,9 @@ std::string occupation(const json& status) {
 
 std::string verdict(const json& status) {
     const json& why = at(status, "verdict/reasons");
+    const json& held_s = at(status, "verdict/held_s");
     return text_of(at(status, "verdict/state")) +
-           number_of(at(status, "verdict/held_s"), " for %.0f s") +
+           (held_s.is_number() ? number_of(held_s, " for %.0f s") : "") +
            (why.empty() ? "" : ": " + joined(why));
 }
 

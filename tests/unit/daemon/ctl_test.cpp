@@ -154,12 +154,15 @@ TEST_CASE("the screen shows what is known and a dash for the rest", "[daemon][ct
     const auto full = nlohmann::json::parse(R"({
         "level":"warning","reasons":["disk nearly full"],"received":1000,"journaled":990,
         "device":{"output_rate_hz":50},"sample":{"acceleration_mg":[1.5,-2.25,999.3]},
-        "counters":{"gaps":2,"duplicates":0,"frames":1000},"disk":{"free_bytes":5500000000}})");
+        "counters":{"gaps":2,"duplicates":0,"frames":1000,"journal_bytes":24000,"archive_records":5},
+        "verdict":{"state":"no data","held_s":null,"reasons":["no sample has come yet"]},
+        "disk":{"free_bytes":5500000000}})");
     const auto screen = status_screen(full, false);
     CHECK(screen.find("warning: disk nearly full") != std::string::npos);
     CHECK(screen.find("990, 10 behind (0.2 s)") != std::string::npos);
     CHECK(screen.find("x 1.500   y -2.250   z 999.300 mg") != std::string::npos);
     CHECK(screen.find("troubles     gaps 2\n") != std::string::npos);
+    CHECK(screen.find("verdict      no data: no sample has come yet\n") != std::string::npos);
     CHECK(screen.find("5.5 GB free") != std::string::npos);
     CHECK(screen.find('\x1b') == std::string::npos);
     CHECK(status_screen(full, true).find("\x1b[1;33mwarning") != std::string::npos);
