@@ -4,6 +4,8 @@
 #include <string_view>
 #include <utility>
 
+#include "daemon/page/status_json.hpp"
+
 namespace a351::daemon {
 namespace {
 
@@ -11,8 +13,11 @@ using nlohmann::json;
 
 using Labels = std::initializer_list<std::pair<std::string_view, std::string>>;
 
-constexpr std::string_view kStates[] = {"no data", "warming up", "settling", "stable", "disturbed"};
-constexpr std::string_view kLevels[] = {"good", "warning", "fault"};
+constexpr VerdictState kStates[] = {VerdictState::no_data, VerdictState::warming_up,
+                                    VerdictState::settling, VerdictState::stable,
+                                    VerdictState::disturbed};
+constexpr Status::Level kLevels[] = {Status::Level::good, Status::Level::warning,
+                                     Status::Level::fault};
 /// The one among the counters that also falls.
 constexpr std::string_view kWaiting = "archive_records_waiting";
 
@@ -71,11 +76,13 @@ void tell_state(Text& text, const json& status) {
     text.sample(1, {{"version", at(status, "/version").get<std::string>()}});
     text.metric("a351_level", "gauge", "1 for the level that a351ctl status exits with.");
     for (const auto level : kLevels) {
-        text.sample(at(status, "/level") == level ? 1 : 0, {{"level", std::string(level)}});
+        const std::string name(to_text(level));
+        text.sample(at(status, "/level") == name ? 1 : 0, {{"level", name}});
     }
     text.metric("a351_verdict", "gauge", "1 for the verdict that holds.");
     for (const auto state : kStates) {
-        text.sample(at(status, "/verdict/state") == state ? 1 : 0, {{"state", std::string(state)}});
+        const std::string name(to_text(state));
+        text.sample(at(status, "/verdict/state") == name ? 1 : 0, {{"state", name}});
     }
     text.gauge("a351_occupation_running", "1 while an occupation runs.",
                at(status, "/occupation").is_object() ? 1 : 0);

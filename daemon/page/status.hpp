@@ -44,7 +44,7 @@ struct Status {
     std::optional<UtcTime> last_sample;
 
     timing::TimingState timing_state = timing::TimingState::unlocked;
-    Nanoseconds timing_uncertainty{0};
+    std::optional<Nanoseconds> timing_uncertainty;       ///< 95 %; absent before the first sample.
     timing::LeapSecond leap = timing::LeapSecond::none;  ///< Announced by the host.
     std::optional<timing::MeasuredRate> measured_rate;
     std::optional<double> declared_rate_hz;  ///< Of the configuration.

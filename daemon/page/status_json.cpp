@@ -10,18 +10,6 @@ namespace {
 
 using nlohmann::json;
 
-const char* name(Status::Level level) {
-    switch (level) {
-        case Status::Level::good:
-            return "good";
-        case Status::Level::warning:
-            return "warning";
-        case Status::Level::fault:
-            return "fault";
-    }
-    return "fault";
-}
-
 const char* name(timing::TimingState state) {
     switch (state) {
         case timing::TimingState::unlocked:
@@ -133,13 +121,26 @@ json counters_of(const Status& status) {
 
 }  // namespace
 
+std::string_view to_text(Status::Level level) noexcept {
+    switch (level) {
+        case Status::Level::good:
+            return "good";
+        case Status::Level::warning:
+            return "warning";
+        case Status::Level::fault:
+            return "fault";
+    }
+    return "fault";
+}
+
 json to_json(const Status& status, const Occupations& occupations, const FieldStatus& field,
              const LiveRecord& live, Nanoseconds stale_after) {
-    const double uncertainty_ms =
-        std::chrono::duration<double, std::milli>(status.timing_uncertainty).count();
+    json uncertainty_ms;
+    if (const auto& known = status.timing_uncertainty)
+        uncertainty_ms = std::chrono::duration<double, std::milli>(*known).count();
     return {{"api", kApiVersion},
             {"version", status.version},
-            {"level", name(status.level)},
+            {"level", to_text(status.level)},
             {"reasons", status.reasons},
             {"session", status.session.empty() ? json() : json(status.session)},
             {"now", to_rfc3339(status.now, 3)},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string_view>
 
 #include "daemon/page/status.hpp"
 #include "daemon/survey/field_status.hpp"
@@ -12,6 +13,8 @@ namespace a351::daemon {
 
 /// Version of the whole interface, published as `api`; raised when a field changes its meaning.
 inline constexpr int kApiVersion = 1;
+
+[[nodiscard]] std::string_view to_text(Status::Level level) noexcept;
 
 /// The body of GET /api/status.  A number that is not known, or not finite, is null.
 /// @param stale_after  the verdict is "no data" when the last sample is older than that.

@@ -46,7 +46,7 @@ struct ArchiveStatus {
     record::ArchiverCounters counters;
     std::optional<record::Sample> last_sample;
     timing::TimingState timing_state = timing::TimingState::unlocked;
-    Nanoseconds timing_uncertainty{0};
+    std::optional<Nanoseconds> timing_uncertainty;  ///< Absent before the first session.
     std::optional<timing::MeasuredRate> measured_rate;
 };
 

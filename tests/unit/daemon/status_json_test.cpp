@@ -38,6 +38,7 @@ TEST_CASE("every fixed field of the status is there before the first sample", "[
     CHECK(is(status, "/occupation", "null"));
     CHECK(is(status, "/sample", "null"));
     CHECK(is(status, "/timing/state", R"("unlocked")"));
+    CHECK(is(status, "/timing/uncertainty_ms", "null"));
     CHECK(is(status, "/verdict/state", R"("no data")"));
     CHECK(status["verdict"]["reasons"].size() == 1);
 }
