@@ -11,6 +11,7 @@
 
 #include "corrector/command/csv_output.hpp"
 #include "corrector/command/option_values.hpp"
+#include "corrector/command/output_option.hpp"
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/eemd/eemd.hpp"
 #include "protocol/core/input_error.hpp"
@@ -98,6 +99,7 @@ std::string report_csv(const EemdResult& result) {
 
 void write_modes(const EmdCommandOptions& options) {
     EemdOptions eemd_options = decomposition(options);
+    require_file_option("--output", options.output);
     const text::CsvTable table = text::read_csv(options.input);
     std::vector<double> signal;
     signal.reserve(table.row_count());

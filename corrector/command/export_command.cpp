@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "corrector/command/option_values.hpp"
+#include "corrector/command/output_option.hpp"
 #include "corrector/export/export.hpp"
 #include "corrector/survey/new_file.hpp"
 #include "protocol/core/input_error.hpp"
@@ -24,6 +25,7 @@ void run(Texts texts) {
     options.format = texts.format == "csv" ? ExportFormat::csv : ExportFormat::mseed;
     if (options.from >= options.to)
         throw InputError("--to = " + texts.to + ": not after --from; allowed: a later instant");
+    require_file_option("--out", texts.out);
     NewFile file(texts.out);
     const ExportReport report =
         export_channel(options, [&](std::string_view bytes) { file.write(bytes); });

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "corrector/command/figures_option.hpp"
+#include "corrector/command/output_option.hpp"
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/report/joint_page.hpp"
 #include "corrector/report/report.hpp"
@@ -146,6 +147,7 @@ void correct_days(const SurveyCommandOptions& options) {
     const std::filesystem::path out = options.out.empty()
                                           ? surveys.front().path.parent_path() / "result"
                                           : std::filesystem::path(options.out);
+    require_folder_option("--out", out);
     const bool is_joint = surveys.size() > 1;
     std::vector<Day> days;
     std::vector<JointDay> joint_days;

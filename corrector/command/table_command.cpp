@@ -9,6 +9,7 @@
 
 #include "corrector/command/figures_option.hpp"
 #include "corrector/command/option_values.hpp"
+#include "corrector/command/output_option.hpp"
 #include "corrector/report/report.hpp"
 #include "corrector/survey/export_files.hpp"
 #include "corrector/survey/result_files.hpp"
@@ -31,6 +32,7 @@ struct TableOptions {
 };
 
 void correct_table(TableOptions options) {
+    require_folder_option("--out", options.out);
     const std::vector<text::Site> sites = text::read_sites(options.sites);
     std::vector<SurveyRow> rows = read_observations(options.observations, sites);
     if (options.tide.empty()) options.tide = rows.front().given_tide ? "given" : "direct";

@@ -144,6 +144,7 @@ TEST_CASE("bad usage ends with 2, one line on standard error and nothing written
     folder.write("sites.csv",
                  "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\nNo.0,140,36,5,979860\n");
     folder.write("base.toml", "[survey]\nbase = 'No.9'\n");
+    folder.write("day.toml", "[survey]\n");
     folder.write("few.csv", "a\n1\n2\n");
     std::string far = "a,b\n1,0\n2,0\n1,0\n";
     for (int i = 0; i < 5000; ++i) far += ",0\n";
@@ -167,6 +168,9 @@ TEST_CASE("bad usage ends with 2, one line on standard error and nothing written
         {kTsukuba + "--model paper --base No.3", "drift step is refused"},
         {"table --sites open.csv --observations open_readings.csv --model network",
          "model = network: no datum"},
+        {kTsukuba + "--out few.csv", "few.csv is no folder; allowed: a folder"},
+        {"survey day.toml --out few.csv/result", "few.csv is no folder; allowed: a folder"},
+        {"emd --input inf.csv --column a --output data", "--output = data: no regular file"},
         {kTsukuba + "--datum-sd 0", "--datum-sd = 0: out of range"},
         {kTsukuba + "--prior beta 1 2", "--prior = beta: no such coefficient; allowed: temp"},
         {kTsukuba + "--prior time_mgal_per_h 1 0", "out of range; allowed: mean from"},
