@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "corrector/fixed_point/stretch_builder.hpp"
+#include "corrector/signal/median.hpp"
 #include "corrector/signal/smoother.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
@@ -153,12 +154,6 @@ private:
     std::vector<std::vector<double>> block_;
     UtcTime last_;
 };
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 double median_step_s(const std::vector<Row>& rows) {
     std::vector<double> steps;

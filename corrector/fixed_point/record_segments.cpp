@@ -5,25 +5,19 @@
 #include <cmath>
 
 #include "corrector/signal/disturbance.hpp"
+#include "corrector/signal/median.hpp"
 #include "corrector/survey/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
 
 constexpr std::size_t kBeside = 9;  // samples in a median beside a step: 3 min
-constexpr double kMadToDeviation = 1.4826;
 constexpr double kSame_degc = 1e-9,
                  kSame_mgal = 1e-6;  // what three filters' rounding leaves of a constant
 
-double median_of(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 double median_of(const std::vector<double>& values, std::size_t first, std::size_t behind) {
-    return median_of({values.begin() + static_cast<std::ptrdiff_t>(first),
-                      values.begin() + static_cast<std::ptrdiff_t>(behind)});
+    return median({values.begin() + static_cast<std::ptrdiff_t>(first),
+                   values.begin() + static_cast<std::ptrdiff_t>(behind)});
 }
 
 /// Valid samples of a stretch, by their places.
@@ -70,8 +64,8 @@ std::vector<double> find_steps(const std::vector<double>& values, const SegmentO
         rises[i] = median_of(values, i, i + kBeside) - median_of(values, i - kBeside, i);
         sizes.push_back(std::abs(rises[i]));
     }
-    const double limit = std::max(options.step_threshold * kMadToDeviation * median_of(sizes),
-                                  options.least_step_mgal);
+    const double limit =
+        std::max(options.step_threshold * kGaussianPerMad * median(sizes), options.least_step_mgal);
     // A step shows as high in its neighbours' medians; of equals the middle one.
     for (std::size_t i = kBeside; i + kBeside <= count;) {
         if (std::abs(rises[i]) <= limit) {

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <random>
 
+#include "corrector/signal/median.hpp"
+
 namespace a351::corrector {
 namespace {
 
@@ -196,8 +198,9 @@ std::optional<RobustFit> fit_robust(const Eigen::Ref<const Eigen::MatrixXd>& col
 
     RobustFit robust;
     Eigen::VectorXd b = *start;
-    robust.start_scale = std::max(kLeastScale, 1.4826 * (1.0 + 5.0 / static_cast<double>(n - p)) *
-                                                   median_size(problem.residuals(b)));
+    robust.start_scale =
+        std::max(kLeastScale, kGaussianPerMad * (1.0 + 5.0 / static_cast<double>(n - p)) *
+                                  median_size(problem.residuals(b)));
     for (int step = 0; step < kMostSteps; ++step) {
         robust.weights = bisquare_weights(problem.residuals(b), robust.start_scale);
         const auto next = problem.solve(robust.weights);
