@@ -138,6 +138,7 @@ std::vector<std::string> actions(const SurveyCorrection& result,
         add("Repeat, without a value (" + reason + ")", names);
     add("Repeat, the station has no other reading to trust", urgent);
     add("Repeat if there is time, the station has another reading to trust", optional);
+    if (list.empty()) list.emplace_back("Nothing is to be repeated.");
     add("Use with care", care);
     add("Trust", trusted);
     return list;

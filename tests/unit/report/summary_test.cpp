@@ -51,6 +51,15 @@ TEST_CASE("readings are sorted by what to do about them", "[report][summary]") {
     CHECK(list[4] == "Trust: B (1), S3 (1), B (2), S5 (1), S6 (1), S7 (1), S2 (2), S3 (2), B (3).");
 }
 
+TEST_CASE("that nothing is to be repeated is said", "[report][summary]") {
+    const SurveyCorrection result = corrected(scattered_day());
+    const std::vector<ReadingGrade> all_good(result.rows.size());
+    const std::vector<std::string> list = actions(result, all_good);
+    REQUIRE(list.size() == 2);
+    CHECK(list[0] == "Nothing is to be repeated.");
+    CHECK_THAT(list[1], Catch::StartsWith("Trust: "));
+}
+
 TEST_CASE("the limits name what nothing checks", "[report][summary]") {
     auto rows = scattered_day();
     rows[7].reference.reset();  // S6
