@@ -67,7 +67,7 @@ def look_into(package, deb, tree):
 
 def pages_refer_to_each_other(tree):
     pages = sorted((tree / "usr/share/doc/a351").rglob("*.md"))
-    links = [(page, link) for page in pages for link in re.findall(r"\]\(([^):]+\.md)\)", page.read_text())]
+    links = [(page, link) for page in pages for link in re.findall(r"\]\(([^):]+)\)", page.read_text())]
     lost = [f"{page.name}: {link}" for page, link in links if not (page.parent / link).is_file()]
     demand(f"of {len(links)} links between {len(pages)} pages lead nowhere: {lost or 'none'}", links and not lost)
 
