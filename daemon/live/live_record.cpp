@@ -13,7 +13,7 @@ namespace {
 constexpr int kRecentSeconds = 90;  // The page shows 60.
 // A quarter of a second of the fastest simulated time, of which the page asks every tenth.
 constexpr int kLeastRecent = 50'000 / 4;
-constexpr int kLevelSeconds = 2;  // Traffic is 20 mGal: 0.1' and less.
+constexpr std::size_t kLevelSeconds = 2;  // Traffic is 20 mGal: 0.1' and less.
 constexpr Nanoseconds kOvenStep = std::chrono::seconds(2);
 
 template <class Point>
@@ -153,7 +153,7 @@ std::optional<Level> LiveRecord::level_against(UtcTime from, UtcTime to) const {
         stood_mgal[0].push_back(x);
         stood_mgal[1].push_back(y);
     }
-    const auto now = recent_.mean_of_last(static_cast<std::size_t>(kLevelSeconds * rate_hz_));
+    const auto now = recent_.mean_of_last(kLevelSeconds * static_cast<std::size_t>(rate_hz_));
     if (stood_mgal[0].empty() || !now) return std::nullopt;
     std::array<StandardGravity, 2> horizontal{}, reference{};
     const double g_per_count = profile_.acceleration(1).value();

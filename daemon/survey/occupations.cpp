@@ -208,7 +208,8 @@ Outcome Occupations::note(std::string_view text) {
     auto event = about_now("note");
     if (event.utc == UtcTime{}) return refused("no sample has come yet");
     add(event, "note", text);
-    return commit(std::move(event), "noted at " + shown(event.utc));
+    std::string said = "noted at " + shown(event.utc);
+    return commit(std::move(event), std::move(said));
 }
 
 Outcome Occupations::set_target(MilliGal target) {
