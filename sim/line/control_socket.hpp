@@ -33,7 +33,7 @@ public:
     /// @throws InputError         as require_place; the socket cannot be bound.
     /// @throws std::system_error  naming the path.
     ControlSocket(std::filesystem::path path, Handler handler);
-    ~ControlSocket();
+    ~ControlSocket() override;
     ControlSocket(const ControlSocket&) = delete;
     ControlSocket& operator=(const ControlSocket&) = delete;
 

@@ -176,7 +176,7 @@ std::vector<std::byte> ModbusServer::answer_to(std::span<const std::byte> reques
         for (std::size_t i = 0; i + 1 < byte_count; i += 2) {
             words.push_back(word_at(request, 7 + i));
         }
-        if (find_variable(address) != nullptr && byte_count != 2U * second) {
+        if (find_variable(address) != nullptr && byte_count != std::size_t{2} * second) {
             refusal = Refusal::data;
         } else {
             refusal = controller_.write(address, words);

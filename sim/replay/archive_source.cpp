@@ -42,6 +42,10 @@ std::optional<std::size_t> field_of(const fs::path& file, const std::string& cha
     return static_cast<std::size_t>(axis - axes.begin());
 }
 
+std::string at_rate(const std::string& station, int rate_hz) {
+    return station + " at " + std::to_string(rate_hz) + " Hz";
+}
+
 }  // namespace
 
 /// The samples of one channel in the order of its records.
@@ -135,9 +139,8 @@ ArchiveSource::ArchiveSource(const std::vector<fs::path>& files,
             rate_hz_ = rate_hz;
         }
         if (codes != station || rate_hz != rate_hz_) {
-            throw InputError(file.string() + ": " + codes + " at " + std::to_string(rate_hz) +
-                             " Hz beside " + station + " at " + std::to_string(rate_hz_) +
-                             " Hz; allowed: one station at one rate");
+            throw InputError(file.string() + ": " + at_rate(codes, rate_hz) + " beside " +
+                             at_rate(station, rate_hz_) + "; allowed: one station at one rate");
         }
         auto& channel = channels_.at(*field);
         if (!channel) channel = std::make_unique<Channel>(header.channel, damage_);

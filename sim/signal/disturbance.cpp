@@ -53,12 +53,13 @@ std::vector<Burst> draw_bursts(const Scenario& scenario, const std::vector<Plann
     RandomStream vehicles(seed, "vehicles");
     if (p.vehicles_per_h > 0.0) {
         const double mean_wait_s = 3600.0 / p.vehicles_per_h;
-        for (double t = mean_wait_s * vehicles.exponential(); t < record_s;
-             t += mean_wait_s * vehicles.exponential()) {
+        double t = mean_wait_s * vehicles.exponential();
+        while (t < record_s) {
             Burst burst = draw_burst(vehicles, Burst::Envelope::swell, p.vehicle_s, p.vehicle_hz,
                                      p.vehicle_gal, p.axis_share);
             burst.start_s = t;
             bursts.push_back(burst);
+            t += mean_wait_s * vehicles.exponential();
         }
     }
 
