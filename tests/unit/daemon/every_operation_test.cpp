@@ -28,7 +28,7 @@ public:
             note_event(store, "two thirds of it");
             advance(store, seconds(20));
             published_ = status_of(store).journaled.value_or(-1);
-            uncertainty_ = status_of(store).timing_uncertainty.value();
+            uncertainty_ = status_of(store).timing_uncertainty.value_or(Nanoseconds(0));
             std::filesystem::copy(root, killed_, std::filesystem::copy_options::recursive);
             is_stopped_well_ = store.stop();
             published_at_stop_ = status_of(store).journaled.value_or(-1);
