@@ -7,6 +7,7 @@
 #include "protocol/core/input_error.hpp"
 
 namespace a351::daemon {
+
 Order parse_order(std::string_view body, const std::vector<std::string>& allowed) {
     const auto parsed = nlohmann::json::parse(body, nullptr, false);
     if (!parsed.is_object()) throw InputError("body: not a JSON object");

@@ -6,7 +6,6 @@
 #include "protocol/core/units.hpp"
 
 namespace a351::daemon {
-namespace {}  // namespace
 
 ReadingOutlook::ReadingOutlook(const VerdictOptions& options, const OvenFilter& filter)
     : options_(options),

@@ -9,8 +9,8 @@
 
 namespace a351::record {
 
-/// Of bytes on a line of 8N1, ten bits each.
-inline Nanoseconds wire_time(std::uint64_t bytes, int baud) {
+/// How long so many bytes take on a line of 8N1, ten bits each.  @param baud  > 0.
+[[nodiscard]] inline Nanoseconds wire_time(std::uint64_t bytes, int baud) {
     constexpr std::int64_t kBitTimesPerByte_ns = 10 * std::int64_t{1'000'000'000};
     return Nanoseconds(static_cast<std::int64_t>(bytes) * kBitTimesPerByte_ns / baud);
 }

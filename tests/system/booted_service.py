@@ -80,8 +80,8 @@ def follows_the_package(recorder, install):
 
 
 def as_a_service(root, deb):
-    """@param deb  the package a351 in /root, which is installed before and afterwards."""
-    install = f"dpkg -i /root/{deb.name}"
+    """@param deb  the package a351 in the root's /root, which is installed before and afterwards."""
+    install = f"dpkg -i ~root/{deb.name}"
     with Booted(root) as system:
         if system.trouble:
             print(f"not run as a service: {system.trouble}")
