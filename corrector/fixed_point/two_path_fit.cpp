@@ -213,7 +213,7 @@ private:
 
     void smooth_noise(const Eigen::VectorXd& power) {
         constexpr Index kLowest = 8;
-        constexpr double kBandRatio = 1.41421356;
+        constexpr double kBandRatio = 1.41421356;  // half an octave
         for (Index first = kLowest; first < frequencies_;) {
             const Index behind = std::min(
                 frequencies_,

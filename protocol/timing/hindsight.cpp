@@ -19,8 +19,6 @@ constexpr std::int64_t kFitEvery_s = 2;
 
 constexpr Nanoseconds kSetBackWithin = std::chrono::seconds(60);
 
-constexpr Nanoseconds kFar = std::chrono::hours(24);  // as SampleClock
-
 double ratio(Nanoseconds a, Nanoseconds b) {
     return static_cast<double>(a.count()) / static_cast<double>(b.count());
 }
@@ -139,7 +137,7 @@ void Hindsight::host_slept(std::size_t sleeps) {
 }
 
 void Hindsight::observe(std::int64_t index, RawTime arrival) {
-    if (begins_stretch_ || period_.of(index - stretches_.back().last) > kFar)
+    if (begins_stretch_ || period_.of(index - stretches_.back().last) > kLongestLoss)
         stretches_.push_back(
             {index, index, sleeps_, ArrivalEdge(options_.rate, ArrivalEdge::Memory::all)});
     begins_stretch_ = false;

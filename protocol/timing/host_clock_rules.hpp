@@ -18,6 +18,9 @@ inline constexpr Nanoseconds kClockStep = std::chrono::milliseconds(50);
 /// Where sample times may jump at all, a greater jump is a break; a smaller one is slewed.
 inline constexpr Nanoseconds kBreak = std::chrono::milliseconds(5);
 
+/// After a longer loss sample times begin anew: neither clock keeps a line over more.
+inline constexpr Nanoseconds kLongestLoss = std::chrono::hours(24);
+
 /// Around the midnight of an announced leap second times may be a second off: in its minute, and in
 /// records, of up to a minute, that reach into it.
 inline constexpr Nanoseconds kLeapDoubt = std::chrono::minutes(2);

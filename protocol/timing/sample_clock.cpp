@@ -47,7 +47,7 @@ void SampleClock::observe(std::int64_t index, RawTime arrival) {
         first_ = index;
         fixed_until_ = index - index % period_.per_second();
     }
-    const bool is_far = last_ && period_.of(index - *last_) > kRemembered;
+    const bool is_far = last_ && period_.of(index - *last_) > kLongestLoss;
     last_ = index;
     if (is_given_) {
         const TimePiece& piece = piece_of(index);
@@ -55,7 +55,7 @@ void SampleClock::observe(std::int64_t index, RawTime arrival) {
         return;
     }
     if (is_far) may_jump_ = true;
-    // The first after a sleep, or after a loss of more than is remembered: none has a time between.
+    // The first after a sleep, or after such a loss: none has a time between.
     if (edge_.is_empty() || is_far) fixed_until_ = std::max(fixed_until_, index);
     edge_.observe(index, awake(arrival));
     fix_until(index);
