@@ -14,6 +14,7 @@
 #include "corrector/survey/occupation_window.hpp"
 #include "corrector/tide/earth_tide.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/core/units.hpp"
 #include "protocol/record/archive_reader.hpp"
 #include "protocol/record/sds.hpp"
 #include "protocol/record/station_document.hpp"
@@ -29,7 +30,6 @@ constexpr std::size_t kChannels = kRecordChannels;
 constexpr std::size_t kVertical = 2;
 constexpr std::int64_t kBlockSamples = 16384;  // a channel's block stays in the cache
 constexpr double kSameRate = 1e-3;             // ten times what a sensor's clock is off
-constexpr double kMilliGalPerMps2 = 1e5;
 
 using DayOfChannels = std::array<record::ChannelData, kChannels>;
 

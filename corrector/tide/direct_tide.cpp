@@ -153,7 +153,6 @@ MilliGal direct_tide(UtcTime time, const TideStation& station, TideFactors facto
                   earth_fixed_direction(moon, obliquity_deg, sidereal_deg), at, factors) +
         pull_mps2(kGmSun, sun.distance_m, earth_fixed_direction(sun, obliquity_deg, sidereal_deg),
                   at, factors);
-    constexpr double kMilliGalPerMps2 = 1e5;
     return MilliGal(-kMilliGalPerMps2 * pull);
 }
 

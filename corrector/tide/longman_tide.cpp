@@ -87,7 +87,6 @@ MilliGal longman_tide(UtcTime time, const TideStation& station, TideFactors fact
     const double degree2 =
         moon * (3.0 * square(cos_theta) - 1.0) + sun * (3.0 * square(cos_phi) - 1.0);
     const double degree3 = 1.5 * moon * r * inverse_d * (5.0 * square(cos_theta) - 3.0) * cos_theta;
-    constexpr double kMilliGalPerGal = 1000.0;
     return MilliGal(-kMilliGalPerGal * (factors.delta2 * degree2 + factors.delta3 * degree3));
 }
 

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "protocol/core/units.hpp"
+
 namespace a351::daemon {
 namespace {
 
 constexpr double kStepSeconds = 2.0;
 constexpr int kPerMinute = 30;
 constexpr int kLeastMinutes = 3;  ///< Fewer have no scatter to speak of.
-constexpr double kMilliGalPerGal = 1000.0;
 
 }  // namespace
 

@@ -16,7 +16,6 @@ constexpr std::size_t kHour = 60;    ///< Minutes.
 constexpr std::size_t kUsualMinutes = 10;
 constexpr std::size_t kUsualShakes = 300;     ///< Samples: ten minutes.
 constexpr double kLongestTailSeconds = 30.0;  ///< Of a knock: after that something else shakes.
-constexpr double kMilliGalPerGal = 1000.0;
 
 double rms_about_mean(const std::deque<double>& values) {
     double mean = 0.0, square = 0.0;

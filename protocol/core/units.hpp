@@ -43,6 +43,8 @@ using Degrees = Quantity<struct DegreesUnit>;  ///< Angle; latitude north, longi
 inline constexpr double kSecondsPerMinute = 60.0, kSecondsPerHour = 3600.0;
 inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
+inline constexpr double kMilliGalPerGal = 1000.0, kMilliGalPerMps2 = 1e5;
+
 /// Standard gravity, 3rd CGPM 1901: 9.80665 m/s2, exactly.
 inline constexpr double kMilliGalPerStandardGravity = 980665.0;
 

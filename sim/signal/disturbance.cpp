@@ -4,12 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "protocol/core/units.hpp"
 #include "sim/noise/random.hpp"
 
 namespace a351::sim {
 namespace {
-
-constexpr double kMilliGalPerGal = 1000.0;
 
 double draw(RandomStream& stream, Range range) { return stream.uniform(range.low, range.high); }
 
