@@ -52,12 +52,12 @@ TwoPathFit fitted(const RecordSegment& segment, double step_s) {
 /// @throws InputError  the record is of several units.
 std::string unit_of(const LongRecord& record, const std::string& file) {
     const std::string& unit = record.stretches.front().serial_number;
-    for (const RecordStretch& stretch : record.stretches)
-        if (stretch.serial_number != unit)
-            throw InputError(file + ": from " + to_rfc3339(stretch.times.front()) +
-                             " on of the unit '" + stretch.serial_number + "', before of '" + unit +
-                             "'; allowed: one unit");
-    return unit;
+    const auto other = std::ranges::find_if(record.stretches, [&](const RecordStretch& stretch) {
+        return stretch.serial_number != unit;
+    });
+    if (other == record.stretches.end()) return unit;
+    throw InputError(file + ": from " + to_rfc3339(other->times.front()) + " on of the unit '" +
+                     other->serial_number + "', before of '" + unit + "'; allowed: one unit");
 }
 
 std::string slope_line(const PooledThermal& pooled) {
@@ -122,7 +122,7 @@ std::string calibrate_from_records(Calibration& calibration,
                 : lacks_response(segment.temperature_degc, segment.acceleration_mgal,
                                  record.step_s);
         if (!lack.empty()) {
-            lacks.push_back(name + ": " + lack);
+            lacks.emplace_back(name).append(": ").append(lack);
             text += lacks.back() + '\n';
             continue;
         }

@@ -7,6 +7,7 @@ namespace a351::corrector {
 void CountedReadings::add(const std::vector<SurveyRow>& rows,
                           const std::vector<std::string>& archive_sha256, const std::string& file) {
     std::vector<Counted> added;
+    added.reserve(rows.size());
     for (const SurveyRow& row : rows)
         added.push_back({row.start.value_or(row.time), row.end.value_or(row.time), file});
     for (const std::string& sha256 : archive_sha256) {

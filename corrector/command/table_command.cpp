@@ -133,6 +133,7 @@ void add_table_command(CLI::App& program) {
         ->check(CLI::Range(0, 2))
         ->capture_default_str();
     std::vector<std::string> linear_models;
+    linear_models.reserve(kLinearModels.size());
     for (const LinearModel& model : kLinearModels) linear_models.emplace_back(model.name);
     command.add_option("--robust-terms", options->survey.robust_terms, "robust: of which model")
         ->check(CLI::IsMember(linear_models))

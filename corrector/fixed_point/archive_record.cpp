@@ -1,6 +1,7 @@
 #include "corrector/fixed_point/archive_record.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -234,11 +235,11 @@ std::set<Day> days_with_files(const std::filesystem::path& archive,
                               const RecordWindow& window) {
     std::set<Day> found;
     for (const auto& file : record::day_files(archive, codes, channel)) {
-        // ... .YEAR.DAY
-        const std::string name = file.filename().string();
-        if (name.size() < 9) continue;
-        const int year = std::atoi(name.substr(name.size() - 8, 4).c_str());
-        const int day = std::atoi(name.substr(name.size() - 3).c_str());
+        const std::string name = file.filename().string();  // ... .YEAR.DAY in digits
+        const char* const end = name.data() + name.size();
+        int year = 0, day = 0;
+        std::from_chars(end - 8, end - 4, year);
+        std::from_chars(end - 3, end, day);
         const Day first = Day(std::chrono::year(year) / 1 / 1) + days(day - 1);
         if (window.from && UtcTime(first + days(1)) <= *window.from) continue;
         if (window.to && UtcTime(first) >= *window.to) continue;
