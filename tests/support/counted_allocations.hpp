@@ -13,9 +13,13 @@ namespace a351::test {
 inline std::atomic<pid_t> watched_thread{0};  ///< 0: none.
 inline std::atomic<int> allocations{0};
 
-inline void* allocate(std::size_t size) {
+inline void* allocate(std::size_t size, const std::nothrow_t&) noexcept {
     if (watched_thread != 0 && gettid() == watched_thread) ++allocations;
-    void* const memory = std::malloc(size == 0 ? 1 : size);
+    return std::malloc(size == 0 ? 1 : size);
+}
+
+inline void* allocate(std::size_t size) {
+    void* const memory = allocate(size, std::nothrow);
     if (memory == nullptr) throw std::bad_alloc();
     return memory;
 }
@@ -24,6 +28,12 @@ inline void* allocate(std::size_t size) {
 
 void* operator new(std::size_t size) { return a351::test::allocate(size); }
 void* operator new[](std::size_t size) { return a351::test::allocate(size); }
+void* operator new(std::size_t size, const std::nothrow_t& tag) noexcept {
+    return a351::test::allocate(size, tag);
+}
+void* operator new[](std::size_t size, const std::nothrow_t& tag) noexcept {
+    return a351::test::allocate(size, tag);
+}
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
