@@ -28,8 +28,8 @@ std::size_t find_extrema(const double* curve, std::size_t n, double* positions, 
     }
     for (std::size_t word = 0; word < n / 64 + 2; ++word) starts[word] = 0;
     for (std::size_t k = 0; k < count; ++k) {
-        const double ceiled = positions[k] + 0.5;  // a whole or a half number, and a half more
-        const auto start = static_cast<std::size_t>(ceiled);
+        const double half_more = positions[k] + 0.5;  // cut off: the ceiling
+        const auto start = static_cast<std::size_t>(half_more);
         starts[start / 64] |= std::uint64_t{1} << (start % 64);
     }
     return count;

@@ -1,7 +1,7 @@
 """All benchmarks, one after another, and in the end each promise beside what was measured.
 
     bench_table.py                 all, as the target `bench`: a quarter of an hour
-    bench_table.py --days 20       with 20 simulated days a scenario, of whose mean accuracy is promised, for one: half an hour more
+    bench_table.py --days 20       with 20 simulated days a scenario, for one: half an hour more; their mean is promised
     bench_table.py --read FILE     the table alone, from what an earlier run printed
 
 Absolute times are this machine's; ratios were measured beside something else in the same run.
@@ -34,8 +34,9 @@ COMMANDS = [
     [TOOLS / "plant_statistics_bench"], [TOOLS / "long_record_bench"],
     [BIN / "a351-correct", "table", "--sites", GOLDEN / "sites.csv", "--observations", GOLDEN / "observations.csv", "--model",
      "t-rate-drift", "--flags", "ignore", "--out", TOOLS / "published-table"],
-    [*PYTHON, HERE / "survey_accuracy.py", f"{FIRST_SEED}-{FIRST_SEED + options.days - 1}"], [*PYTHON, HERE / "system_bench.py"], [*PYTHON, HERE / "survey_speed.py"],
-    [*PYTHON, HERE / "record_speed.py"], [TOOLS / "timing_test", "times behind*"], [*PYTHON, TOP / "tests/system/kill_daemon.py"],
+    [*PYTHON, HERE / "survey_accuracy.py", f"{FIRST_SEED}-{FIRST_SEED + options.days - 1}"],
+    [*PYTHON, HERE / "system_bench.py"], [*PYTHON, HERE / "survey_speed.py"], [*PYTHON, HERE / "record_speed.py"],
+    [TOOLS / "timing_test", "times behind*"], [*PYTHON, TOP / "tests/system/kill_daemon.py"],
     [TOOLS / "daemon_test", "[power_cut]"], [*PYTHON, TOP / "tests/system/same_bytes.py"],
     *([*PYTHON, TOP / "tests/system" / f"{name}.py"] for name in ("obspy_reads", "ringserver", "msi", "gsadjust", "stranger_reads")),
 ]
