@@ -24,6 +24,9 @@ inline void* allocate(std::size_t size) {
     return memory;
 }
 
+/// Inlined, g++ sees free() meet operator new.
+[[gnu::noinline]] inline void release(void* memory) noexcept { std::free(memory); }
+
 }  // namespace a351::test
 
 void* operator new(std::size_t size) { return a351::test::allocate(size); }
@@ -34,7 +37,7 @@ void* operator new(std::size_t size, const std::nothrow_t& tag) noexcept {
 void* operator new[](std::size_t size, const std::nothrow_t& tag) noexcept {
     return a351::test::allocate(size, tag);
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept { a351::test::release(memory); }
+void operator delete[](void* memory) noexcept { a351::test::release(memory); }
+void operator delete(void* memory, std::size_t) noexcept { a351::test::release(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { a351::test::release(memory); }

@@ -23,7 +23,7 @@ start_utc = "2017-07-15T23:50:00Z"
 duration_h = 10.0
 """ + ONE_SITE
 START = "2017-07-15T23:50:00Z"
-SPEED = 20 if IS_SANITIZED else 100
+SPEED = 40 if IS_SANITIZED else 100
 FRAMES = 20 * 60 * 50
 
 
