@@ -114,7 +114,7 @@ with Scratch() as scratch:
         except OSError:
             return []
 
-    wait_for("the readings of the whole day", lambda: readings() and None not in readings(), 30)
+    wait_for("the readings of the whole day", lambda: readings() and None not in readings(), 30 * SLOWER)
     print(f"recalled: {len(readings())} readings, {min(readings()):.1f} to {max(readings()):.1f} mGal")
     daemon.terminate()
     demand("the daemon ends cleanly", daemon.wait(timeout=30) == 0)
