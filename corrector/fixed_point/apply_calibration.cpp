@@ -17,9 +17,6 @@
 namespace a351::corrector {
 namespace {
 
-constexpr std::array<TwoPathTerm, 5> kTerms{TwoPathTerm::level, TwoPathTerm::slow,
-                                            TwoPathTerm::fast, TwoPathTerm::fast_lag,
-                                            TwoPathTerm::slow_lag};
 // 15 samples of 20 s: white noise falls to 0.39 of it, a cycle of 15 min keeps 99 %.
 constexpr std::size_t kHalfWindow = 7;
 constexpr double kShortest_s = 39.0;  // two steps, with a margin for the clock
@@ -44,7 +41,7 @@ Response response_of(const ThermalResponse& thermal, std::vector<std::string>& r
     Matrix together = information;
     Vector weighted = information * thermal.values;
     for (Eigen::Index k = 0; k < 5; ++k) {
-        const TwoPathPrior prior = two_path_prior(kTerms.at(static_cast<std::size_t>(k)));
+        const TwoPathPrior prior = two_path_prior(kThermalTerms.at(static_cast<std::size_t>(k)));
         together(k, k) += 1.0 / (prior.deviation * prior.deviation);
         weighted(k) += prior.mean / (prior.deviation * prior.deviation);
     }

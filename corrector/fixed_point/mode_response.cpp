@@ -7,12 +7,12 @@
 #include "corrector/fixed_point/regression.hpp"
 #include "corrector/fixed_point/response.hpp"
 #include "corrector/survey/aligned_text.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 constexpr double kCyclesPerBlock = 3.0;  // blocks of fewer are not independent
 constexpr std::size_t kFewestBlocks = 4, kMostBlocks = 24;
 
@@ -98,10 +98,10 @@ bool set_limits(ResponsePoint& point, const std::vector<Sums>& sums, Complex gai
     const double quantile =
         boost::math::quantile(boost::math::students_t(blocks - 1.0), 1.0 - 0.5 * significance);
     const double factor = std::exp(quantile * std::sqrt(share * along));
-    const double size = std::abs(gain), phase = std::arg(gain) * kDegreesPerRadian;
-    const double of_chance = chance < size ? std::asin(chance / size) * kDegreesPerRadian : 180.0;
+    const double size = std::abs(gain), phase = std::arg(gain) * kDegPerRad;
+    const double of_chance = chance < size ? std::asin(chance / size) * kDegPerRad : 180.0;
     const double half_width =
-        std::clamp(quantile * std::sqrt(share * across) * kDegreesPerRadian, of_chance, 180.0);
+        std::clamp(quantile * std::sqrt(share * across) * kDegPerRad, of_chance, 180.0);
     point.gain = {size, std::max(0.0, std::min(size / factor, size - chance)),
                   std::max(size * factor, size + chance)};
     point.phase_deg = {phase, phase - half_width, phase + half_width};

@@ -16,16 +16,12 @@ namespace {
 
 using Index = Eigen::Index;
 constexpr int kCount = static_cast<int>(kThermalNames.size());
+static_assert(kThermalTerms.size() == kThermalNames.size());
 using Vector = Eigen::Matrix<double, kCount, 1>;
 using Matrix = Eigen::Matrix<double, kCount, kCount>;
 
-/// In the order of kThermalNames.
-constexpr std::array<TwoPathTerm, kCount> kTerms{TwoPathTerm::level, TwoPathTerm::slow,
-                                                 TwoPathTerm::fast, TwoPathTerm::fast_lag,
-                                                 TwoPathTerm::slow_lag};
 constexpr Index kLevel = 0, kSlow = 1, kRate = 2, kFirstLag = 3;
 
-constexpr double kDetermined = 0.5;        // of the prior's deviation, as in the fit
 constexpr double kLeastInformation = 1.0;  // as much as the prior
 constexpr double kOpenDeviation = 100.0;   // of the prior's deviation
 constexpr double kOneSided95 = 1.645;
@@ -39,14 +35,14 @@ struct Information {
 Vector prior_means() {
     Vector means;
     for (Index k = 0; k < kCount; ++k)
-        means(k) = two_path_prior(kTerms.at(static_cast<std::size_t>(k))).mean;
+        means(k) = two_path_prior(kThermalTerms.at(static_cast<std::size_t>(k))).mean;
     return means;
 }
 
 Vector prior_deviations() {
     Vector deviations;
     for (Index k = 0; k < kCount; ++k)
-        deviations(k) = two_path_prior(kTerms.at(static_cast<std::size_t>(k))).deviation;
+        deviations(k) = two_path_prior(kThermalTerms.at(static_cast<std::size_t>(k))).deviation;
     return deviations;
 }
 
@@ -55,11 +51,11 @@ Information information_of(const TwoPathFit& fit) {
     Vector estimate;
     Matrix covariance;
     for (Index i = 0; i < kCount; ++i) {
-        const TwoPathTerm term = kTerms.at(static_cast<std::size_t>(i));
+        const TwoPathTerm term = kThermalTerms.at(static_cast<std::size_t>(i));
         const double value = i < kFirstLag ? fit[term].value : std::log(fit[term].value);
         estimate(i) = (value - means(i)) / deviations(i);
         for (Index j = 0; j < kCount; ++j) {
-            const TwoPathTerm other = kTerms.at(static_cast<std::size_t>(j));
+            const TwoPathTerm other = kThermalTerms.at(static_cast<std::size_t>(j));
             covariance(i, j) = fit.covariance(static_cast<Index>(term), static_cast<Index>(other)) /
                                (deviations(i) * deviations(j));
         }
@@ -153,9 +149,9 @@ PooledThermal pool_thermal(const std::vector<TwoPathFit>& fits) {
 
     PooledThermal pooled;
     for (Index k = 0; k < kCount; ++k) {
-        FittedParameter parameter = fits.front()[kTerms.at(static_cast<std::size_t>(k))];
+        FittedParameter parameter = fits.front()[kThermalTerms.at(static_cast<std::size_t>(k))];
         for (const TwoPathFit& fit : fits) {
-            const std::string& needed = fit[kTerms.at(static_cast<std::size_t>(k))].needed;
+            const std::string& needed = fit[kThermalTerms.at(static_cast<std::size_t>(k))].needed;
             if (!needed.empty()) parameter.needed = needed;
         }
         const double deviation = std::sqrt(covariance(k, k));
@@ -165,7 +161,7 @@ PooledThermal pool_thermal(const std::vector<TwoPathFit>& fits) {
             parameter.value = std::exp(parameter.value);
             parameter.standard_error *= parameter.value;
         }
-        parameter.is_determined = deviation < kDetermined;
+        parameter.is_determined = deviation < kDeterminedDeviation;
         if (parameter.is_determined) parameter.needed.clear();
         pooled.parameters.push_back(std::move(parameter));
     }
@@ -174,7 +170,8 @@ PooledThermal pool_thermal(const std::vector<TwoPathFit>& fits) {
     both(kSlow) = deviations(kSlow);
     pooled.static_slope = both.dot(estimate);
     pooled.static_slope_error = std::sqrt(both.dot(covariance * both));
-    pooled.is_static_slope_determined = pooled.static_slope_error < kDetermined * both.norm();
+    pooled.is_static_slope_determined =
+        pooled.static_slope_error < kDeterminedDeviation * both.norm();
     pooled.agreement_p = agreement(records);
     if (pooled.parameters[kRate].is_determined || pooled.is_static_slope_determined)
         pooled.response = passed_on(all);

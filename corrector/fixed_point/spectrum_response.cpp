@@ -6,6 +6,7 @@
 #include "corrector/fixed_point/regression.hpp"
 #include "corrector/fixed_point/response.hpp"
 #include "corrector/survey/aligned_text.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 constexpr std::size_t kFewestTapers = 3, kMostTapers = 15;
 constexpr double kHalfOctave = std::numbers::sqrt2;
 constexpr double kNoiseShare = 0.2;  // of the thermometer in a band: it lowers the gain as much
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 /// Spectra of both series with each taper; of unit white noise 1.
 struct TaperedSpectra {
@@ -130,9 +130,9 @@ ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, doub
     const double quantile = std::pow(options.significance, -1.0 / (freedom - 1.0 + 1e-9)) - 1.0;
     const double radius = std::sqrt(quantile * (1.0 - point.coherence) * aa / tt);
     point.gain = {std::abs(gain), std::max(0.0, std::abs(gain) - radius), std::abs(gain) + radius};
-    const double phase = std::arg(gain) * kDegreesPerRadian;
+    const double phase = std::arg(gain) * kDegPerRad;
     const double half_width =
-        radius < std::abs(gain) ? std::asin(radius / std::abs(gain)) * kDegreesPerRadian : 180.0;
+        radius < std::abs(gain) ? std::asin(radius / std::abs(gain)) * kDegPerRad : 180.0;
     point.phase_deg = {phase, phase - half_width, phase + half_width};
 
     const double longest_s = record_s / options.cycles;

@@ -24,7 +24,6 @@ constexpr Index kLinear = 5;           // drift ... slow
 constexpr std::array<double, kLinear> kPriorDeviation{1.0, 60.0, 60.0, 30.0, 60.0};
 constexpr Lags kLagMedian_s{43.0, 2700.0, 9000.0};
 constexpr Lags kLagFactor{2.0, 2.0, 1.5};
-constexpr double kDetermined = 0.5;  // of the prior's deviation
 
 double lag_s(const Lags& u, std::size_t k) {
     return kLagMedian_s[k] * std::pow(kLagFactor[k], u[k]);
@@ -317,7 +316,7 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
         const double deviation = units(place) * std::sqrt(scaled(place, place));
         parameter.value = is_lag ? lag_s(u, lag) : units(place) * beta(place);
         parameter.standard_error = is_lag ? parameter.value * deviation : deviation;
-        parameter.is_determined = std::sqrt(scaled(place, place)) < kDetermined;
+        parameter.is_determined = std::sqrt(scaled(place, place)) < kDeterminedDeviation;
         if (parameter.is_determined) parameter.needed.clear();
     }
     fit.covariance = units.asDiagonal() * scaled * units.asDiagonal();
@@ -328,7 +327,7 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
         std::sqrt(fit.covariance(kLevel, kLevel) + fit.covariance(kSlow, kSlow) +
                   2.0 * fit.covariance(kLevel, kSlow));
     const double prior = std::hypot(units(kLevel), units(kSlow));
-    fit.is_static_slope_determined = fit.static_slope_error < kDetermined * prior;
+    fit.is_static_slope_determined = fit.static_slope_error < kDeterminedDeviation * prior;
 
     const TimeSeries<DegC> whole({}, Hertz(1.0 / step_s), temperature_degc);
     const auto columns = problem.columns(whole, u);

@@ -21,6 +21,14 @@ namespace a351::corrector {
 enum class TwoPathTerm { drift, warm_up, level, fast, slow, fast_lag, slow_lag, warm_up_time };
 inline constexpr std::size_t kTwoPathTerms = 8;
 
+/// What a calibration keeps of them, in the order of kThermalNames.
+inline constexpr std::array<TwoPathTerm, 5> kThermalTerms{TwoPathTerm::level, TwoPathTerm::slow,
+                                                          TwoPathTerm::fast, TwoPathTerm::fast_lag,
+                                                          TwoPathTerm::slow_lag};
+
+/// Of the prior's deviation: a parameter that is known better is determined.
+inline constexpr double kDeterminedDeviation = 0.5;
+
 struct FittedParameter {
     std::string key;  ///< With its unit, as in result.json.
     std::string name;

@@ -83,6 +83,7 @@ void remove_creation_date(std::string& pdf) {
 
 void draw_format(const TemporaryFolder& folder, const std::vector<std::string>& names,
                  const std::string& format, Drawing& drawing) {
+    const std::string ending = "." + format;
     ProgramRun run = run_gnuplot(folder, names, format);
     std::vector<std::string> drawn;
     if (run.is_good()) {
@@ -93,14 +94,14 @@ void draw_format(const TemporaryFolder& folder, const std::vector<std::string>& 
             if (run.is_good()) {
                 drawn.push_back(name);
             } else {
-                drawing.troubles.push_back(name + "." + format + ": " + trouble_of(run));
+                drawing.troubles.push_back(name + ending + ": " + trouble_of(run));
             }
         }
     } else {
         drawing.troubles.push_back(trouble_of(run));
     }
     for (const std::string& name : drawn) {
-        const std::string file = name + "." + format;
+        const std::string file = name + ending;
         if (!std::filesystem::exists(folder.path() / file)) {
             drawing.troubles.push_back(file + ": gnuplot did not write it");
             continue;

@@ -128,13 +128,13 @@ void add_repeats(std::vector<ReadingGrade>& readings, const SurveyCorrection& re
         if (readings[pair.later].grade == Grade::repeat) continue;
         const double ratio = std::abs(pair.after_all.value()) / expected_mgal;
         if (ratio <= kCareRatio) continue;
-        const std::string text = fixed(std::abs(pair.after_all.value()), 1) + " mGal from ";
-        const std::string end =
-            ", " + fixed(ratio, 1) + " times what " + scatter->name + " lets expect";
-        add(readings[pair.earlier], Grade::care,
-            text + reading_name(result.rows, pair.later) + end);
-        add(readings[pair.later], Grade::care,
-            text + reading_name(result.rows, pair.earlier) + end);
+        const auto text = [&](std::size_t other) {
+            return fixed(std::abs(pair.after_all.value()), 1) + " mGal from " +
+                   reading_name(result.rows, other) + ", " + fixed(ratio, 1) + " times what " +
+                   scatter->name + " lets expect";
+        };
+        add(readings[pair.earlier], Grade::care, text(pair.later));
+        add(readings[pair.later], Grade::care, text(pair.earlier));
     }
 }
 

@@ -117,8 +117,8 @@ Figure reading_figure(const SurveyCorrection& result, const ReadingRecord& recor
     std::string lines;
     for (const UtcTime limit : {value.interval_start, value.interval_end}) {
         const std::string x = fixed(minutes_between(value.series.start(), limit), 4);
-        lines += "set arrow from first " + x + ",graph 0 to first " + x +
-                 ",graph 1 nohead dt 2 lw 1 lc rgb " + kVermilion + '\n';
+        lines.append("set arrow from first ").append(x).append(",graph 0 to first ").append(x);
+        lines.append(",graph 1 nohead dt 2 lw 1 lc rgb ").append(kVermilion).append("\n");
     }
     const std::string reading = reading_name(result.rows, record.row);
     return Figure{

@@ -11,8 +11,6 @@
 namespace a351::corrector {
 namespace {
 
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
-
 std::string point_lines(const std::vector<ResponsePoint>& points) {
     std::string lines;
     for (const ResponsePoint& point : points) {
@@ -62,8 +60,8 @@ std::string fit_line(const TwoPathFit& fit, double period_s) {
         return kNormal95 * std::sqrt(of.dot(fit.covariance * of));
     };
     const double factor = std::exp(half_width(slope.real()));
-    const double gain = std::exp(here.real()), phase = here.imag() * kDegreesPerRadian;
-    const double width = std::min(half_width(slope.imag()) * kDegreesPerRadian, 180.0);
+    const double gain = std::exp(here.real()), phase = here.imag() * kDegPerRad;
+    const double width = std::min(half_width(slope.imag()) * kDegPerRad, 180.0);
     return datum(period_s, 1) + datum(gain, 3) + datum(gain / factor, 3) + datum(gain * factor, 3) +
            datum(phase, 2) + datum(phase - width, 2) + datum(phase + width, 2) + '\n';
 }

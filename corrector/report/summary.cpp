@@ -11,12 +11,6 @@
 namespace a351::corrector {
 namespace {
 
-std::string joined(const std::vector<std::string>& names, const std::string& separator) {
-    std::string list;
-    for (const std::string& name : names) list += (list.empty() ? "" : separator) + name;
-    return list;
-}
-
 std::string grade_text(Grade grade) {
     switch (grade) {
         case Grade::trust:
@@ -132,7 +126,7 @@ std::vector<std::string> actions(const SurveyCorrection& result,
     }
     std::vector<std::string> list;
     const auto add = [&list](const std::string& what, const std::vector<std::string>& names) {
-        if (!names.empty()) list.push_back(what + ": " + joined(names, ", ") + ".");
+        if (!names.empty()) list.push_back(what + ": " + joined(names) + ".");
     };
     for (const auto& [reason, names] : left_out_by_reason(result))
         add("Repeat, without a value (" + reason + ")", names);
@@ -171,8 +165,8 @@ std::vector<std::string> limits_of(const SurveyCorrection& result) {
                          "blunder there.");
     }
     if (!unchecked.empty()) {
-        limits.push_back("One reading and no reference, so nothing checks them: " +
-                         joined(unchecked, ", ") + ".");
+        limits.push_back(
+            "One reading and no reference, so nothing checks them: " + joined(unchecked) + ".");
     }
     return limits;
 }

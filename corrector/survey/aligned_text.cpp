@@ -25,6 +25,12 @@ std::string fixed_or(const std::optional<MilliGal>& value, int decimals,
     return value ? fixed(value->value(), decimals) : absent;
 }
 
+std::string joined(const std::vector<std::string>& texts, const std::string& separator) {
+    std::string list;
+    for (const std::string& text : texts) list.append(list.empty() ? "" : separator).append(text);
+    return list;
+}
+
 std::string aligned(const std::vector<std::vector<std::string>>& rows) {
     std::vector<std::size_t> widths(rows.front().size(), 0);
     for (const auto& row : rows) {

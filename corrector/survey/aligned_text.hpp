@@ -17,6 +17,10 @@ namespace a351::corrector {
 [[nodiscard]] std::string fixed_or(const std::optional<MilliGal>& value, int decimals,
                                    const std::string& absent);
 
+/// The texts one after the other.
+[[nodiscard]] std::string joined(const std::vector<std::string>& texts,
+                                 const std::string& separator = ", ");
+
 /// Columns as wide as their widest cell; the first is aligned left, the others right.
 /// @param rows  at least one, all of the same length.
 [[nodiscard]] std::string aligned(const std::vector<std::vector<std::string>>& rows);

@@ -5,17 +5,12 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
+#include "corrector/survey/aligned_text.hpp"
 #include "corrector/survey/network_diagnosis.hpp"
 #include "corrector/survey/network_system.hpp"
 
 namespace a351::corrector {
 namespace {
-
-std::string joined(const std::vector<std::string>& names, const std::string& separator = ", ") {
-    std::string list;
-    for (const std::string& name : names) list += (list.empty() ? "" : separator) + name;
-    return list;
-}
 
 void solve(NetworkAdjustment& network, const NetworkSystem& system) {
     const Eigen::Index n = system.a.rows();

@@ -100,7 +100,7 @@ OccupationList read_occupation_table(const std::filesystem::path& file,
         window.start = instant(table, row, "start_utc");
         window.end = instant(table, row, "end_utc");
         const std::string used = table.has_column("used") ? table.cell(row, "used") : "";
-        if (used != "" && used != "0" && used != "1") {
+        if (!used.empty() && used != "0" && used != "1") {
             table.refuse(row, "used", "not a mark", "1, 0 or empty");
         }
         window.is_flagged = used == "0";

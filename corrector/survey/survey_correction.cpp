@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corrector/survey/aligned_text.hpp"
 #include "corrector/survey/calibration_use.hpp"
 #include "corrector/survey/day_correction.hpp"
 #include "corrector/survey/network_correction.hpp"
@@ -14,12 +15,6 @@
 
 namespace a351::corrector {
 namespace {
-
-std::string joined(const std::vector<std::string>& names) {
-    std::string list;
-    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-    return list;
-}
 
 void require_row_of(const std::vector<SurveyRow>& rows, const std::string& site,
                     const std::string& role) {

@@ -4,12 +4,12 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "corrector/day/day_model.hpp"
 #include "corrector/survey/aligned_text.hpp"
 #include "corrector/survey/day_correction.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -19,7 +19,6 @@ constexpr std::size_t kFewestSetUps = 6;  // level, four tilts, level again
 constexpr double kLeastTilt_deg = 0.5;
 // 0.3 degC move the reading by 10 mGal, of which the fit may leave a tenth.
 constexpr double kGreatestRange_degc = 0.3;
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 bool takes_part(const SurveyRow& row) { return !row.is_flagged && !row.is_excluded; }
 
@@ -29,7 +28,7 @@ bool takes_part(const SurveyRow& row) { return !row.is_flagged && !row.is_exclud
 }
 
 double tilt_deg(StandardGravity along) {
-    return kDegrees * std::asin(std::clamp(along.value(), -1.0, 1.0));
+    return kDegPerRad * std::asin(std::clamp(along.value(), -1.0, 1.0));
 }
 
 /// Horizontal axes of all bins that take part, degrees; (bins, 2).

@@ -42,6 +42,7 @@ using Degrees = Quantity<struct DegreesUnit>;  ///< Angle; latitude north, longi
 
 inline constexpr double kSecondsPerMinute = 60.0, kSecondsPerHour = 3600.0;
 inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+inline constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 inline constexpr double kMilliGalPerGal = 1000.0, kMilliGalPerMps2 = 1e5;
 

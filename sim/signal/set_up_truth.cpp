@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "protocol/core/units.hpp"
 #include "protocol/text/csv.hpp"
 #include "sim/signal/disturbance.hpp"
 #include "sim/signal/signal_source.hpp"
@@ -14,7 +14,6 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 constexpr std::array<const char*, kTermCount> kTermColumns = {
     "tide_mgal",      "bias_mgal",    "static_mgal",   "dynamic_mgal", "clock_mgal", "warm_up_mgal",
     "placement_mgal", "flicker_mgal", "resonant_mgal", "white_mgal",   "drift_mgal", "ripple_mgal"};
@@ -135,8 +134,8 @@ std::string truth_csv(const Scenario& scenario, const std::vector<PlannedSetUp>&
         };
         cell(mean.ambient_degc);
         cell(mean.temperature_degc);
-        cell(set_up.about_y_rad * kDegreesPerRadian);
-        cell(set_up.about_x_rad * kDegreesPerRadian);
+        cell(set_up.about_y_rad * kDegPerRad);
+        cell(set_up.about_x_rad * kDegPerRad);
         std::for_each(mean.terms_mgal.begin(), mean.terms_mgal.end(), cell);
         cell(mean.tilt_mgal);
         cell(mean.burst_mgal);
