@@ -47,4 +47,17 @@ with Scratch() as scratch:
         refused = export(root, scratch / "refused", rate, form, channel, check=False)
         demand(f"refused: {refused.stderr.strip()}", refused.returncode == 2 and word in refused.stderr
                and refused.stderr.count("\n") == 1)
+    day_file = next(root.rglob("*.BNZ.D.2017.196"))
+    whole = day_file.read_bytes()
+    at = len(whole) - 5 * 512
+    day_file.write_bytes(whole[:at] + bytes(512) + whole[at + 512:])
+    damaged = export(root, scratch / "damaged.csv", 50, "csv")
+    print(damaged.stderr + damaged.stdout, end="")
+    demand("a damaged record is told once, by its offset", damaged.stderr.count("\n") == 1 and
+           damaged.stderr.endswith(f"{day_file.name}: offset {at}: 512 bytes are no record\n"))
+    left = {row["time_utc"]: row["counts"] for row in rows(scratch / "damaged.csv")}
+    good = {row["time_utc"]: row["counts"] for row in grid}
+    kept = sum(left.get(time) == counts for time, counts in good.items())
+    demand(f"{len(good) - kept} of {len(good)} values go with it, the others stay", 0 < len(good) - kept < 1000)
+
     demand("a refusal leaves nothing", not list(scratch.glob("refused*")))

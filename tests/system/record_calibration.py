@@ -67,6 +67,17 @@ with Scratch() as scratch:
     demand("merging keeps what was not measured again", warm_up_h(merged) == warm_up_h(first) and
            numbers(merged, "thermal", "values") == values)
 
+    calibrate(scratch, "night", "--valid-from", "2017-05-01T00:00:00Z", "--valid-to", "2018-05-01T00:00:00Z", "--out",
+              "valid.toml")
+    valid = (scratch / "valid.toml").read_text()
+    demand("the validity is as given", 'valid_from_utc = "2017-05-01T00:00:00.0' in valid and
+           'valid_to_utc = "2018-05-01T00:00:00.0' in valid)
+    (scratch / "another.toml").write_text(text.replace("00000001", "00000002"))
+    (scratch / "later.toml").write_text(NIGHT + '[schedule]\nstart_utc = "2017-06-03T09:00:00Z"\nduration_h = 1.0\n')
+    run(BIN / "a351-sim", "survey", "--scenario", scratch / "later.toml", "--seed", 513, "--out", scratch / "another")
+    metadata = scratch / "another" / "metadata" / "station.xml"
+    metadata.write_text(metadata.read_text().replace("00000001", "00000002"))
+
     # The same record without metadata.
     run(BIN / "a351-correct", "record", "night", "--ensemble", "2", "--out", "night-csv", cwd=scratch)
     for arguments, words in (
@@ -74,6 +85,9 @@ with Scratch() as scratch:
             (("night", "--within", "1"), "switched on"),
             (("night", "--power-on", "2017-06-01T05:00:00Z", "--within", "1"), "switched on"),
             (("night", "--power-on", "today"), "--power-on"),
+            (("night", "--valid-from", "2018-05-01T00:00:00Z", "--valid-to", "2018-05-01T00:00:00Z"), "--valid-to = "),
+            (("night", "--merge", "another.toml"), "another.toml: serial_number = 00000002: the record is of another unit"),
+            (("night", "another"), "allowed: one unit"),
             ((), "nothing to calibrate from")):
         bad = calibrate(scratch, *arguments, "--out", "bad.toml", check=False)
         print(bad.stderr.strip())

@@ -63,7 +63,21 @@ TEST_CASE("malformed bodies are refused by the key", "[daemon][page]") {
           std::string::npos);
     CHECK(trouble("/api/occupation/rename", R"({"site":"No.0","at":"2026-03-14T08:10:00Z"})")
               .find("key at") != std::string::npos);
+    for (const char* body : {"", "[]", "{}", R"({"target_mgal":5,"at":null})"})
+        CHECK(trouble("/api/target", body) == "body: allowed: one key, target_mgal");
+    CHECK(trouble("/api/target", R"({"target_mgal":"5"})") ==
+          "body: key target_mgal: not a number");
     CHECK(page.recorder.log.empty());
+}
+
+TEST_CASE("a target is set by POST, within what is allowed", "[daemon][page]") {
+    Page page;
+    page.ask(post("/api/target", R"({"target_mgal":0.5})"));
+    REQUIRE(page.recorder.log.size() == 1);
+    CHECK(page.recorder.log.back().type == "target");
+    const auto refused = page.ask(post("/api/target", R"({"target_mgal":0.001})"), 409);
+    CHECK_THAT(refused["error"].get<std::string>(), Catch::Contains("0.01 to 1000 mGal"));
+    CHECK(page.recorder.log.size() == 1);
 }
 
 TEST_CASE("GET changes nothing and unknown paths are not found", "[daemon][page]") {
@@ -121,6 +135,17 @@ TEST_CASE("sites are told with their reference or without", "[daemon][page]") {
     CHECK(is(list, "/0/site", R"("No.0")"));
     CHECK(is(list, "/0/gravity_mgal", "979948.0"));
     CHECK(is(list, "/1/gravity_mgal", "null"));
+}
+
+TEST_CASE("sites are told the nearest first, seen from the last occupation", "[daemon][page]") {
+    Page page;
+    auto sites = two_sites();
+    sites[0].latitude = Degrees(36.0);
+    sites[1].latitude = Degrees(37.0);
+    page.occupations.use(sites, {});
+    CHECK(is(page.ask(get("/api/sites")), "/sites/0/site", R"("No.0")"));
+    page.ask(post("/api/occupation/start", R"({"site":"No.1"})"));
+    CHECK(is(page.ask(get("/api/sites")), "/sites/0/site", R"("No.1")"));
 }
 
 TEST_CASE("the token is handed out only when the interface may", "[daemon][page]") {

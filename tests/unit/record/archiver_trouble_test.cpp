@@ -44,6 +44,35 @@ TEST_CASE("a lost frame leaves a gap of exactly one sample and no other", "[reco
     }
 }
 
+TEST_CASE("without a counter, what was skipped tells how many samples were lost",
+          "[record][archiver]") {
+    const auto layout = *wire::BurstLayout::from_burst_ctrl(0x0101);  // z, CHKSM
+    JournalStream stream;
+    auto header = header_at(0s);
+    header.burst_ctrl = layout.burst_ctrl();
+    stream.chunks.front() = header;
+    for (std::int64_t k = 0; k < 2'000; ++k) {
+        std::vector<std::byte> frame;
+        wire::append_frame(layout, values_of(k), frame);
+        if (k >= 777 && k < 780) frame[2] ^= std::byte{0x44};
+        stream.bytes(frame, due(k));
+        if (k % 50 == 49) stream.second(due(k));
+    }
+    stream.flush();
+    const auto run = archive(stream.chunks);
+    auto counts = expected(2, 0, 777);
+    const auto rest = expected(2, 780, 2'000);
+    counts.insert(counts.end(), rest.begin(), rest.end());
+    CHECK(run.sink.counts("BNZ") == counts);
+    CHECK(run.counters.gaps == 1);
+    CHECK(run.counters.samples_missing == 3);
+    const auto& records = run.sink.decoded.at("BNZ");
+    const auto& last = records.back();
+    const auto index = 2'000 - static_cast<std::int64_t>(last.samples.size());
+    CHECK(std::chrono::abs(last.header.start - (records.front().header.start + index * 20ms)) <=
+          Nanoseconds(1us));
+}
+
 TEST_CASE("every byte is in a frame, skipped or pending", "[record][archiver]") {
     std::mt19937_64 random(11);
     for (int round = 0; round < 20; ++round) {

@@ -196,6 +196,15 @@ TEST_CASE("bad usage ends with 2, one line on standard error and nothing written
         {"tide --latitude 1 --longitude 0 --height 0 --from yesterday "
          "--to 2020-01-01T01:00:00Z --step 60",
          "--from = yesterday"},
+        {"tide --latitude 1 --longitude 0 --height 0 --from 2020-01-01T02:00:00Z "
+         "--to 2020-01-01T01:00:00Z --step 60",
+         "--to = 2020-01-01T01:00:00Z: before --from; allowed: 2020-01-01T02:00:00Z or later"},
+        {"export data --channel BNZ --rate 50 --format csv --from 2020-01-01T02:00:00Z "
+         "--to 2020-01-01T02:00:00Z --out grid.csv",
+         "--to = 2020-01-01T02:00:00Z: not after --from"},
+        {"record data --from 2020-01-01T02:00:00Z --to 2020-01-01T01:00:00Z",
+         "--to = 2020-01-01T01:00:00Z; allowed: an instant after --from"},
+        {"survey day.toml day.toml --out both", "survey.name = day: stands twice"},
     }));
     CAPTURE(arguments);
     const Outcome outcome = run(folder, arguments);

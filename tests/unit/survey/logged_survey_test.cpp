@@ -1,5 +1,8 @@
 // A survey day whose event log has slips, corrected by the program: they are said, the rest is computed.
+#include <array>
 #include <catch2/catch.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "protocol/record/event_log.hpp"
 #include "protocol/text/csv.hpp"
@@ -74,4 +77,42 @@ TEST_CASE("events logged in another order than they happened are the same survey
     CHECK(outcome.status == 0);
     CHECK(outcome.errors.empty());
     CHECK(rows_of(morning) == Rows{"B (1) ", "S1 (1) ", "S2 (1) ", "B (2) "});
+}
+
+TEST_CASE("an option stands above the survey file, and the result says which held", "[logged]") {
+    const Morning morning;
+    morning.folder().write(
+        "day.toml", "[survey]\noccupations = 'occupations.csv'\nmodel = 't'\ntrend = 'smoother'\n");
+    for (const auto& [options, trend, curve] :
+         std::vector<std::array<std::string, 3>>{{"", "smoother", "slow"},
+                                                 {" --trend eemd --curve paper", "eemd", "paper"},
+                                                 {" --trend eemd --curve slow", "eemd", "slow"}}) {
+        CAPTURE(options);
+        const Outcome outcome = run(morning.folder(), "survey day.toml" + options);
+        CAPTURE(outcome.errors);
+        REQUIRE(outcome.status == 0);
+        const auto settings = nlohmann::json::parse(
+            text::read_text_file(morning.folder().path() / "result/result.json"))["settings"];
+        CHECK(settings["trend"] == trend);
+        CHECK(settings["curve"] == curve);
+    }
+}
+
+TEST_CASE("a damaged record of the archive is told by file and offset, and the day is corrected",
+          "[logged]") {
+    const Morning morning;
+    std::vector<record::Event> events;
+    for (std::size_t i = 0; i < Morning::kSites.size(); ++i) {
+        events.push_back(start(i));
+        events.push_back(stop(i));
+    }
+    const auto file =
+        morning.folder().path() / "data/archive/2020/XX/A351/BNZ.D/XX.A351.00.BNZ.D.2020.122";
+    std::fstream(file, std::ios::in | std::ios::out | std::ios::binary).seekp(512 * 4)
+        << std::string(512, '\0');
+    const Outcome outcome = correct(morning, events);
+    CAPTURE(outcome.errors);
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.errors,
+               Catch::Contains("XX.A351.00.BNZ.D.2020.122: 512 bytes at 2048 are no record"));
 }

@@ -30,8 +30,9 @@ TEST_CASE("emd writes the modes and prints what tells them apart", "[command]") 
     std::string csv = "v\n";
     for (int i = 0; i < 200; ++i) csv += text::shortest(std::sin(0.3 * i) + 0.01 * i) + '\n';
     std::ofstream(folder.path() / "in.csv") << csv;
-    const std::string arguments = "emd --input in.csv --column v --modes 4 --ensemble 20 --output ";
-    const Outcome outcome = run(folder, arguments + "modes.csv --pairs --ends mirror");
+    const std::string arguments = "emd --input in.csv --column v --modes 4 --output ";
+    const Outcome outcome =
+        run(folder, arguments + "modes.csv --ensemble 20 --pairs --ends mirror");
     CHECK(outcome.status == 0);
     const auto modes = text::read_csv(folder.path() / "modes.csv");
     REQUIRE(modes.row_count() == 200);
@@ -52,7 +53,28 @@ TEST_CASE("emd writes the modes and prints what tells them apart", "[command]") 
     CHECK(report.number(0, "standard_error") > 0.0);
     const Outcome odd = run(folder, arguments + "odd.csv --pairs --ensemble 21");
     CHECK(odd.status == 2);
-    CHECK(odd.errors.find("--ensemble") != std::string::npos);
+    CHECK_THAT(odd.errors, Catch::Contains("--ensemble = 21; allowed with --pairs: an even"));
+}
+
+TEST_CASE("emd ends a mode by as many equal counts of extrema as --s-number asks for",
+          "[command]") {
+    const ScratchFolder folder;
+    std::string csv = "v\n";
+    for (int i = 0; i < 200; ++i) csv += text::shortest(std::sin(0.3 * i) + 0.01 * i) + '\n';
+    std::ofstream(folder.path() / "in.csv") << csv;
+    const std::string arguments =
+        "emd --input in.csv --column v --modes 2 --ensemble 1 --noise 0 --output ";
+    std::vector<std::string> modes;
+    for (const char* const stopping : {"--s-number 1", "--s-number 8", "--sifts 10"}) {
+        CAPTURE(stopping);
+        CHECK(run(folder, arguments + "modes.csv " + stopping).status == 0);
+        modes.push_back(text::read_text_file(folder.path() / "modes.csv"));
+    }
+    CHECK(modes[0] != modes[1]);
+    CHECK(modes[0] != modes[2]);
+    const Outcome refused = run(folder, arguments + "none.csv --s-number 0");
+    CHECK(refused.status == 2);
+    CHECK_THAT(refused.errors, Catch::Contains("--s-number = 0"));
 }
 
 TEST_CASE("decimate counts what is missing and keeps what is good", "[command]") {
