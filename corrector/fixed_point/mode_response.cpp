@@ -87,6 +87,7 @@ bool set_limits(ResponsePoint& point, const std::vector<Sums>& sums, Complex gai
     const auto blocks = static_cast<double>(sums.size());
     Complex mean = 0.0;
     std::vector<Complex> deviations;
+    deviations.reserve(sums.size());
     for (const Sums& block : sums) deviations.push_back(std::log(without(all, block) / gain));
     for (const Complex& deviation : deviations) mean += deviation / blocks;
     double along = 0.0, across = 0.0;

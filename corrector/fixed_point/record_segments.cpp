@@ -146,13 +146,14 @@ private:
     std::vector<bool> refuse_stuck(const RecordStretch& stretch, const std::vector<double>& values,
                                    double same, const std::string& name, const std::string& unit) {
         std::vector<bool> is_stuck = stuck_samples(values, same, options_.stuck);
-        const std::string said = name + " is stuck at ";
+        const auto trouble = [&](double value) {
+            return name + " is stuck at " + fixed(value, 4) + unit;
+        };
         for (std::size_t i = 0; i < is_stuck.size(); ++i) {
             if (!is_stuck[i] || (i > 0 && is_stuck[i - 1])) continue;
             std::size_t last = i;
             while (last + 1 < is_stuck.size() && is_stuck[last + 1]) ++last;
-            result_.refused.push_back(
-                {stretch.times[i], stretch.times[last], said + fixed(values[i], 4) + unit});
+            result_.refused.push_back({stretch.times[i], stretch.times[last], trouble(values[i])});
         }
         return is_stuck;
     }

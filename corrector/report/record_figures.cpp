@@ -215,6 +215,7 @@ std::vector<ReadingRecord> find_records(const SurveyCorrection& result,
 std::vector<Figure> reading_figures(const SurveyCorrection& result,
                                     const std::vector<ReadingRecord>& records) {
     std::vector<Figure> figures;
+    figures.reserve(records.size());
     for (const ReadingRecord& record : records) figures.push_back(reading_figure(result, record));
     return figures;
 }

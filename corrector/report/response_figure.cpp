@@ -71,8 +71,11 @@ std::string fit_lines(const RecordResult& result) {
     constexpr double kShortest_s = 240.0, kStep = 1.05;
     const double longest_s = static_cast<double>(result.segment().size()) * result.record.step_s;
     std::string lines;
-    for (double period_s = kShortest_s; period_s < longest_s; period_s *= kStep)
+    double period_s = kShortest_s;
+    while (period_s < longest_s) {
         lines += fit_line(result.analysis.two_paths, period_s);
+        period_s *= kStep;
+    }
     return lines;
 }
 

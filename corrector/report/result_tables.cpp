@@ -64,6 +64,7 @@ std::string closures_html(const SurveyCorrection& result) {
             "against the references.");
     }
     std::vector<HtmlCells> rows;
+    rows.reserve(closures.size());
     for (const Closure& pair : closures) {
         rows.push_back({reading_name(result.rows, pair.earlier),
                         reading_name(result.rows, pair.later), fixed(pair.hours, 2),
@@ -129,6 +130,7 @@ std::string provenance_html(const nlohmann::ordered_json& settings,
     rows.push_back({"program", "a351-correct " A351_VERSION});
     html += "<h3>Settings</h3>\n" + html_table("ll", {"Setting", "Value"}, rows);
     std::vector<HtmlCells> files;
+    files.reserve(inputs.size());
     for (const InputFile& input : inputs) {
         files.push_back(
             {input.role, input.name, std::to_string(input.byte_count), hexadecimal(input.crc32)});

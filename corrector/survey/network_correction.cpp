@@ -174,6 +174,7 @@ void correct_network(SurveyCorrection& result, const std::vector<SurveyRow>& row
     result.score = score_of(*network.adjustment, options.priors.reading_sd_mgal);
     for (ScoredRowSet& set : result.row_sets) {
         std::vector<bool> in_use;
+        in_use.reserve(rows.size());
         for (const SurveyRow& row : rows)
             in_use.push_back(!row.is_excluded && (set.rows == "all" || !row.is_flagged));
         const NetworkResult other = adjust(in_use);

@@ -46,6 +46,7 @@ std::vector<InputFile> archive_files(const SurveyFile& survey, const record::Sta
     }
     std::sort(files.begin(), files.end());
     std::vector<InputFile> inputs;
+    inputs.reserve(files.size());
     for (const auto& file : files) inputs.push_back(describe_input("archive", file));
     return inputs;
 }

@@ -15,6 +15,7 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> differences_mgal(const std::vector<SurveyRow>& rows) {
     std::vector<double> differences;
+    differences.reserve(rows.size());
     for (const SurveyRow& row : rows) {
         differences.push_back(row.reference ? (row.acceleration - *row.reference - row.tide).value()
                                             : kUnknown);

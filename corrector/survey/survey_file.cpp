@@ -78,6 +78,7 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     survey.survey.network.drift_degree = static_cast<int>(
         table.integer_or("drift_degree", survey.survey.network.drift_degree, 0, 2));
     std::vector<std::string> linear_models;
+    linear_models.reserve(kLinearModels.size());
     for (const LinearModel& model : kLinearModels) linear_models.emplace_back(model.name);
     survey.survey.robust_terms =
         table.choice_or("robust_terms", survey.survey.robust_terms, linear_models);

@@ -86,7 +86,7 @@ with Scratch() as scratch:
             (("night", "--power-on", "2017-06-01T05:00:00Z", "--within", "1"), "switched on"),
             (("night", "--power-on", "today"), "--power-on"),
             (("night", "--valid-from", "2018-05-01T00:00:00Z", "--valid-to", "2018-05-01T00:00:00Z"), "--valid-to = "),
-            (("night", "--merge", "another.toml"), "another.toml: serial_number = 00000002: the record is of another unit"),
+            (("night", "--merge", "another.toml"), "serial_number = 00000002: the record is of another unit"),
             (("night", "another"), "allowed: one unit"),
             ((), "nothing to calibrate from")):
         bad = calibrate(scratch, *arguments, "--out", "bad.toml", check=False)
