@@ -8,6 +8,18 @@ using namespace a351;
 using namespace a351::record;
 using namespace std::chrono_literals;
 
+namespace {
+
+/// 2000 samples of z, but for those from `first` to before `end`.
+auto expected_without(std::int64_t first, std::int64_t end) {
+    auto counts = expected(2, 0, first);
+    const auto rest = expected(2, end, 2'000);
+    counts.insert(counts.end(), rest.begin(), rest.end());
+    return counts;
+}
+
+}  // namespace
+
 TEST_CASE("a lost frame leaves a gap of exactly one sample and no other", "[record][archiver]") {
     for (std::size_t bad_byte = 0; bad_byte < 24; ++bad_byte) {
         JournalStream stream;
@@ -19,11 +31,8 @@ TEST_CASE("a lost frame leaves a gap of exactly one sample and no other", "[reco
         }
         stream.flush();
         const auto run = archive(stream.chunks);
-        auto counts = expected(2, 0, 777);
-        const auto rest = expected(2, 778, 2'000);
-        counts.insert(counts.end(), rest.begin(), rest.end());
         INFO("byte " << bad_byte);
-        CHECK(run.sink.counts("BNZ") == counts);
+        CHECK(run.sink.counts("BNZ") == expected_without(777, 778));
         CHECK(run.counters.gaps == 1);
         CHECK(run.counters.samples_missing == 1);
         CHECK(run.counters.frames == 1'999);
@@ -60,10 +69,7 @@ TEST_CASE("without a counter, what was skipped tells how many samples were lost"
     }
     stream.flush();
     const auto run = archive(stream.chunks);
-    auto counts = expected(2, 0, 777);
-    const auto rest = expected(2, 780, 2'000);
-    counts.insert(counts.end(), rest.begin(), rest.end());
-    CHECK(run.sink.counts("BNZ") == counts);
+    CHECK(run.sink.counts("BNZ") == expected_without(777, 780));
     CHECK(run.counters.gaps == 1);
     CHECK(run.counters.samples_missing == 3);
     const auto& records = run.sink.decoded.at("BNZ");

@@ -115,4 +115,7 @@ TEST_CASE("a damaged record of the archive is told by file and offset, and the d
     CHECK(outcome.status == 0);
     CHECK_THAT(outcome.errors,
                Catch::Contains("XX.A351.00.BNZ.D.2020.122: 512 bytes at 2048 are no record"));
+    const Rows rows = rows_of(morning);
+    REQUIRE(rows.size() == 4);
+    CHECK(Rows(rows.begin() + 1, rows.end()) == Rows{"S1 (1) ", "S2 (1) ", "B (2) "});
 }

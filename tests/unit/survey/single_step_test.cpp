@@ -1,13 +1,22 @@
 // The single steps of a351-correct as a script sees them: tide, emd, decimate, smooth.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <fstream>
 
 #include "protocol/text/csv.hpp"
 #include "protocol/text/text_file.hpp"
 #include "tests/unit/survey/run_command.hpp"
 
 using namespace a351;
+
+namespace {
+
+void write_sine_on_a_slope(const ScratchFolder& folder) {
+    std::string csv = "v\n";
+    for (int i = 0; i < 200; ++i) csv += text::shortest(std::sin(0.3 * i) + 0.01 * i) + '\n';
+    folder.write("in.csv", csv);
+}
+
+}  // namespace
 
 TEST_CASE("tide writes instants and the effect on gravity", "[command]") {
     const ScratchFolder folder;
@@ -27,9 +36,7 @@ TEST_CASE("tide writes instants and the effect on gravity", "[command]") {
 
 TEST_CASE("emd writes the modes and prints what tells them apart", "[command]") {
     const ScratchFolder folder;
-    std::string csv = "v\n";
-    for (int i = 0; i < 200; ++i) csv += text::shortest(std::sin(0.3 * i) + 0.01 * i) + '\n';
-    std::ofstream(folder.path() / "in.csv") << csv;
+    write_sine_on_a_slope(folder);
     const std::string arguments = "emd --input in.csv --column v --modes 4 --output ";
     const Outcome outcome =
         run(folder, arguments + "modes.csv --ensemble 20 --pairs --ends mirror");
@@ -56,12 +63,10 @@ TEST_CASE("emd writes the modes and prints what tells them apart", "[command]") 
     CHECK_THAT(odd.errors, Catch::Contains("--ensemble = 21; allowed with --pairs: an even"));
 }
 
-TEST_CASE("emd ends a mode by as many equal counts of extrema as --s-number asks for",
+TEST_CASE("emd ends its modes elsewhere by --s-number, which is refused out of range",
           "[command]") {
     const ScratchFolder folder;
-    std::string csv = "v\n";
-    for (int i = 0; i < 200; ++i) csv += text::shortest(std::sin(0.3 * i) + 0.01 * i) + '\n';
-    std::ofstream(folder.path() / "in.csv") << csv;
+    write_sine_on_a_slope(folder);
     const std::string arguments =
         "emd --input in.csv --column v --modes 2 --ensemble 1 --noise 0 --output ";
     std::vector<std::string> modes;
