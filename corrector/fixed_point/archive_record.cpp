@@ -315,6 +315,7 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
     } else {
         record.warnings.push_back(metadata.string() + ": no position: the tide is left in");
     }
+    record.source = root;
     record.inputs.push_back(describe_input("metadata", metadata));
     describe_inputs(record, root, epochs, of_days);
     return record;

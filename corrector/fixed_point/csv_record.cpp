@@ -246,6 +246,7 @@ LongRecord read_csv_record(const std::filesystem::path& file, const RecordWindow
     }
     check.finish();
     stream.finish();
+    record.source = file;
     record.inputs.push_back(describe_input("record", file));
     return record;
 }

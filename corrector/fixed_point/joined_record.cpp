@@ -54,6 +54,7 @@ std::optional<std::size_t> bridged(const Part& before, const Part& after, double
 
 LongRecord joined_record(std::vector<LongRecord> parts) {
     LongRecord all;
+    all.source = parts.front().source;
     all.raw_rate_hz = parts.front().raw_rate_hz;
     all.step_s = parts.front().step_s;
     all.is_tide_removed = true;
@@ -61,10 +62,10 @@ LongRecord joined_record(std::vector<LongRecord> parts) {
     for (std::size_t k = 0; k < parts.size(); ++k) {
         LongRecord& part = parts[k];
         if (std::abs(part.step_s / all.step_s - 1.0) > kSameStep) {
-            throw InputError("at " + to_rfc3339(part.stretches.front().times.front()) +
-                             " begins a part of the record with a sample every " +
-                             text::shortest(part.step_s) + " s, the first part has one every " +
-                             text::shortest(all.step_s) + " s; allowed: one step in all parts");
+            throw InputError(part.source.string() + ": a sample every " +
+                             text::shortest(part.step_s) + " s, " + all.source.string() +
+                             " has one every " + text::shortest(all.step_s) +
+                             " s; allowed: one step in all parts of a record");
         }
         all.is_tide_removed = all.is_tide_removed && part.is_tide_removed;
         for (RecordStretch& stretch : part.stretches)
@@ -83,8 +84,10 @@ LongRecord joined_record(std::vector<LongRecord> parts) {
         }
         Part& last = joined.back();
         if (next.stretch.times.front() <= last.stretch.times.back()) {
-            throw InputError("at " + to_rfc3339(next.stretch.times.front()) +
-                             " two parts of the record overlap; allowed: each instant once");
+            throw InputError(parts[next.number].source.string() + ": at " +
+                             to_rfc3339(next.stretch.times.front()) + " it overlaps " +
+                             parts[last.number].source.string() +
+                             "; allowed: each instant in one part of a record");
         }
         if (const auto missing = bridged(last, next, all.step_s)) {
             append(last.stretch, *missing, all.step_s, next.stretch);

@@ -13,7 +13,7 @@ namespace a351::corrector {
 /// counted on from there and keep their times, so that they lie up to half a step beside the first
 /// part's clock.
 /// @param parts  at least one.
-/// @throws InputError  parts overlap, or have another step.
+/// @throws InputError  parts overlap, or have another step; names the two.
 [[nodiscard]] LongRecord joined_record(std::vector<LongRecord> parts);
 
 }  // namespace a351::corrector

@@ -3,6 +3,7 @@
 /// A record of hours to weeks at one point, at the rate on which it is analysed.
 
 #include <cstddef>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
@@ -44,6 +45,7 @@ struct RecordStretch {
 };
 
 struct LongRecord {
+    std::filesystem::path source;          ///< File or data root it was read from.
     std::vector<RecordStretch> stretches;  ///< In order of time; each at least one sample.
     double raw_rate_hz = 0.0;
     double step_s = kRecordStep_s;  ///< Between samples, on the sensor's clock.

@@ -9,8 +9,6 @@
 namespace a351::corrector {
 namespace {
 
-constexpr std::size_t kMostPoints = 3000;
-
 /// About the mean, means of so many neighbours that the curve has at most kMostPoints.
 std::string curve_lines(const std::vector<double>& values, double step_s) {
     const double mean = mean_of(values);
@@ -26,10 +24,6 @@ std::string curve_lines(const std::vector<double>& values, double step_s) {
     return lines;
 }
 
-std::string clause(const std::string& name, std::optional<int> block, const std::string& rest) {
-    return "'" + name + ".dat' index " + std::to_string(block.value()) + ' ' + rest;
-}
-
 Figure series_figure(const RecordResult& result) {
     const std::string kName = "before-after";
     const double step_s = result.record.step_s;
@@ -39,8 +33,8 @@ Figure series_figure(const RecordResult& result) {
                            const std::string& colour) {
         const auto block = data.add("hours " + title + " (mGal)", curve_lines(values, step_s));
         panels += "set ylabel '" + title + " (mGal)'\n" +
-                  plot_command(
-                      {clause(kName, block, "using 1:2 with lines lc rgb " + colour + " notitle")});
+                  plot_command({block_clause(
+                      kName, block, "using 1:2 with lines lc rgb " + colour + " notitle")});
     };
     const auto [low, high] = std::minmax_element(result.segment().acceleration_mgal.begin(),
                                                  result.segment().acceleration_mgal.end());
@@ -68,9 +62,9 @@ Figure allan_figure(const RecordResult& result) {
     const auto block = data.add("averaging_s before parametric by_modes (mGal)", lines);
     const auto curve = [&](const std::string& column, const std::string& colour,
                            const std::string& title) {
-        return clause(kName, block,
-                      "using 1:" + column + " with linespoints pt 7 ps 0.5 lc rgb " + colour +
-                          " title '" + title + "'");
+        return block_clause(kName, block,
+                            "using 1:" + column + " with linespoints pt 7 ps 0.5 lc rgb " + colour +
+                                " title '" + title + "'");
     };
     return {kName, "Allan deviation before and after: the scatter of averages so long.",
             script_head(kName, 900, 400) +

@@ -58,6 +58,11 @@ std::optional<int> DataBlocks::add(const std::string& title, const std::string& 
     return count_++;
 }
 
+std::string block_clause(const std::string& name, std::optional<int> block,
+                         const std::string& rest) {
+    return "'" + name + ".dat' index " + std::to_string(block.value()) + ' ' + rest;
+}
+
 std::string plot_command(const std::vector<std::string>& clauses) {
     std::string command = "plot ";
     for (std::size_t i = 0; i < clauses.size(); ++i) {

@@ -2,6 +2,7 @@
 /// @file
 /// A figure of the report as a gnuplot script with its data, so that an author can restyle it.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,9 @@ struct Figure {
 inline const std::string kBlue = "'#0072B2'";
 inline const std::string kVermilion = "'#D55E00'";
 inline const std::string kGrey = "'#888888'";
+
+/// Of a curve or scatter over the whole of a record, so that a figure of weeks stays small.
+inline constexpr std::size_t kMostPoints = 3000;
 
 /// Resets what an earlier script set, chooses the terminal by `format` (default svg), names the
 /// output and the common style.
@@ -51,6 +55,11 @@ private:
     std::string text_;
     int count_ = 0;
 };
+
+/// What plots a block of NAME.dat: `'NAME.dat' index BLOCK REST`.
+/// @param block  as DataBlocks::add() gave it; not std::nullopt.
+[[nodiscard]] std::string block_clause(const std::string& name, std::optional<int> block,
+                                       const std::string& rest);
 
 /// "plot A, \<newline> B, ..." of the clauses; at least one.
 [[nodiscard]] std::string plot_command(const std::vector<std::string>& clauses);

@@ -9,13 +9,8 @@
 namespace a351::corrector {
 namespace {
 
-constexpr std::size_t kMostSteps = 1500;   // of a curve: two to three per pixel
-constexpr std::size_t kMostPoints = 3000;  // of a scatter
-constexpr double kOverlay_h = 12.0;        // modes over each other: longer, and none is told apart
-
-std::string clause(const std::string& name, std::optional<int> block, const std::string& rest) {
-    return "'" + name + ".dat' index " + std::to_string(block.value()) + ' ' + rest;
-}
+constexpr std::size_t kMostSteps = 1500;  // of a curve: two to three per pixel
+constexpr double kOverlay_h = 12.0;       // modes over each other: longer, and none is told apart
 
 /// Least and greatest of every step; once where a step is one sample.
 std::string curve_lines(const std::vector<double>& values, double first_h, double step_h,
@@ -112,10 +107,10 @@ Figure raw_figure(const RecordResult& result, double reference) {
     return {kName,
             "Norm and temperature as sampled: from the least to the greatest sample of each step.",
             script_head(kName, 900, 480) + kTwoPanels + above(reference) +
-                plot_command({clause(
+                plot_command({block_clause(
                     kName, a, "using 1:2:3 with filledcurves lc rgb " + kBlue + " notitle")}) +
                 kTemperatureLabel + hours_axis(start) +
-                plot_command({clause(
+                plot_command({block_clause(
                     kName, t, "using 1:2:3 with filledcurves lc rgb " + kVermilion + " notitle")}) +
                 "unset multiplot\n" + script_tail(),
             data.text()};
@@ -135,15 +130,15 @@ Figure samples_figure(const RecordResult& result, double reference) {
     DataBlocks data;
     const auto a = data.add("hours acceleration_mgal", acceleration);
     const auto t = data.add("hours temperature_degc", temperature);
-    return {
-        kName, "The same decimated to 20 s, in the segments that can be analysed.",
-        script_head(kName, 900, 480) + kTwoPanels + above(reference) +
-            plot_command({clause(kName, a, "using 1:2 with lines lc rgb " + kBlue + " notitle")}) +
-            kTemperatureLabel + hours_axis(start) +
-            plot_command(
-                {clause(kName, t, "using 1:2 with lines lc rgb " + kVermilion + " notitle")}) +
-            "unset multiplot\n" + script_tail(),
-        data.text()};
+    return {kName, "The same decimated to 20 s, in the segments that can be analysed.",
+            script_head(kName, 900, 480) + kTwoPanels + above(reference) +
+                plot_command(
+                    {block_clause(kName, a, "using 1:2 with lines lc rgb " + kBlue + " notitle")}) +
+                kTemperatureLabel + hours_axis(start) +
+                plot_command({block_clause(
+                    kName, t, "using 1:2 with lines lc rgb " + kVermilion + " notitle")}) +
+                "unset multiplot\n" + script_tail(),
+            data.text()};
 }
 
 Figure scatter_figure(const std::string& name, const std::string& caption,
@@ -157,11 +152,12 @@ Figure scatter_figure(const std::string& name, const std::string& caption,
         name, caption,
         script_head(name, 480, 400) + "set xlabel 'Temperature (°C)'\n" + ylabel +
             "set xtics rotate by -30\n" +
-            plot_command({clause(name, points,
-                                 "using 1:2 with points pt 7 ps 0.2 lc rgb " + kBlue + " notitle"),
-                          clause(name, line,
-                                 "using 1:2 with lines lw 1.5 lc rgb " + kVermilion + " title '" +
-                                     formula(fit) + "'")}) +
+            plot_command(
+                {block_clause(name, points,
+                              "using 1:2 with points pt 7 ps 0.2 lc rgb " + kBlue + " notitle"),
+                 block_clause(name, line,
+                              "using 1:2 with lines lw 1.5 lc rgb " + kVermilion + " title '" +
+                                  formula(fit) + "'")}) +
             script_tail(),
         data.text()};
     figure.is_small = true;
@@ -193,11 +189,11 @@ Figure trend_figure(const RecordResult& result) {
             script_head(kName, 900, 480) + kTwoPanels + "set xrange [" + fixed(moved_h, 3) + ":" +
                 fixed(step_h * static_cast<double>(segment.size()), 3) +
                 "]\nset ylabel '- Acceleration (mGal)'\n" +
-                plot_command({clause(kName, a, line + kBlue + " notitle"),
-                              clause(kName, a_slow, thick + "'black' title 'residue'")}) +
+                plot_command({block_clause(kName, a, line + kBlue + " notitle"),
+                              block_clause(kName, a_slow, thick + "'black' title 'residue'")}) +
                 kTemperatureLabel + hours_axis(segment.start) +
-                plot_command({clause(kName, t, line + kVermilion + " notitle"),
-                              clause(kName, t_slow, thick + "'black' notitle")}) +
+                plot_command({block_clause(kName, t, line + kVermilion + " notitle"),
+                              block_clause(kName, t_slow, thick + "'black' notitle")}) +
                 "unset multiplot\n" + script_tail(),
             data.text()};
 }
@@ -243,12 +239,12 @@ Figure overlay_figure(const RecordResult& result, const ModePair& pair) {
             script_head(kName, 900, 360) + hours_axis(result.segment().start) +
                 "set ylabel '- Acceleration (mGal)'\nset y2label 'Temperature (°C)'\n"
                 "set ytics nomirror\nset y2tics\n" +
-                plot_command({clause(kName, a,
-                                     "using 1:2 with lines lc rgb " + kBlue +
-                                         " title 'acceleration, turned and moved'"),
-                              clause(kName, t,
-                                     "using 1:2 axes x1y2 with lines lc rgb " + kVermilion +
-                                         " title 'temperature'")}) +
+                plot_command({block_clause(kName, a,
+                                           "using 1:2 with lines lc rgb " + kBlue +
+                                               " title 'acceleration, turned and moved'"),
+                              block_clause(kName, t,
+                                           "using 1:2 axes x1y2 with lines lc rgb " + kVermilion +
+                                               " title 'temperature'")}) +
                 script_tail(),
             data.text()};
 }
@@ -274,10 +270,10 @@ Figure correlation_figure(const RecordResult& result) {
             "set xlabel 'Delay of the acceleration (s)'\nset ylabel 'Correlation'\n"
             "set yrange [-1:1]\nset xzeroaxis\n" +
             plot_command(
-                {clause(kName, modes,
-                        "using 1:2 with lines lw 1.5 lc rgb " + kBlue + " title 'modes'"),
-                 clause(kName, band,
-                        "using 1:2 with lines lw 1.5 lc rgb " + kGrey + " title 'band'")}) +
+                {block_clause(kName, modes,
+                              "using 1:2 with lines lw 1.5 lc rgb " + kBlue + " title 'modes'"),
+                 block_clause(kName, band,
+                              "using 1:2 with lines lw 1.5 lc rgb " + kGrey + " title 'band'")}) +
             script_tail(),
         data.text()};
     figure.is_small = true;

@@ -11,7 +11,6 @@ namespace a351::corrector {
 namespace {
 
 constexpr std::size_t kHalfWindow = 30;
-constexpr double kRounding = 1e-12;
 
 double median_of(std::span<const double> values) {
     return median(std::vector<double>(values.begin(), values.end()));
@@ -79,8 +78,8 @@ Disturbances find_disturbances(std::span<const double> series, double threshold)
     const double centre = median(deviation);
     std::vector<double> magnitude(n);
     for (std::size_t i = 0; i < n; ++i) magnitude[i] = std::abs(deviation[i] - centre);
-    const double limit =
-        std::max(threshold * kGaussianPerMad * median(std::move(magnitude)), kRounding * largest);
+    const double limit = std::max(threshold * kGaussianPerMad * median(std::move(magnitude)),
+                                  kSampleRounding * largest);
     std::vector<bool> disturbed(n);
     for (std::size_t i = 0; i < n; ++i) disturbed[i] = std::abs(deviation[i]) > limit;
     return {std::move(disturbed), std::move(baseline)};

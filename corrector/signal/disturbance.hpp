@@ -7,6 +7,9 @@
 
 namespace a351::corrector {
 
+/// Of the largest sample: smaller differences are rounding, not noise.
+inline constexpr double kSampleRounding = 1e-12;
+
 struct Disturbances {
     std::vector<bool> disturbed;   ///< (n)
     std::vector<double> baseline;  ///< (n) What each sample was compared with, unit of the series.
@@ -19,7 +22,7 @@ struct Disturbances {
 /// The median slope of the whole series is removed first.  Next to the ends, where no window of 61
 /// is centred, the median of the outermost window is continued along the median slope within it: a
 /// steady drift is no disturbance.  A series shorter than 61 is one window.  Deviations of less
-/// than 1e-12 of the largest sample are rounding.
+/// than kSampleRounding of the largest sample do not count.
 ///
 /// @param series     Finite samples, any unit.
 /// @param threshold  > 0

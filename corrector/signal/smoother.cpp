@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "corrector/signal/disturbance.hpp"
 #include "corrector/signal/median.hpp"
 
 namespace a351::corrector {
@@ -20,8 +21,6 @@ constexpr double kNoWeight = 6.0;
 constexpr int kPlainRounds = 10;
 constexpr int kMostRounds = 100;
 constexpr double kSettled = 1e-6;
-
-constexpr double kRounding = 1e-12;  // of the largest sample, as in find_disturbances()
 
 /// Of the samples' weight.  The trace is known so well for cut-offs of 1000 samples
 /// (PenalisedFit::inverse_diagonal()): a smaller difference may be its error.
@@ -136,7 +135,7 @@ SmoothTrend smooth(std::span<const double> series, double cutoff_period) {
     std::vector<double> curve = fit.solve(weighted(weights, departure));
     bool converged = false;
     for (int round = 1; round < kMostRounds; ++round) {
-        std::vector<double> next = weights_about(departure, curve, kRounding * largest);
+        std::vector<double> next = weights_about(departure, curve, kSampleRounding * largest);
         converged = largest_change(next, weights) <= kSettled;
         if (converged) break;
         for (std::size_t i = 0; round >= kPlainRounds && i < next.size(); ++i) {

@@ -27,7 +27,8 @@ LongRecord part(double step_s, double from_s, double to_s, bool has_axes = false
             (has_axes ? value + "," + value + "," + value : std::to_string(979763.0 + 3.0 * wave)) +
             "," + std::to_string(42.5 + 0.01 * wave) + "\n";
     }
-    return read_csv_record(folder.write("r.csv", text), {}, [](std::size_t, std::size_t) {});
+    const std::string name = "from-" + std::to_string(std::lround(from_s)) + ".csv";
+    return read_csv_record(folder.write(name, text), {}, [](std::size_t, std::size_t) {});
 }
 
 LongRecord joined(LongRecord first, LongRecord second) {
@@ -78,7 +79,9 @@ TEST_CASE("files that are decimated join across the ends of their filters",
 
 TEST_CASE("what has another step, or overlaps, is refused", "[fixed_point][joining]") {
     CHECK_THROWS_WITH(joined(part(20.0, 0.0, 4000.0), part(21.0, 4000.0, 8200.0)),
-                      Catch::Contains("every 21 s, the first part has one every 20 s"));
+                      Catch::Contains("from-4000.csv: a sample every 21 s, ") &&
+                          Catch::Contains("from-0.csv has one every 20 s; "));
     CHECK_THROWS_WITH(joined(part(20.0, 0.0, 4000.0), part(20.0, 3980.0, 8000.0)),
-                      Catch::Contains("overlap"));
+                      Catch::Contains("from-3980.csv: at ") && Catch::Contains("Z it overlaps ") &&
+                          Catch::Contains("from-0.csv; "));
 }
