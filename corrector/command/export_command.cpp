@@ -31,10 +31,8 @@ void run(Texts texts) {
         export_channel(options, [&](std::string_view bytes) { file.write(bytes); });
     file.close();
     file.publish();
-    for (const record::ArchiveDamage& damage : report.damage) {
-        std::cerr << "a351-correct: " << damage.file.string() << ": offset " << damage.offset
-                  << ": " << damage.byte_count << " bytes are no record\n";
-    }
+    for (const record::ArchiveDamage& damage : report.damage)
+        std::cerr << "a351-correct: " << to_text(damage) << '\n';
     std::cout << texts.out << ": " << report.values << " values of " << options.channel << " at "
               << options.rate_hz << " Hz in " << report.runs << " runs without a gap\n";
 }

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "corrector/command/figures_option.hpp"
+#include "corrector/command/option_values.hpp"
 #include "corrector/command/output_option.hpp"
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/report/joint_page.hpp"
@@ -39,6 +40,7 @@ struct SurveyCommandOptions {
     std::string trend;
     std::string curve;
     std::string calibration;
+    std::string from, to;
     std::vector<std::string> figures;
 };
 
@@ -53,6 +55,12 @@ SurveyFile with_overrides(SurveyFile survey, const SurveyCommandOptions& options
         survey.curve = options.curve == "paper" ? TrendCurve::paper : TrendCurve::slow;
     }
     if (!options.calibration.empty()) use_calibration(survey, options.calibration);
+    if (!options.from.empty()) survey.from = instant_option("--from", options.from);
+    if (!options.to.empty()) survey.to = instant_option("--to", options.to);
+    if (survey.from && survey.to && *survey.from >= *survey.to) {
+        throw InputError(survey.path.string() + ": to_utc = " + to_rfc3339(*survey.to) +
+                         "; allowed: an instant after from_utc = " + to_rfc3339(*survey.from));
+    }
     return survey;
 }
 
@@ -73,6 +81,8 @@ nlohmann::ordered_json settings_of(const SurveyFile& survey, const SurveyCorrect
     settings["rate"] = "interval";
     settings["calibration"] = survey.calibration.filename().string();
     settings["seed"] = survey.seed;
+    settings["from_utc"] = survey.from ? to_rfc3339(*survey.from) : "";
+    settings["to_utc"] = survey.to ? to_rfc3339(*survey.to) : "";
     settings["amendments"] = amendments_json(read.amendments);
     settings["warnings"] = read.warnings;
     return settings;
@@ -217,6 +227,10 @@ void add_survey_command(CLI::App& program) {
         ->check(CLI::IsMember({"paper", "slow"}));
     command.add_option("--calibration", options->calibration,
                        "What a351-correct calibrate found of the unit");
+    command.add_option("--from", options->from,
+                       "UTC from which occupations start; by default the log's last day, which "
+                       "follows a pause of six hours");
+    command.add_option("--to", options->to, "UTC before which they start");
     add_figures_option(command, options->figures);
     command.callback([options] { correct_days(*options); });
 }

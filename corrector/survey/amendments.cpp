@@ -25,14 +25,6 @@ int required_count(text::TomlTable& table, std::string_view key) {
     return static_cast<int>(table.integer_or(key, 1, 1, std::numeric_limits<int>::max()));
 }
 
-std::optional<UtcTime> instant(text::TomlTable& table, std::string_view key) {
-    const std::string value = table.string_or(key, "");
-    if (value.empty()) return std::nullopt;
-    const auto time = parse_rfc3339_in_zone(value, std::chrono::minutes(0));
-    if (!time) table.refuse(key, "not an instant", "\"YYYY-MM-DDThh:mm:ssZ\"");
-    return time;
-}
-
 std::string list_of(const Windows& windows, std::string (*name)(const OccupationWindow&)) {
     std::set<std::string> names;
     for (const OccupationWindow& window : windows) names.insert(name(window));
@@ -59,8 +51,8 @@ public:
 
     Amendment retime(text::TomlTable& table) {
         Amendment amendment = read(table, "retime");
-        const auto start = instant(table, "start_utc");
-        const auto end = instant(table, "end_utc");
+        const auto start = table.instant("start_utc");
+        const auto end = table.instant("end_utc");
         if (!start && !end) table.refuse("start_utc", "missing", "start_utc, end_utc or both");
         const auto matches = matching(table, amendment, "times");
         if (matches.size() > 1) {

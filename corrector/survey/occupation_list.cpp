@@ -59,6 +59,39 @@ void leave_out_overlapping(OccupationList& list) {
     }
 }
 
+/// @throws InputError  none starts in that time.
+void keep_between(std::vector<OccupationWindow>& windows, const std::optional<UtcTime>& from,
+                  const std::optional<UtcTime>& to, const std::filesystem::path& origin) {
+    if (windows.empty()) return;
+    const UtcTime first = windows.front().start, last = windows.back().start;
+    std::erase_if(windows, [&](const OccupationWindow& window) {
+        return (from && window.start < *from) || (to && window.start >= *to);
+    });
+    if (windows.empty()) {
+        throw InputError(origin.string() + ": no occupation starts" +
+                         (from ? " from " + to_rfc3339(*from) + " on" : "") +
+                         (from && to ? " and" : "") + (to ? " before " + to_rfc3339(*to) : "") +
+                         "; allowed: a time with one of those that start from " +
+                         to_rfc3339(first) + " to " + to_rfc3339(last));
+    }
+}
+
+/// Of windows by start.
+void keep_last_day(OccupationList& list, const std::filesystem::path& origin) {
+    auto& windows = list.windows;
+    const auto later = std::adjacent_find(windows.rbegin(), windows.rend(),
+                                          [](const OccupationWindow& a, const OccupationWindow& b) {
+                                              return a.start - b.start >= record::kSurveyNight;
+                                          });
+    if (later == windows.rend()) return;
+    const auto first = std::prev(later.base());
+    list.warnings.push_back(
+        origin.string() + ": the last day is taken, from " + to_rfc3339(first->start) +
+        " on; set-ups of earlier days: " + std::to_string(std::distance(windows.begin(), first)) +
+        "; from_utc and to_utc choose others");
+    windows.erase(windows.begin(), first);
+}
+
 UtcTime instant(const text::CsvTable& table, std::size_t row, std::string_view column) {
     const auto time = parse_rfc3339_in_zone(table.cell(row, column), std::chrono::minutes(0));
     if (!time) table.refuse(row, column, "not an instant", "YYYY-MM-DDThh:mm:ssZ");
@@ -83,7 +116,9 @@ std::set<UtcTime> ends_without_stop(const std::vector<record::Event>& events) {
 }  // namespace
 
 OccupationList read_occupation_table(const std::filesystem::path& file,
-                                     const std::vector<text::Site>& sites) {
+                                     const std::vector<text::Site>& sites,
+                                     const std::optional<UtcTime>& from,
+                                     const std::optional<UtcTime>& to) {
     const text::CsvTable table = text::read_csv(file);
     OccupationList list;
     for (std::size_t row = 0; row < table.row_count(); ++row) {
@@ -111,10 +146,13 @@ OccupationList read_occupation_table(const std::filesystem::path& file,
         list.windows.push_back(std::move(window));
     }
     sort_by_start(list.windows);
+    keep_between(list.windows, from, to, file);
     return list;
 }
 
-OccupationList read_logged_occupations(const std::filesystem::path& events) {
+OccupationList read_logged_occupations(const std::filesystem::path& events,
+                                       const std::optional<UtcTime>& from,
+                                       const std::optional<UtcTime>& to) {
     const record::EventLog log = record::read_events(events);
     OccupationList list;
     for (const record::EventDamage& damage : log.damage) {
@@ -128,16 +166,23 @@ OccupationList read_logged_occupations(const std::filesystem::path& events) {
                                     !occupation.used.value_or(true)});
         }
         OccupationWindow& last = list.windows.back();
-        if (!ends.contains(last.end)) continue;
-        last.notes.emplace_back("no-stop");
-        list.warnings.push_back(named(last) + " has no stop: it lasts to the next start, at " +
-                                to_rfc3339(last.end));
+        if (ends.contains(last.end)) last.notes.emplace_back("no-stop");
     }
-    if (const auto site = record::running_site(log.events)) {
+    sort_by_start(list.windows);
+    if (from || to)
+        keep_between(list.windows, from, to, events);
+    else
+        keep_last_day(list, events);
+    for (const OccupationWindow& window : list.windows) {
+        if (!window.notes.empty())
+            list.warnings.push_back(named(window) +
+                                    " has no stop: it lasts to the next start, at " +
+                                    to_rfc3339(window.end));
+    }
+    if (const auto site = record::running_site(log.events); site && !to) {
         list.warnings.push_back(events.string() + ": the last occupation, of " + *site +
                                 ", has no stop, left out");
     }
-    sort_by_start(list.windows);
     return list;
 }
 

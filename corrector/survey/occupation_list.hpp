@@ -29,15 +29,22 @@ struct OccupationList {
     std::vector<std::string> warnings;  ///< What was passed over or left out, and why.
 };
 
-/// Reads `site,occupation,start_utc,end_utc,used,note`; `used` is 1, 0 or empty (= 1).  A column
+/// Reads `site,occupation,start_utc,end_utc,used,note`, what starts from `from` on and before `to`
+/// where they are given; `used` is 1, 0 or empty (= 1).  A column
 /// `earth_tide_mgal` may follow.
 /// @throws InputError  unknown site, a cell that is not what its column says.
 [[nodiscard]] OccupationList read_occupation_table(const std::filesystem::path& file,
-                                                   const std::vector<text::Site>& sites);
+                                                   const std::vector<text::Site>& sites,
+                                                   const std::optional<UtcTime>& from = {},
+                                                   const std::optional<UtcTime>& to = {});
 
-/// The occupations of an event log (directory `events` of a data root).  One that was never stopped
-/// is left out with a warning.
-[[nodiscard]] OccupationList read_logged_occupations(const std::filesystem::path& events);
+/// The occupations of a survey in an event log (directory `events` of a data root): what starts from
+/// `from` on and before `to`; where neither is given, the last survey day (record::kSurveyNight),
+/// with a warning that there are others.  One that was never stopped is left out with a warning.
+/// @throws InputError  the log has occupations, but none in that time.
+[[nodiscard]] OccupationList read_logged_occupations(const std::filesystem::path& events,
+                                                     const std::optional<UtcTime>& from = {},
+                                                     const std::optional<UtcTime>& to = {});
 
 /// Leaves out, with a warning each, what cannot be: occupations at unknown sites (a slip made in the
 /// field), those that end before they start, and those that overlap others.  Of these the one that

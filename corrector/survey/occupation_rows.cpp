@@ -113,8 +113,8 @@ std::pair<OccupationList, std::vector<Amendment>> read_occupations(
     const SurveyFile& survey, const std::vector<text::Site>& sites) {
     const bool is_logged = survey.occupations.empty();
     const auto origin = is_logged ? survey.root / "events" : survey.occupations;
-    OccupationList list =
-        is_logged ? read_logged_occupations(origin) : read_occupation_table(origin, sites);
+    OccupationList list = is_logged ? read_logged_occupations(origin, survey.from, survey.to)
+                                    : read_occupation_table(origin, sites, survey.from, survey.to);
     std::vector<Amendment> amendments;
     if (!survey.amendments.empty()) amendments = amend(list.windows, survey.amendments, sites);
     return {leave_out_impossible(std::move(list), sites, origin), std::move(amendments)};

@@ -123,11 +123,7 @@ SurveyChannels find_channels(const record::StationMetadata& station,
 }
 
 void add_damage(std::vector<std::string>& warnings, const record::ChannelData& channel) {
-    for (const record::ArchiveDamage& damage : channel.damage) {
-        warnings.push_back(damage.file.filename().string() + ": " +
-                           std::to_string(damage.byte_count) + " bytes at " +
-                           std::to_string(damage.offset) + " are no record");
-    }
+    for (const record::ArchiveDamage& damage : channel.damage) warnings.push_back(to_text(damage));
 }
 
 std::optional<OccupationRecord> cut_occupation(const SurveySamples& samples,

@@ -40,6 +40,8 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     survey.root = path_or(table, "root", beside / "data");
     survey.sites = path_or(table, "sites", beside / "sites.csv");
     survey.occupations = table.path_or_empty("occupations");
+    survey.from = table.instant("from_utc");
+    survey.to = table.instant("to_utc");
     survey.amendments = table.path_or_empty("amendments");
     survey.survey.base = table.string_or("base", "");
     survey.survey.datum = table.strings("datum");

@@ -9,6 +9,7 @@
 #include "corrector/signal/trend_curve.hpp"
 #include "corrector/survey/survey_correction.hpp"
 #include "corrector/survey/tide_choice.hpp"
+#include "protocol/core/utc_time.hpp"
 
 namespace a351::corrector {
 
@@ -21,6 +22,8 @@ struct SurveyFile {
     std::filesystem::path occupations;  ///< CSV; empty: the event log of the root.
     std::filesystem::path amendments;   ///< TOML for amend(); empty: none.
     std::filesystem::path calibration;  ///< What survey.calibration was read from; empty: none.
+    std::optional<UtcTime> from,
+        to;  ///< Which occupations, by their start; neither: a log's last day.
     SurveyOptions survey;
     TideChoice tide;
     std::optional<TrendCurve> curve;  ///< Absent: the signal's default.  `paper` has its own.

@@ -10,8 +10,7 @@
 namespace a351::daemon {
 namespace {
 
-constexpr Nanoseconds kNight = std::chrono::hours(6);  ///< Longer than any drive of a day.
-constexpr double kForgottenAfter = 3.0;                ///< Planned lengths.
+constexpr double kForgottenAfter = 3.0;  ///< Planned lengths.
 constexpr double kEarthRadiusMetres = 6371000.0;
 
 using SetUp = record::Occupation::SetUp;
@@ -25,11 +24,14 @@ std::vector<SetUp> set_ups_so_far(const RunningOccupation& running, UtcTime now)
     return set_ups;
 }
 
-std::vector<std::string> warnings_of(const RunningOccupation& running, double running_s,
+std::vector<std::string> warnings_of(const RunningOccupation& running,
+                                     const std::vector<record::Occupation>& day, double running_s,
                                      double planned_s) {
     std::vector<std::string> warnings;
     char text[160];
-    if (running.number > 1) {
+    if (std::any_of(day.begin(), day.end(), [&running](const record::Occupation& occupation) {
+            return occupation.site == running.site;
+        })) {
         std::snprintf(text, sizeof text, "the site was occupied before: this is stay %d",
                       running.number);
         warnings.emplace_back(text);
@@ -78,7 +80,8 @@ std::vector<record::Occupation> survey_day(const Occupations& occupations, UtcTi
     const auto& running = occupations.running();
     UtcTime later = running ? running->start : now;
     auto first = list.end();
-    while (first != list.begin() && later - std::prev(first)->set_ups.back().end < kNight) {
+    while (first != list.begin() &&
+           later - std::prev(first)->set_ups.back().start < record::kSurveyNight) {
         --first;
         later = first->set_ups.front().start;
     }
@@ -119,7 +122,7 @@ FieldStatus field_status(const Occupations& occupations, const LiveRecord& live,
     const double planned_s = std::chrono::duration<double>(occupations.planned()).count();
     field.half_time_s = std::max(0.0, 0.5 * planned_s - running_s);
     field.proposes_set_up = set_ups.size() == 1 && *field.half_time_s == 0.0;
-    field.warnings = warnings_of(*running, running_s, planned_s);
+    field.warnings = warnings_of(*running, survey_day(occupations, now), running_s, planned_s);
     return field;
 }
 

@@ -34,8 +34,7 @@ struct FieldStatus {
     UtcTime level_utc;
 };
 
-/// The finished occupations of the survey day that ends now: back to the first gap of 6 h, in time
-/// order.
+/// The finished occupations of the survey day that ends now (record::kSurveyNight), in time order.
 [[nodiscard]] std::vector<record::Occupation> survey_day(const Occupations& occupations,
                                                          UtcTime now);
 

@@ -63,6 +63,11 @@ UtcTime Segment::time_of(std::size_t i) const {
     return anchor.time + from_seconds(static_cast<double>(i - anchor.offset) / rate_hz);
 }
 
+std::string to_text(const ArchiveDamage& damage) {
+    return damage.file.filename().string() + ": offset " + std::to_string(damage.offset) + ": " +
+           std::to_string(damage.byte_count) + " bytes are no record";
+}
+
 ChannelData read_channel(const fs::path& archive, const StationCodes& codes,
                          const std::string& channel, UtcTime from, UtcTime to) {
     ChannelData data;

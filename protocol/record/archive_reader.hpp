@@ -33,6 +33,9 @@ struct ArchiveDamage {
     std::uint64_t byte_count = 0;
 };
 
+/// "FILE: offset O: N bytes are no record", FILE without its folder.
+[[nodiscard]] std::string to_text(const ArchiveDamage& damage);
+
 struct ChannelData {
     std::vector<Segment> segments;  ///< In time order.
     std::vector<ArchiveDamage> damage;

@@ -68,6 +68,9 @@ struct Occupation {
 /// @param events  in the order they were logged.
 [[nodiscard]] std::vector<Occupation> occupations_of(const std::vector<Event>& events);
 
+/// A survey day ends where no set-up begins for so long: longer than any drive between benchmarks.
+inline constexpr Nanoseconds kSurveyNight = std::chrono::hours(6);
+
 /// Site of the occupation that still runs after the last event: started, neither stopped nor
 /// discarded.
 [[nodiscard]] std::optional<std::string> running_site(const std::vector<Event>& events);

@@ -135,6 +135,14 @@ std::vector<double> TomlTable::numbers(std::string_view key, double low, double 
     return values;
 }
 
+std::optional<UtcTime> TomlTable::instant(std::string_view key) {
+    const std::string value = string_or(key, "");
+    if (value.empty()) return std::nullopt;
+    const auto time = parse_rfc3339_in_zone(value, std::chrono::minutes(0));
+    if (!time) refuse(key, "not an instant", "\"YYYY-MM-DDThh:mm:ssZ\"");
+    return time;
+}
+
 std::string TomlTable::choice_or(std::string_view key, std::string fallback,
                                  const std::vector<std::string>& allowed) {
     std::string value = string_or(key, std::move(fallback));

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "protocol/core/utc_time.hpp"
+
 namespace toml {
 inline namespace v3 {
 class table;
@@ -34,6 +36,9 @@ public:
     [[nodiscard]] std::optional<double> number(std::string_view key, double low, double high);
     [[nodiscard]] std::vector<std::string> strings(std::string_view key);
     [[nodiscard]] std::vector<double> numbers(std::string_view key, double low, double high);
+
+    /// An instant, in UTC where no zone is written; std::nullopt when absent or "".
+    [[nodiscard]] std::optional<UtcTime> instant(std::string_view key);
 
     /// As string_or, and the value must be one of `allowed`.
     [[nodiscard]] std::string choice_or(std::string_view key, std::string fallback,

@@ -91,6 +91,17 @@ TEST_CASE("a survey day begins behind the night", "[field]") {
     CHECK(survey_day(occupations, minute(60 * 23)).empty());
 }
 
+TEST_CASE("a stop forgotten in the evening does not make one day of two", "[field]") {
+    FakeRecorder recorder;
+    const std::vector<record::Event> events{
+        event("start", minute(0)), event("stop", minute(10)), event("start", minute(60)),
+        event("start", minute(60 * 20)), event("stop", minute(60 * 20 + 10))};
+    const Occupations occupations(recorder, {}, events);
+    const auto day = survey_day(occupations, minute(60 * 21));
+    REQUIRE(day.size() == 1);
+    CHECK(day[0].set_ups.front().start == minute(60 * 20));
+}
+
 TEST_CASE("the target is an event, and stays after a restart", "[field]") {
     FakeRecorder recorder;
     Occupations occupations(recorder, {}, {}, {.target = MilliGal(0.7)});

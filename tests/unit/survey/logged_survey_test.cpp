@@ -79,6 +79,35 @@ TEST_CASE("events logged in another order than they happened are the same survey
     CHECK(rows_of(morning) == Rows{"B (1) ", "S1 (1) ", "S2 (1) ", "B (2) "});
 }
 
+TEST_CASE("of a recorder's log the last day is corrected, or the time that is asked for",
+          "[logged]") {
+    const Morning morning;
+    std::vector<record::Event> events;
+    for (std::size_t i = 0; i < Morning::kSites.size(); ++i) {
+        events.push_back(start(i));
+        events.push_back(stop(i));
+    }
+    for (std::size_t i = 0; i < 2; ++i) events[i].utc -= std::chrono::hours(24);
+    const Outcome last = correct(morning, events);
+    CHECK(last.status == 0);
+    CHECK_THAT(last.errors,
+               Catch::Contains("from 2020-05-01T23:54:20Z on; set-ups of earlier days: 1; "));
+    CHECK(rows_of(morning) == Rows{"S1 (1) ", "S2 (1) ", "B (2) "});
+
+    const Outcome timed = run(
+        morning.folder(), "survey day.toml --from 2020-05-01T23:58:20Z --to 2020-05-02T00:02:21Z");
+    CAPTURE(timed.errors);
+    CHECK(timed.status == 0);
+    CHECK(rows_of(morning) == Rows{"S2 (1) ", "B (2) "});
+    morning.folder().write("day.toml",
+                           "[survey]\nmodel = 't'\nfrom_utc = '2020-05-02T00:00:00Z'\n");
+    const Outcome swapped = run(morning.folder(), "survey day.toml --to 2020-05-01T00:00:00Z");
+    CHECK(swapped.status == 2);
+    CHECK_THAT(swapped.errors,
+               Catch::Contains("day.toml: to_utc = 2020-05-01T00:00:00Z; allowed: an instant after "
+                               "from_utc = 2020-05-02T00:00:00Z"));
+}
+
 TEST_CASE("an option stands above the survey file, and the result says which held", "[logged]") {
     const Morning morning;
     morning.folder().write(
@@ -95,6 +124,9 @@ TEST_CASE("an option stands above the survey file, and the result says which hel
             text::read_text_file(morning.folder().path() / "result/result.json"))["settings"];
         CHECK(settings["trend"] == trend);
         CHECK(settings["curve"] == curve);
+        const auto table = text::read_csv(morning.folder().path() / "result/occupations.csv");
+        CHECK(table.cell(0, "acceleration_mgal") == table.cell(0, trend + "_mgal"));
+        CHECK(table.cell(0, "eemd_mgal") != table.cell(0, "smoother_mgal"));
     }
 }
 
@@ -114,7 +146,7 @@ TEST_CASE("a damaged record of the archive is told by file and offset, and the d
     CAPTURE(outcome.errors);
     CHECK(outcome.status == 0);
     CHECK_THAT(outcome.errors,
-               Catch::Contains("XX.A351.00.BNZ.D.2020.122: 512 bytes at 2048 are no record"));
+               Catch::Contains("XX.A351.00.BNZ.D.2020.122: offset 2048: 512 bytes are no record"));
     const Rows rows = rows_of(morning);
     REQUIRE(rows.size() == 4);
     CHECK(Rows(rows.begin() + 1, rows.end()) == Rows{"S1 (1) ", "S2 (1) ", "B (2) "});

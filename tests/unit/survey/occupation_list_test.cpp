@@ -75,6 +75,48 @@ TEST_CASE("a slip in the field costs its own occupation and is named, not the da
     CHECK(list.left_out[0].site == "AA");
 }
 
+TEST_CASE("of a log of several days the last one is taken, or what a time says",
+          "[survey][occupations]") {
+    const ScratchFolder folder;
+    std::string log;
+    // On the first day the last stop was forgotten: it lasts to the next morning.
+    for (const auto& [type, utc] :
+         std::vector<std::pair<std::string, std::string>>{{"start", "2020-01-01T08:00:00Z"},
+                                                          {"stop", "2020-01-01T08:10:00Z"},
+                                                          {"start", "2020-01-01T13:59:59Z"},
+                                                          {"start", "2020-01-02T08:00:00Z"},
+                                                          {"stop", "2020-01-02T08:10:00Z"},
+                                                          {"start", "2020-01-02T13:59:59Z"},
+                                                          {"stop", "2020-01-02T14:10:00Z"}})
+        log += R"({"type":")" + type + R"(","utc":")" + utc + R"(","site":"A"})" + "\n";
+    const auto events = folder.write("2020-01.jsonl", log).parent_path();
+    const auto at = [](const char* utc) { return parse_rfc3339(utc).value(); };
+
+    const auto last = read_logged_occupations(events);
+    REQUIRE(last.windows.size() == 2);
+    CHECK(last.windows[0].start == at("2020-01-02T08:00:00Z"));
+    CHECK(last.windows[0].number == 3);
+    REQUIRE(last.warnings.size() == 1);
+    CHECK(last.warnings[0] ==
+          events.string() +
+              ": the last day is taken, from 2020-01-02T08:00:00Z on; set-ups of "
+              "earlier days: 2; from_utc and to_utc choose others");
+
+    const auto first = read_logged_occupations(events, {}, at("2020-01-02T08:00:00Z"));
+    REQUIRE(first.windows.size() == 2);
+    CHECK(first.windows[1].start == at("2020-01-01T13:59:59Z"));
+    REQUIRE(first.warnings.size() == 1);
+    CHECK_THAT(first.warnings[0], Catch::Contains("lasts to the next start"));
+
+    const auto all = read_logged_occupations(events, at("2020-01-01T08:00:00Z"));
+    CHECK(all.windows.size() == 4);
+    CHECK_THROWS_WITH(
+        read_logged_occupations(events, at("2020-01-03T00:00:00Z"), at("2020-01-04T00:00:00Z")),
+        Catch::EndsWith(": no occupation starts from 2020-01-03T00:00:00Z on and before "
+                        "2020-01-04T00:00:00Z; allowed: a time with one of those that start from "
+                        "2020-01-01T08:00:00Z to 2020-01-02T13:59:59Z"));
+}
+
 TEST_CASE("one end typed too late costs its own occupation, not those it overlaps",
           "[survey][occupations]") {
     const auto list = read(
