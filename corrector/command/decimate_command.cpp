@@ -12,6 +12,7 @@
 
 #include "corrector/command/csv_output.hpp"
 #include "corrector/command/option_values.hpp"
+#include "corrector/command/output_option.hpp"
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/command/sample_column.hpp"
 #include "corrector/signal/decimator.hpp"
@@ -74,6 +75,7 @@ std::string peak_memory() {
 void write_decimated(const DecimateOptions& options) {
     number_option("--factor", options.factor, 2, 1000);
     number_option("--stages", options.stages, 1, kMostStages);
+    if (!options.output.empty()) require_file_option("--output", options.output);
     const DecimationFilter filter = design_decimation(options.factor);
     const double least = least_length(filter, options.stages);
     SampleColumn column(options.input, options.column);

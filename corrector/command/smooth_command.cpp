@@ -9,6 +9,7 @@
 
 #include "corrector/command/csv_output.hpp"
 #include "corrector/command/option_values.hpp"
+#include "corrector/command/output_option.hpp"
 #include "corrector/command/sample_column.hpp"
 #include "corrector/signal/smoother.hpp"
 #include "protocol/core/input_error.hpp"
@@ -44,6 +45,7 @@ SmoothTrend smooth_column(const SmoothOptions& options, const std::vector<double
 
 void write_trend(const SmoothOptions& options) {
     number_option("--cutoff", options.cutoff, kShortestCutoff, kLongestCutoff);
+    if (!options.output.empty()) require_file_option("--output", options.output);
     SampleColumn column(options.input, options.column);
     const std::vector<double> samples = read_all(column);
     const std::size_t present_count = column.count() - column.missing_count();

@@ -5,6 +5,7 @@
 
 #include "corrector/command/csv_output.hpp"
 #include "corrector/command/option_values.hpp"
+#include "corrector/command/output_option.hpp"
 #include "corrector/survey/aligned_text.hpp"
 #include "corrector/survey/tide_choice.hpp"
 #include "corrector/tide/earth_tide.hpp"
@@ -48,6 +49,7 @@ void write_series(const TideOptions& options) {
     const TideFactors factors{
         number_option("--delta2", options.factors.delta2, kLeastFactor, kGreatestFactor),
         number_option("--delta3", options.factors.delta3, kLeastFactor, kGreatestFactor)};
+    if (!options.output.empty()) require_file_option("--output", options.output);
     const TideModel model = tide_model(options.model);
     const int decimals = decimals_for(from, step);
 

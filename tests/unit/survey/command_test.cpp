@@ -246,14 +246,24 @@ TEST_CASE("a tide from a file does what the model it was written by does", "[com
     CHECK_FALSE(has_result(folder));
 }
 
-TEST_CASE("a result that cannot be written ends with 1", "[command]") {
+TEST_CASE("a result that has no place is refused, one that finds a full disk ends with 1",
+          "[command]") {
     const ScratchFolder folder;
-    const Outcome outcome =
-        run(folder,
-            "tide --latitude 40 --longitude 140 --height 0 --from 2015-04-23T00:00:00Z --to "
-            "2015-04-23T01:00:00Z --step 1800 --output /dev/full");
-    CHECK(outcome.status == 1);
-    CHECK_THAT(outcome.errors, Catch::StartsWith("a351-correct: /dev/full"));
+    const std::string tide =
+        "tide --latitude 40 --longitude 140 --height 0 --from 2015-04-23T00:00:00Z --to "
+        "2015-04-23T01:00:00Z --step 1800";
+    folder.write("s.csv", "value\n1\n2\n3\n4\n5\n6\n7\n8\n9\n10\n");
+    for (const std::string& step :
+         {tide, std::string("smooth --input s.csv --column value --cutoff 4"),
+          std::string("decimate --input s.csv --column value --factor 2 --stages 1")}) {
+        const Outcome refused = run(folder, step + " --output .");
+        CHECK(refused.status == 2);
+        CHECK(refused.errors == "a351-correct: --output = .: no regular file; allowed: a file\n");
+    }
+    folder.write("stdout.txt", "");
+    const Outcome full = run(folder, tide + " > /dev/full 2> stderr.txt #");
+    CHECK(full.status == 1);
+    CHECK_THAT(full.errors, Catch::StartsWith("a351-correct: standard output: cannot be written"));
 }
 
 TEST_CASE("help and version go to standard output and end with 0", "[command]") {
