@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <numeric>
 
 #include "corrector/day/day_columns.hpp"
@@ -212,7 +213,7 @@ private:
 
     void smooth_noise(const Eigen::VectorXd& power) {
         constexpr Index kLowest = 8;
-        constexpr double kBandRatio = 1.41421356;  // half an octave
+        constexpr double kBandRatio = std::numbers::sqrt2;  // half an octave
         for (Index first = kLowest; first < frequencies_;) {
             const Index behind = std::min(
                 frequencies_,

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "corrector/report/escaping.hpp"
 #include "corrector/survey/aligned_text.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -59,7 +59,7 @@ Range range_of(const std::vector<const text::Site*>& sites, Degrees text::Site::
 
 double cosine(double latitude_deg) {
     // Next to a pole a map in longitude and latitude has no meaning; the limit keeps it finite.
-    return std::max(0.01, std::cos(latitude_deg * std::numbers::pi / 180.0));
+    return std::max(0.01, std::cos(latitude_deg * kRadPerDeg));
 }
 
 Frame frame_around(const std::vector<const text::Site*>& sites) {

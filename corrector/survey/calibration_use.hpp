@@ -31,7 +31,8 @@ inline constexpr double kContradictionP = 0.01;
                                                        const std::vector<Eigen::Index>& places);
 
 /// A day that comes out worse with a calibration by more than this, each station left out, is told.
-/// A unit's own thermal calibration changed it by -2.0 to +2.5 % (methods.md, 8101-8120).
+/// A unit's own thermal calibration changed it by -2.0 to +2.5 % (methods.md, 8101-8120); its own axis
+/// biases made two of those 20 days worse by more, and such days are told too.
 inline constexpr double kHarm = 0.03;
 
 /// Says what the calibration did as prior of the whole-day model: SurveyCorrection::calibration.

@@ -26,6 +26,8 @@ arguments = argparse.ArgumentParser(usage=__doc__, add_help=False)
 arguments.add_argument("--days", type=int, default=1)
 arguments.add_argument("--read", type=pathlib.Path)
 options = arguments.parse_args()
+if options.days < 1:
+    arguments.error(f"--days = {options.days}: allowed: 1 or more")
 
 OUTCOMES = {0: "kept", 77: "skipped"}  # What a system test ends with: tests/system/programs.py.
 PYTHON = [sys.executable]

@@ -1,6 +1,7 @@
 #pragma once
 /// @file
-/// Counts what one thread allocates.  It replaces operator new: for one file of a program of its own.
+/// Counts what one thread allocates by operator new.  Not counted: malloc(), by which Eigen's matrices are
+/// allocated, and over-aligned new.  It replaces the operator: for one file of a program of its own.
 
 #include <unistd.h>
 

@@ -11,9 +11,9 @@ import sys
 import tempfile
 import urllib.request
 
-BIN = pathlib.Path(os.environ["A351_BIN"])
-TOOLS = pathlib.Path(os.environ["A351_TOOLS"])
 TOP = pathlib.Path(__file__).resolve().parents[2]
+BIN = pathlib.Path(os.environ.get("A351_BIN", TOP / "build/release/bin"))
+TOOLS = pathlib.Path(os.environ.get("A351_TOOLS", TOP / "build/release/tests"))
 IS_LONG = os.environ.get("A351_LONG") == "1"
 IS_SANITIZED = bool(os.environ.get("A351_PRESET_SANITIZE"))
 SKIPPED = 77
