@@ -7,7 +7,7 @@
 namespace a351::sim {
 namespace {
 
-constexpr double kLongest_s = 1e9;
+constexpr double kLatest_s = 1e9;
 constexpr double kMostPerHour = 1e6;
 constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
 
@@ -25,7 +25,7 @@ PlannedFault read_planned(text::TomlTable& table, UtcTime start, const FaultRule
         table.refuse("kind", instants == 0 ? "no instant" : "several instants",
                      "one of at_s, at_utc, at_frame");
     }
-    if (const auto seconds = table.number("at_s", 0.0, kLongest_s)) {
+    if (const auto seconds = table.number("at_s", 0.0, kLatest_s)) {
         planned.at = later_by(*seconds, start);
     }
     if (const std::string text = table.string_or("at_utc", ""); table.has("at_utc")) {
