@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <stdexcept>
+#include <string>
 
 namespace a351 {
 
@@ -8,7 +10,16 @@ namespace a351 {
 /// file, line, key, value and what is allowed; `main` prints it and ends with status 2.
 class InputError : public std::runtime_error {
 public:
-    using std::runtime_error::runtime_error;
+    /// @param message  may quote the input: each ASCII control character in it becomes a blank.
+    explicit InputError(std::string message)
+        : std::runtime_error(in_one_line(std::move(message))) {}
+
+private:
+    static std::string in_one_line(std::string text) {
+        const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
+        std::replace_if(text.begin(), text.end(), is_control, ' ');
+        return text;
+    }
 };
 
 }  // namespace a351

@@ -24,11 +24,7 @@ std::string position(const std::filesystem::path& origin, const toml::source_reg
 std::string as_written(const toml::node& node) {
     std::ostringstream out;
     node.visit([&out](const auto& value) { out << value; });
-    std::string text = out.str();
-    for (char& c : text) {
-        if (c == '\n') c = ' ';
-    }
-    return text;
+    return out.str();
 }
 
 std::string range_text(std::string_view kind, double low, double high) {

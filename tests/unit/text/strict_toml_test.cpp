@@ -30,6 +30,14 @@ TEST_CASE("every key that is read is allowed, and defaults fill the rest", "[tex
     CHECK(root.table("absent").number("x", 0, 1) == std::nullopt);
 }
 
+TEST_CASE("trouble is one line, whatever the file holds", "[text][strict_toml]") {
+    CHECK_THROWS_WITH(parse_toml("a = t\n", "c.toml"),
+                      "c.toml:1: not TOML: Error while parsing boolean: expected 'true', saw 't '");
+    auto root = parse_toml(R"("two\nlines" = "red\u001b[31m")", "c.toml");
+    CHECK_THROWS_WITH(root.require_all_read(),
+                      "c.toml:1: two lines = \"red\\u001B[31m\": unknown key; allowed: ");
+}
+
 TEST_CASE("trouble names file, line, key, value and what is allowed", "[text][strict_toml]") {
     auto root = parse_toml("a = 1\n[s]\nb = \"x\"\nc = 70\n", "c.toml");
     auto sub = root.table("s");
