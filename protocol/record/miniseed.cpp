@@ -161,6 +161,19 @@ bool is_rate(int factor, int multiplier) {
     return factor > 0 ? multiplier == 1 : factor < -1 && multiplier == -1;
 }
 
+/// Of a rate as is_rate() takes it.
+double nominal_rate_hz(std::span<const std::byte> bytes) {
+    const double factor = get<std::int16_t>(bytes, kRateFactorAt);
+    return factor > 0.0 ? factor : -1.0 / factor;
+}
+
+/// A declared rate corrects the nominal one by ppm: what is far from it is damage, and would put
+/// samples at times that no integer holds.
+bool is_declared_rate(float rate_hz, double nominal_hz) {
+    constexpr double kFarthest = 0.1;
+    return std::abs(rate_hz / nominal_hz - 1.0) <= kFarthest;
+}
+
 /// Whether every field that fixes the record's shape is as pack_record() writes it.  libmseed
 /// follows offsets and counts without checking all of them, so damage has to end here.
 bool is_layout_ours(std::span<const std::byte> bytes) {
@@ -176,7 +189,6 @@ bool is_layout_ours(std::span<const std::byte> bytes) {
     const std::size_t most_samples =
         coding == kCodingInt32 ? words : (words - words / 16 - 2) * kMostSamplesPerSteimWord;
     const auto sample_count = get<std::uint16_t>(bytes, kSampleCountAt);
-    const float rate = has_rate ? get_float(bytes, kBlockette100At + 4) : 1.0F;
     return is_text_of(bytes, kSequenceAt, 6, is_digit) &&
            get<std::uint16_t>(bytes, kQualityAt) == ('D' << 8 | ' ') &&
            is_text_of(bytes, kStationAt, kYearAt - kStationAt, is_code_character) &&
@@ -193,8 +205,9 @@ bool is_layout_ours(std::span<const std::byte> bytes) {
            get<std::uint8_t>(bytes, kBlockette1000At + 6) == kLog2RecordSize &&
            is_blockette(bytes, kBlockette1001At, 1001, has_rate ? kBlockette100At : 0) &&
            get<std::uint8_t>(bytes, kBlockette1001At + 4) <= 100 &&
-           (!has_rate || is_blockette(bytes, kBlockette100At, 100, 0)) && rate > 0.0F &&
-           std::isfinite(rate);
+           (!has_rate ||
+            (is_blockette(bytes, kBlockette100At, 100, 0) &&
+             is_declared_rate(get_float(bytes, kBlockette100At + 4), nominal_rate_hz(bytes))));
 }
 
 /// Steim coding carries the first and the last sample beside the differences.  libmseed only warns
@@ -214,8 +227,7 @@ RecordHeader header_of(std::span<const std::byte> bytes, const MSRecord& record)
     header.channel = record.channel;
     header.sequence = record.sequence_number;
     header.start = UtcTime(std::chrono::microseconds(record.starttime));
-    const double factor = get<std::int16_t>(bytes, kRateFactorAt);
-    header.nominal_rate = Hertz(factor > 0.0 ? factor : -1.0 / factor);
+    header.nominal_rate = Hertz(nominal_rate_hz(bytes));
     if (record.Blkt100) header.declared_rate_hz = get_float(bytes, kBlockette100At + 4);
     const auto io = get<std::uint8_t>(bytes, kClockFlagsAt);
     const auto quality = get<std::uint8_t>(bytes, kQualityFlagsAt);

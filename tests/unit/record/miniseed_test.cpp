@@ -254,6 +254,23 @@ TEST_CASE("any integers come back unchanged", "[record][miniseed]") {
     }
 }
 
+TEST_CASE("a declared rate far from the nominal one is damage", "[record][miniseed]") {
+    RecordHeader header = header_at("2026-03-01T12:00:00Z");
+    header.declared_rate_hz = 50.001;
+    auto record = pack_record(header, Samples(100, 5));
+    const auto is_taken = [&record](float rate_hz) {
+        const auto bits = std::bit_cast<std::uint32_t>(rate_hz);
+        for (std::size_t i = 0; i < 4; ++i)
+            record.bytes[68 + i] = static_cast<std::byte>(bits >> (24 - 8 * i));
+        return decode_record(record.bytes).has_value();
+    };
+    for (const float rate_hz : {45.5F, 50.0F, 54.5F}) CHECK(is_taken(rate_hz));
+    for (const float rate_hz :
+         {1e-39F, 0.0F, -50.0F, 44.5F, 55.5F, 1e38F, std::numeric_limits<float>::infinity(),
+          std::numeric_limits<float>::quiet_NaN()})
+        CHECK_FALSE(is_taken(rate_hz));
+}
+
 TEST_CASE("cut bytes are no record", "[record][miniseed]") {
     const auto record = pack_record(header_at("2026-03-01T12:00:00Z"), Samples(100, 5));
     const std::span<const std::byte> bytes(record.bytes);
