@@ -27,7 +27,7 @@ class Day:
 
     def __init__(self, scratch):
         self.scratch = scratch
-        self.port = random.randrange(20000, 40000)
+        self.port = random.randrange(20000, 32000)  # Below the ports that outgoing connections take.
         (scratch / "a351d.toml").write_text(daemon_config(self.port))
         plan = run(BIN / "a351-sim", "plan", "--scenario", "tsukuba", "--out", scratch)
         start = dict(part.split("=", 1) for part in plan.stdout.split())["start_utc"]
