@@ -169,7 +169,7 @@ double nominal_rate_hz(std::span<const std::byte> bytes) {
 
 /// A declared rate corrects the nominal one by ppm: what is far from it is damage, and would put
 /// samples at times that no integer holds.
-bool is_declared_rate(float rate_hz, double nominal_hz) {
+bool is_declared_rate(double rate_hz, double nominal_hz) {
     constexpr double kFarthest = 0.1;
     return std::abs(rate_hz / nominal_hz - 1.0) <= kFarthest;
 }
@@ -205,9 +205,9 @@ bool is_layout_ours(std::span<const std::byte> bytes) {
            get<std::uint8_t>(bytes, kBlockette1000At + 6) == kLog2RecordSize &&
            is_blockette(bytes, kBlockette1001At, 1001, has_rate ? kBlockette100At : 0) &&
            get<std::uint8_t>(bytes, kBlockette1001At + 4) <= 100 &&
-           (!has_rate ||
-            (is_blockette(bytes, kBlockette100At, 100, 0) &&
-             is_declared_rate(get_float(bytes, kBlockette100At + 4), nominal_rate_hz(bytes))));
+           (!has_rate || (is_blockette(bytes, kBlockette100At, 100, 0) &&
+                          is_declared_rate(double{get_float(bytes, kBlockette100At + 4)},
+                                           nominal_rate_hz(bytes))));
 }
 
 /// Steim coding carries the first and the last sample beside the differences.  libmseed only warns
