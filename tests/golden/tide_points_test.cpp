@@ -1,7 +1,7 @@
 // Tide at single places and instants against a harmonic catalogue and against Longman's formulas.
 // Data and their origin: tests/golden/tide/README.md.
-#include <catch2/catch.hpp>
 #include <string>
+#include "tests/support/catch.hpp"
 
 #include "corrector/tide/earth_tide.hpp"
 #include "protocol/text/csv.hpp"

@@ -1,10 +1,10 @@
 // Tide of the survey day against the publication's column.  Data: tests/golden/tsukuba/README.md.
 // The last cases show that the comparison would catch the mistakes people make.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <vector>
+#include "tests/support/catch.hpp"
 
 #include "corrector/tide/earth_tide.hpp"
 #include "protocol/text/csv.hpp"

@@ -2,8 +2,8 @@
 // result of the formulas on the named file) tightly, and the printed value within what the rounding
 // of the printed inputs allows (extremes of 20 000 random re-roundings).
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 #include "corrector/survey/linear_fit.hpp"
 #include "corrector/survey/paper_correction.hpp"

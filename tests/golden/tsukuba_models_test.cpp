@@ -1,8 +1,8 @@
 // Reference answers for four regressions on 16 and on 19 rows: tests/golden/tsukuba/README.md.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
+#include "tests/support/catch.hpp"
 
 #include "corrector/survey/survey_correction.hpp"
 #include "tests/golden/tsukuba_table.hpp"

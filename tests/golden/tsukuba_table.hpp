@@ -1,8 +1,8 @@
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <string>
 #include <vector>
+#include "tests/support/catch.hpp"
 
 #include "corrector/survey/survey_row.hpp"
 #include "protocol/text/csv.hpp"

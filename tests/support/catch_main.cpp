@@ -1,8 +1,8 @@
 #define CATCH_CONFIG_RUNNER
 #include <sys/statvfs.h>
 
-#include <catch2/catch.hpp>
 #include <cstdlib>
+#include "tests/support/catch.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 #include "corrector/calibration/calibration.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "corrector/calibration/sha256.hpp"
 #include "protocol/core/input_error.hpp"
@@ -86,11 +86,11 @@ TEST_CASE("what a calibration must not say is refused by file, line and key", "[
     };
     for (const Case& one : cases) {
         CAPTURE(one.old, one.with);
-        CHECK_THAT(refusal_of(replaced(good, one.old, one.with)), Catch::Contains(one.message));
+        CHECK_THAT(refusal_of(replaced(good, one.old, one.with)), ContainsSubstring(one.message));
     }
     CHECK_THAT(refusal_of("format = 1\nserial_number = '1'\nprogram = 'p'\n"
                           "valid_from_utc = '2026-01-01T00:00:00Z'\n"),
-               Catch::Contains("axis_bias, thermal or warm_up"));
+               ContainsSubstring("axis_bias, thermal or warm_up"));
 }
 
 TEST_CASE("SHA-256 of the standard's example", "[calibration]") {

@@ -1,7 +1,7 @@
 #include "protocol/core/clock_scale.hpp"
 
-#include <catch2/catch.hpp>
 #include <string>
+#include "tests/support/catch.hpp"
 
 using namespace a351;
 using namespace std::chrono;

@@ -1,6 +1,6 @@
 #include "protocol/core/units.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 using namespace a351;
 

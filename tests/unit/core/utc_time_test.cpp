@@ -1,7 +1,7 @@
 #include "protocol/core/utc_time.hpp"
 
-#include <catch2/catch.hpp>
 #include <string>
+#include "tests/support/catch.hpp"
 
 using namespace a351;
 using namespace std::chrono;

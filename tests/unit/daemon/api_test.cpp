@@ -76,7 +76,7 @@ TEST_CASE("a target is set by POST, within what is allowed", "[daemon][page]") {
     REQUIRE(page.recorder.log.size() == 1);
     CHECK(page.recorder.log.back().type == "target");
     const auto refused = page.ask(post("/api/target", R"({"target_mgal":0.001})"), 409);
-    CHECK_THAT(refused["error"].get<std::string>(), Catch::Contains("0.01 to 1000 mGal"));
+    CHECK_THAT(refused["error"].get<std::string>(), ContainsSubstring("0.01 to 1000 mGal"));
     CHECK(page.recorder.log.size() == 1);
 }
 

@@ -214,8 +214,8 @@ TEST_CASE_METHOD(RecoveryRig, "a clock of 1970 begins no epoch of the station me
     advance(store, seconds(10));
     REQUIRE(std::filesystem::exists(file));
     const auto xml = text::read_text_file(file);
-    CHECK_THAT(xml, !Catch::Contains("1970"));
+    CHECK_THAT(xml, !ContainsSubstring("1970"));
     const auto start = begun - options().station.group_delay;
-    CHECK_THAT(xml, Catch::Contains("startDate=\"" + to_rfc3339(start, 6) + "\""));
+    CHECK_THAT(xml, ContainsSubstring("startDate=\"" + to_rfc3339(start, 6) + "\""));
     CHECK(store.stop());
 }

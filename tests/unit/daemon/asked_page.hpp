@@ -1,8 +1,8 @@
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
+#include "tests/support/catch.hpp"
 
 #include "daemon/page/api.hpp"
 #include "tests/unit/daemon/fake_recorder.hpp"

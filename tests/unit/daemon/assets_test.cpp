@@ -1,8 +1,8 @@
 #include "daemon/page/assets.hpp"
 
-#include <catch2/catch.hpp>
 #include <fstream>
 #include <iterator>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/daemon/temporary_directory.hpp"
 

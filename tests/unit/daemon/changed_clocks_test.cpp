@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <catch2/catch.hpp>
 #include <ctime>
+#include "tests/support/catch.hpp"
 
 #include "daemon/source/sensor_link.hpp"
 #include "tests/unit/daemon/fake_sensor.hpp"

@@ -1,10 +1,10 @@
 #include "daemon/config/config.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/daemon/temporary_directory.hpp"
@@ -82,7 +82,8 @@ TEST_CASE_METHOD(Fixture, "every key that is documented is accepted and read", "
         "[oven]\nenabled=true\nport=\"o\"\nbaud=19200\nparity=\"N\"\nunit=7\npoll_s=2.5\ndecimals="
         "2\n"
         "[storage]\nroot=\"/var/lib/a351\"\ndeclared_rate_hz=100.0005\njournal_keep_days=0\n"
-        "[page]\nlisten=\"127.0.0.1:0\"\nhosts=[\"box\"]\ntoken=\"sixteen-or-longer\"\nassets=\".\"\n"
+        "[page]\nlisten=\"127.0.0.1:0\"\nhosts=[\"box\"]\ntoken=\"sixteen-or-longer\"\nassets=\"."
+        "\"\n"
         "[survey]\nsites=\"sites.csv\"\ncalibration=\"\"\n"
         "[verdict]\nslope_degc_per_h=0.4\nknock_gal=3\n");
     CHECK(config.station.codes == record::StationCodes{"JP", "TKB", "", {"Z", "1", "2"}});
@@ -152,17 +153,17 @@ TEST_CASE_METHOD(Fixture,
           "a351d.toml:10: oven.parity = 'S': not a known value; allowed: E, O, N");
     CHECK(refusal(before_oven + "unit = 0\n") ==
           "a351d.toml:10: oven.unit = 0: out of range; allowed: a whole number from 1 to 99");
-    CHECK_THAT(refusal(before_oven + "poll_s = 0\n"), Catch::Contains("oven.poll_s = 0"));
+    CHECK_THAT(refusal(before_oven + "poll_s = 0\n"), ContainsSubstring("oven.poll_s = 0"));
     CHECK_THAT(refusal(kStation + kSensor + kStorage + "[page]\nassets = \"none\"\n"),
-               Catch::Contains("page.assets = 'none': no such directory: none; allowed: "));
+               ContainsSubstring("page.assets = 'none': no such directory: none; allowed: "));
     CHECK(refusal(kStation + kSensor + kStorage + "[survey]\nsites = \"no.csv\"\n") ==
           "a351d.toml:10: survey.sites = 'no.csv': no such file: no.csv; allowed: a CSV of sites, "
           "or \"\"");
     CHECK_THAT(refusal(kStation + kSensor + kStorage + "[verdict]\nslope = 1\n"),
-               Catch::StartsWith("a351d.toml:10: verdict.slope = 1: unknown key; allowed: ") &&
-                   Catch::Contains("slope_degc_per_h"));
+               StartsWith("a351d.toml:10: verdict.slope = 1: unknown key; allowed: ") &&
+                   ContainsSubstring("slope_degc_per_h"));
     CHECK_THAT(refusal(kStation + kSensor + kStorage + "[verdict]\nshake_factor = 0.5\n"),
-               Catch::StartsWith("a351d.toml:10: verdict.shake_factor = 0.5: out of range"));
+               StartsWith("a351d.toml:10: verdict.shake_factor = 0.5: out of range"));
     CHECK(refusal(kStation + kSensor + "[storage]\n") ==
           "a351d.toml:7: storage.root: missing; allowed: the directory of the record");
 }
@@ -188,7 +189,7 @@ TEST_CASE_METHOD(Fixture, "beyond loopback a token is a must", "[daemon][config]
         CAPTURE(open);
         CHECK_THAT(
             refusal(page(open) + "\n"),
-            Catch::Contains("page.listen = '" + std::string(open)) && Catch::Contains("token"));
+            ContainsSubstring("page.listen = '" + std::string(open)) && ContainsSubstring("token"));
         CHECK_FALSE(read(page(open) + token).page.listen.is_loopback);
     }
     CHECK(read(page("[::1]:65535") + "\n").page.listen.port == 65535);
@@ -196,11 +197,11 @@ TEST_CASE_METHOD(Fixture, "beyond loopback a token is a must", "[daemon][config]
     for (const char* odd : {"8351", ":8351", "127.0.0.1", "127.0.0.1:", "127.0.0.1:65536",
                             "127.0.0.1:-1", "127.0.0.1:80 ", "::1:8351", "[::1]", "gravbox:8351"}) {
         CAPTURE(odd);
-        CHECK_THAT(refusal(page(odd) + token), Catch::Contains("page.listen"));
+        CHECK_THAT(refusal(page(odd) + token), ContainsSubstring("page.listen"));
     }
     for (const char* weak : {"short", "with blank and more"}) {
         CHECK_THAT(refusal(all + "[page]\ntoken = \"" + std::string(weak) + "\"\n"),
-                   Catch::Contains("page.token = "));
+                   ContainsSubstring("page.token = "));
     }
 }
 
@@ -209,7 +210,7 @@ TEST_CASE_METHOD(Fixture, "a link to the sensor's port is the sensor's port", "[
     std::filesystem::create_symlink("sensor", directory.path() / "oven");
     CHECK_THAT(refusal(kStation + "[sensor]\nport = \"sensor\"\n" + kStorage +
                        "[oven]\nenabled = true\nport = \"oven\"\n"),
-               Catch::Contains("oven.port = 'oven': the sensor's own"));
+               ContainsSubstring("oven.port = 'oven': the sensor's own"));
 }
 
 TEST_CASE_METHOD(Fixture, "a calibration gives the verdict the unit's own defaults",
@@ -234,5 +235,5 @@ TEST_CASE_METHOD(Fixture, "a calibration gives the verdict the unit's own defaul
 
     std::ofstream(directory.path() / "unit.toml") << "format = 2\n";
     CHECK_THAT(refusal(kStation + kSensor + kStorage + "[survey]\ncalibration = \"unit.toml\"\n"),
-               Catch::Contains("unit.toml:1: format = 2"));
+               ContainsSubstring("unit.toml:1: format = 2"));
 }

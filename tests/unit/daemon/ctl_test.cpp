@@ -1,9 +1,9 @@
 #include <sys/wait.h>
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
 
 #include "daemon/ctl/client.hpp"
 #include "daemon/ctl/screen.hpp"

@@ -1,7 +1,7 @@
 #include "daemon/page/guard.hpp"
 
-#include <catch2/catch.hpp>
 #include <set>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/daemon/asked_page.hpp"
 

@@ -1,5 +1,5 @@
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
 
 #include "daemon/page/history_json.hpp"
 #include "protocol/core/input_error.hpp"

@@ -1,7 +1,7 @@
 #include "daemon/store/journal_keeper.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/record/journal_reader.hpp"
 #include "protocol/record/journal_writer.hpp"

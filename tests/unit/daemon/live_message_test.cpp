@@ -1,8 +1,8 @@
 #include "daemon/page/live_message.hpp"
 
-#include <catch2/catch.hpp>
 #include <cstring>
 #include <numeric>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/daemon/live_records.hpp"
 

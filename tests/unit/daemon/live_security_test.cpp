@@ -1,6 +1,6 @@
-#include <catch2/catch.hpp>
 #include <list>
 #include <thread>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/daemon/raw_viewer.hpp"
 

@@ -3,11 +3,11 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <catch2/catch.hpp>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/daemon/raw_viewer.hpp"
 

@@ -1,10 +1,10 @@
 #include "daemon/page/metrics.hpp"
 
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <sstream>
+#include "tests/support/catch.hpp"
 
 #include "daemon/page/api.hpp"
 #include "tests/unit/daemon/live_records.hpp"

@@ -1,6 +1,6 @@
 #include "daemon/survey/occupations.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/daemon/fake_recorder.hpp"
 

@@ -4,10 +4,10 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <mutex>
 #include <vector>
+#include "tests/support/catch.hpp"
 
 #include "daemon/source/port.hpp"
 #include "tests/unit/daemon/fake_controller.hpp"
@@ -271,9 +271,9 @@ TEST_CASE("what is no port, or does not take the settings, is refused", "[daemon
     const Pty pty;  // It carries no parity, and does not say so when it is asked for one.
     CHECK_NOTHROW(ModbusLine({.port = pty.path(), .parity = 'N'}));
     CHECK_THROWS_WITH(ModbusLine({.port = pty.path(), .parity = 'N', .is_rs485 = true}),
-                      Catch::EndsWith("its driver does not switch an RS-485 line"));
+                      EndsWith("its driver does not switch an RS-485 line"));
     CHECK_THROWS_WITH(ModbusLine({.port = pty.path(), .parity = 'E'}),
-                      Catch::EndsWith("baud 8E1: does not keep this parity"));
+                      EndsWith("baud 8E1: does not keep this parity"));
     CHECK_THROWS_AS(ModbusLine({.port = "/dev/null"}), PortError);
     CHECK_THROWS_AS(ModbusLine({.port = "/nonexistent/oven"}), PortError);
 }

@@ -4,9 +4,9 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <vector>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/daemon/pty.hpp"
 #include "tests/unit/daemon/temporary_directory.hpp"

@@ -1,6 +1,6 @@
 #include "daemon/store/progress.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 using namespace a351::daemon;
 using a351::record::SessionId;

@@ -1,9 +1,9 @@
 #include "daemon/source/read_queue.hpp"
 
-#include <catch2/catch.hpp>
 #include <random>
 #include <thread>
 #include <vector>
+#include "tests/support/catch.hpp"
 
 using namespace a351;
 using namespace a351::daemon;

@@ -2,9 +2,9 @@
 /// The reader thread allocates nothing while it samples: an allocator may wait for a lock that a
 /// thread without its urgency holds.  A program of its own, for it replaces operator new.
 
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <set>
+#include "tests/support/catch.hpp"
 
 #include "daemon/source/sensor_link.hpp"
 #include "tests/support/counted_allocations.hpp"

@@ -1,8 +1,8 @@
 #include "daemon/source/sensor_link.hpp"
 
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <vector>
+#include "tests/support/catch.hpp"
 
 #include "protocol/wire/burst_decoder.hpp"
 #include "tests/unit/daemon/fake_sensor.hpp"

@@ -1,10 +1,10 @@
 #include "daemon/page/server.hpp"
 
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <list>
 #include <random>
 #include <thread>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/daemon/served.hpp"

@@ -4,11 +4,11 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <cstddef>
 #include <cstring>
 #include <optional>
 #include <string>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/daemon/temporary_directory.hpp"
 

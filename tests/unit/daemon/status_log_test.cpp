@@ -3,8 +3,8 @@
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
-#include <catch2/catch.hpp>
 #include <sstream>
+#include "tests/support/catch.hpp"
 
 using namespace a351::daemon;
 using std::chrono::seconds;

@@ -3,11 +3,11 @@
 /// A store over files that can be made to hang or fail, fed with frames of known values.
 
 #include <atomic>
-#include <catch2/catch.hpp>
 #include <future>
 #include <memory>
 #include <system_error>
 #include <vector>
+#include "tests/support/catch.hpp"
 
 #include "daemon/store/store.hpp"
 #include "protocol/record/archive_reader.hpp"

@@ -147,8 +147,8 @@ TEST_CASE_METHOD(Rig, "station metadata are replaced only when they say somethin
     station.serial_number = "00000043";
     CHECK_FALSE(describe_station(files, root, station));
     const auto extended = text::read_text_file(file);
-    CHECK_THAT(extended, Catch::Contains("<SerialNumber>00000042<"));
-    CHECK_THAT(extended, Catch::Contains("<SerialNumber>00000043<"));
+    CHECK_THAT(extended, ContainsSubstring("<SerialNumber>00000042<"));
+    CHECK_THAT(extended, ContainsSubstring("<SerialNumber>00000043<"));
 }
 
 TEST_CASE_METHOD(Rig, "station metadata that are damaged are kept aside and written anew",
@@ -167,7 +167,7 @@ TEST_CASE_METHOD(Rig, "station metadata that are damaged are kept aside and writ
         write(whole.substr(0, size));
         const auto trouble = describe_station(files, root, station);
         REQUIRE(trouble);
-        CHECK_THAT(*trouble, Catch::Contains("station.xml: "));
+        CHECK_THAT(*trouble, ContainsSubstring("station.xml: "));
         CHECK(text::read_text_file(file) == whole);
     }
     CHECK(text::read_text_file(root / "metadata" / "station.xml.damaged").empty());

@@ -1,6 +1,6 @@
 #include "corrector/day/day_model.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/day/made_up_day.hpp"
 

@@ -1,9 +1,9 @@
 #include "corrector/day/day_noise.hpp"
 
 #include <Eigen/Cholesky>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/day/made_up_day.hpp"
 

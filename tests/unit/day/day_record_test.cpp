@@ -1,9 +1,9 @@
 #include "corrector/day/day_record.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
+#include "tests/support/catch.hpp"
 
 using namespace a351;
 using namespace a351::corrector;

@@ -1,7 +1,7 @@
 /// @file
 /// Sifting allocates nothing.  A program of its own, for it replaces operator new.
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "tests/support/counted_allocations.hpp"
 #include "tests/unit/eemd/series.hpp"

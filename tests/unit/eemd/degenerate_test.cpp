@@ -1,5 +1,5 @@
-#include <catch2/catch.hpp>
 #include <limits>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/eemd/series.hpp"
 
@@ -126,7 +126,7 @@ TEST_CASE("a sample that is no number, or too large for noise on top, is refused
         std::vector<double> signal = white_noise(32, 1);
         signal[17] = bad;
         CHECK_THROWS_AS(eemd(signal), std::invalid_argument);
-        CHECK_THROWS_WITH(eemd(signal), Catch::Contains("signal[17]"));
+        CHECK_THROWS_WITH(eemd(signal), ContainsSubstring("signal[17]"));
     }
 }
 

@@ -1,6 +1,6 @@
 #include "corrector/eemd/eemd.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/eemd/series.hpp"
 
@@ -252,7 +252,7 @@ TEST_CASE("progress counts up to all members, and saying no cancels") {
 TEST_CASE("an option outside its range is refused by name") {
     const std::vector<double> signal(16, 1.0);
     const auto refused = [&](EemdOptions options, const std::string& name) {
-        CHECK_THROWS_WITH(eemd(signal, options), Catch::Contains(name));
+        CHECK_THROWS_WITH(eemd(signal, options), ContainsSubstring(name));
         CHECK_THROWS_AS(eemd(signal, options), std::invalid_argument);
     };
     EemdOptions options;

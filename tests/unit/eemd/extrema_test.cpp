@@ -1,6 +1,6 @@
 #include "corrector/eemd/extrema.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "corrector/eemd/knots.hpp"
 #include "corrector/eemd/sift_kernels.hpp"

@@ -2,8 +2,8 @@
 /// What decompositions of noise, tones and bursts must show, with the sources of the figures.
 
 #include <array>
-#include <catch2/catch.hpp>
 #include <utility>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/eemd/series.hpp"
 

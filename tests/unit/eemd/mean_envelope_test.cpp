@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "corrector/eemd/sift_kernels.hpp"
 #include "tests/unit/eemd/series.hpp"
@@ -127,15 +127,20 @@ public:
     [[nodiscard]] double operator()(double t) const {
         const auto after = std::upper_bound(x_.begin() + 1, x_.end() - 1, t);
         const auto k = static_cast<std::size_t>(after - x_.begin()) - 1;
-        const long double d = t - x_[k];
+        const auto d = static_cast<long double>(t - x_[k]);
         const long double third = (c_[k + 1] - c_[k]) / (3.0L * h(k));
         const long double first = slope(k) - h(k) * (c_[k + 1] + 2.0L * c_[k]) / 3.0L;
-        return static_cast<double>(y_[k] + d * (first + d * (c_[k] + d * third)));
+        return static_cast<double>(static_cast<long double>(y_[k]) +
+                                   d * (first + d * (c_[k] + d * third)));
     }
 
 private:
-    [[nodiscard]] long double h(std::size_t k) const { return x_[k + 1] - x_[k]; }
-    [[nodiscard]] long double slope(std::size_t k) const { return (y_[k + 1] - y_[k]) / h(k); }
+    [[nodiscard]] long double h(std::size_t k) const {
+        return static_cast<long double>(x_[k + 1] - x_[k]);
+    }
+    [[nodiscard]] long double slope(std::size_t k) const {
+        return static_cast<long double>(y_[k + 1] - y_[k]) / h(k);
+    }
 
     std::vector<double> x_, y_;
     std::vector<long double> c_;

@@ -1,6 +1,6 @@
 #include "corrector/eemd/noise.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/eemd/series.hpp"
 

@@ -2,10 +2,10 @@
 /// Agreement with the tables of tests/golden/emd, whose README says how they were made and how far
 /// two builds of their producer differ; ten times that is allowed here.
 
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include "tests/support/catch.hpp"
 
 #include "protocol/text/text_file.hpp"
 #include "tests/unit/eemd/series.hpp"

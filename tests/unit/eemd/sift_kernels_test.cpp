@@ -4,7 +4,7 @@
 #include "corrector/eemd/sift_kernels.hpp"
 
 #include <bit>
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "corrector/eemd/emd.hpp"
 #include "corrector/eemd/ensemble.hpp"

@@ -1,10 +1,10 @@
 #include "corrector/export/utc_grid.hpp"
 
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include "tests/support/catch.hpp"
 
 namespace a351::corrector {
 namespace {

@@ -1,6 +1,6 @@
 /// A calibration applied to simulated records, and its statistics on known series.
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 #include "corrector/fixed_point/apply_calibration.hpp"
 #include "tests/unit/fixed_point/simulated_record.hpp"

@@ -1,7 +1,7 @@
 #include "corrector/fixed_point/archive_record.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 #include "corrector/fixed_point/record_segments.hpp"
 #include "protocol/core/input_error.hpp"
@@ -94,7 +94,8 @@ TEST_CASE("a new epoch of the same sensor and scales divides nothing", "[fixed_p
     CHECK(record.stretches[0].size() == 60);
     CHECK(record.stretches[0].serial_number == "X0000001");
     CHECK(record.warnings.empty());
-    CHECK(middle_mgal(record.stretches[0]) == Approx(980665.0).epsilon(0.0).margin(0.2));  // the tide
+    CHECK(middle_mgal(record.stretches[0]) ==
+          Approx(980665.0).epsilon(0.0).margin(0.2));  // the tide
 }
 
 TEST_CASE("another sensor begins a new stretch, with a warning", "[fixed_point][archive]") {
@@ -112,7 +113,7 @@ TEST_CASE("another sensor begins a new stretch, with a warning", "[fixed_point][
     CHECK(record.stretches[1].times.front() == kStart + from_seconds(kHalf_s));
     REQUIRE(record.warnings.size() == 1);
     CHECK_THAT(record.warnings[0],
-               Catch::StartsWith("from 2026-03-01T12:10:00") && Catch::Contains("another sensor"));
+               StartsWith("from 2026-03-01T12:10:00") && ContainsSubstring("another sensor"));
     SegmentOptions options;
     options.shortest = 10;
     options.stuck = 1000;

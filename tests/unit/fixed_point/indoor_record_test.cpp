@@ -1,8 +1,8 @@
 /// Simulated nights indoors analysed by the product: the publication's statistics (Matsuda et al.,
 /// tests/golden/tsukuba/README.md), as means over seeds.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
+#include "tests/support/catch.hpp"
 
 #include "corrector/fixed_point/record_result.hpp"
 #include "tests/support/published_ranges.hpp"
@@ -45,7 +45,7 @@ TEST_CASE("two peaks of one narrow band are read as one response", "[fixed_point
     CHECK(phase_of_peaks_deg(pair) == Approx(76.0).margin(0.5));
     CHECK(rate_coefficient(pair) == Approx(9.9).margin(0.1));
     CHECK_THAT(causal_reading(pair),
-               Catch::Contains("rate of change") && Catch::Contains("before the thermometer"));
+               ContainsSubstring("rate of change") && ContainsSubstring("before the thermometer"));
 }
 
 TEST_CASE("a record shorter than eight cycles is not analysed", "[fixed_point]") {
@@ -64,6 +64,6 @@ TEST_CASE("a record without a cycle is not read as if it had one", "[fixed_point
     RecordAnalysisOptions options;
     options.ensemble_size = 4;
     CHECK_THAT(analyse_record(segment, kRecordStep_s, options).reading,
-               Catch::StartsWith("In the band of 900 s this record shows no response") &&
-                   Catch::Contains("needed: "));
+               StartsWith("In the band of 900 s this record shows no response") &&
+                   ContainsSubstring("needed: "));
 }

@@ -2,8 +2,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 #include "corrector/fixed_point/record_calibration.hpp"
 #include "tests/support/two_path_truth.hpp"
@@ -140,7 +140,7 @@ TEST_CASE("a record at constant temperature calibrates nothing, and says what wo
         segment.temperature_degc[i] = 42.5 + 0.0015 * std::sin(0.7 * static_cast<double>(i * i));
     const std::string lack =
         lacks_response(segment.temperature_degc, segment.acceleration_mgal, kRecordStep_s);
-    CHECK_THAT(lack, Catch::Contains("no response") && Catch::Contains("needed: "));
+    CHECK_THAT(lack, ContainsSubstring("no response") && ContainsSubstring("needed: "));
     segment = simulated_segment("indoor", 705);
     CHECK(lacks_response(segment.temperature_degc, segment.acceleration_mgal, kRecordStep_s) == "");
 }
@@ -178,10 +178,10 @@ TEST_CASE("a warm-up that the record does not show is refused in words",
           "[fixed_point][calibrate]") {
     const WarmUpReading small = warm_up_guidance(warm_up_fit(5.0, 4.0, 2.5, 0.1), 0, 12, 1.0);
     CHECK_FALSE(small.guidance);
-    CHECK_THAT(small.words, Catch::Contains("switched on"));
+    CHECK_THAT(small.words, ContainsSubstring("switched on"));
     const WarmUpReading cut = warm_up_guidance(warm_up_fit(36.0, 1.0, 2.5, 0.1), 0, 6.0, 1.0);
     CHECK_FALSE(cut.guidance);
-    CHECK_THAT(cut.words, Catch::Contains("ends before"));
+    CHECK_THAT(cut.words, ContainsSubstring("ends before"));
     TwoPathFit open = warm_up_fit(36.0, 1.0, 2.5, 0.1);
     open.parameters.at(static_cast<std::size_t>(TwoPathTerm::warm_up_time)).is_determined = false;
     CHECK_FALSE(warm_up_guidance(open, 0, 12, 1.0).guidance);

@@ -1,8 +1,8 @@
 #include <sys/stat.h>
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
+#include "tests/support/catch.hpp"
 
 #include "corrector/fixed_point/csv_record.hpp"
 #include "corrector/fixed_point/stretch_builder.hpp"
@@ -113,7 +113,7 @@ TEST_CASE("what no record can be is named with its line", "[fixed_point][reading
     const ScratchFolder folder;
     const auto refused = [&](const std::string& text, const std::string& message) {
         const auto file = folder.write("r.csv", text);
-        CHECK_THROWS_WITH(read_csv_record(file, {}, kSilent), Catch::Contains(message));
+        CHECK_THROWS_WITH(read_csv_record(file, {}, kSilent), ContainsSubstring(message));
     };
     refused(kHeader + rows(3.0, 0, 50), "a row every 3 s; allowed: every 0.02, 0.2, 2 or 20 s");
     refused(kHeader + rows(20.0, 0, 5) + rows(20.0, 2, 9), "r.csv:7: time_utc");
@@ -130,5 +130,5 @@ TEST_CASE("what no record can be is named with its line", "[fixed_point][reading
             "a row every 10 s");
     const auto fifo = folder.path() / "fifo";
     REQUIRE(::mkfifo(fifo.c_str(), S_IRUSR | S_IWUSR) == 0);
-    CHECK_THROWS_WITH(read_csv_record(fifo, {}, kSilent), Catch::Contains("is no regular file"));
+    CHECK_THROWS_WITH(read_csv_record(fifo, {}, kSilent), ContainsSubstring("is no regular file"));
 }

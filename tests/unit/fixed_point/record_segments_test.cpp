@@ -1,6 +1,6 @@
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/fixed_point/simulated_record.hpp"
 
@@ -61,8 +61,7 @@ TEST_CASE("a step of the acceleration divides where it is", "[fixed_point][segme
     const RecordSegments parts = divide_record(record);
     REQUIRE(parts.segments.size() == 2);
     CHECK(parts.segments[0].size() == 900);
-    CHECK_THAT(parts.segments[1].begins_with,
-               Catch::StartsWith("step of ") && Catch::EndsWith(" mGal"));
+    CHECK_THAT(parts.segments[1].begins_with, StartsWith("step of ") && EndsWith(" mGal"));
 }
 
 TEST_CASE("a power cycle is a restart, told by the temperature across the gap",
@@ -75,7 +74,7 @@ TEST_CASE("a power cycle is a restart, told by the temperature across the gap",
     const RecordSegments parts = divide_record(record);
     REQUIRE(parts.segments.size() == 2);
     CHECK(parts.segments[1].is_restart);
-    CHECK_THAT(parts.segments[1].begins_with, Catch::EndsWith("a restart"));
+    CHECK_THAT(parts.segments[1].begins_with, EndsWith("a restart"));
 }
 
 TEST_CASE("a stuck temperature is refused with its value, and a rest too short too",
@@ -88,7 +87,7 @@ TEST_CASE("a stuck temperature is refused with its value, and a rest too short t
     REQUIRE(parts.refused.size() == 2);
     CHECK(parts.refused[0].reason == "the temperature is stuck at 42.5000 degC");
     CHECK_THAT(parts.refused[1].reason,
-               Catch::StartsWith("too short: 0.89 h") && Catch::Contains("the sensor goes on"));
+               StartsWith("too short: 0.89 h") && ContainsSubstring("the sensor goes on"));
 }
 
 TEST_CASE("a record without a single sample is no segment", "[fixed_point][segments]") {

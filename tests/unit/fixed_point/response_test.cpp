@@ -1,8 +1,8 @@
 /// Gain and phase by period against the plant's transfer function.
-#include <catch2/catch.hpp>
 #include <complex>
 #include <numbers>
 #include <random>
+#include "tests/support/catch.hpp"
 
 #include "corrector/fixed_point/record_analysis.hpp"
 #include "sim/scenario/survey_plan.hpp"

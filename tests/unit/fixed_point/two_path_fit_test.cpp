@@ -1,8 +1,8 @@
 /// The two-path fit against the parameters of units drawn about the scenarios'.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 #include <random>
+#include "tests/support/catch.hpp"
 
 #include "tests/support/two_path_truth.hpp"
 #include "tests/unit/fixed_point/simulated_record.hpp"

@@ -1,13 +1,13 @@
 #include "daemon/live/archived_past.hpp"
 
-#include <catch2/catch.hpp>
 #include <span>
 #include <string>
+#include "tests/support/catch.hpp"
 
 #include "protocol/record/archive_writer.hpp"
 #include "protocol/record/miniseed.hpp"
-#include "tests/unit/live/live_samples.hpp"
 #include "tests/unit/daemon/temporary_directory.hpp"
+#include "tests/unit/live/live_samples.hpp"
 
 namespace a351::daemon {
 namespace {

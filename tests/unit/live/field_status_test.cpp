@@ -1,6 +1,6 @@
 #include "daemon/survey/field_status.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/daemon/fake_recorder.hpp"
 #include "tests/unit/live/live_samples.hpp"

@@ -1,6 +1,6 @@
 #include "daemon/live/history.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/live/live_samples.hpp"
 
@@ -13,7 +13,8 @@ void take(History& history, double at_s, float value) {
 
 TEST_CASE("envelopes hold least and largest of two seconds", "[live][history]") {
     History history;
-    for (const float value : {3.0F, 1.0F, 2.0F}) take(history, 0.5 * static_cast<double>(value), value);
+    for (const float value : {3.0F, 1.0F, 2.0F})
+        take(history, 0.5 * static_cast<double>(value), value);
     take(history, 2.0, 7.0F);
     const auto found = history.envelopes(LiveChannel::y, kZero, after(10.0), 100);
     REQUIRE(found.size() == 2);

@@ -1,8 +1,8 @@
 #include "daemon/live/live_record.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include "tests/support/catch.hpp"
 
 #include "corrector/signal/decimation.hpp"
 #include "tests/unit/live/live_samples.hpp"

@@ -1,7 +1,7 @@
 #include "protocol/oven/controller_values.hpp"
 
 #include <array>
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 namespace a351::oven {
 namespace {

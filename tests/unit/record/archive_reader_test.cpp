@@ -1,7 +1,7 @@
 #include "protocol/record/archive_reader.hpp"
 
-#include <catch2/catch.hpp>
 #include <numeric>
+#include "tests/support/catch.hpp"
 
 #include "protocol/record/miniseed.hpp"
 #include "protocol/record/sds.hpp"
@@ -95,7 +95,7 @@ TEST_CASE("a change of rate begins a segment", "[record][archive_reader]") {
     archive.add(kStart + 100 * kStep, 100, "BNZ", 50.0005);
     const auto data = archive.read();
     REQUIRE(data.segments.size() == 2);
-    CHECK(data.segments[1].rate_hz == double{50.0005F});
+    CHECK(data.segments[1].rate_hz == static_cast<double>(50.0005F));
 }
 
 TEST_CASE("segments go on over midnight", "[record][archive_reader]") {

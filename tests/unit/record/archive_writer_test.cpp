@@ -1,6 +1,6 @@
 #include "protocol/record/archive_writer.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/record/data_root.hpp"
 

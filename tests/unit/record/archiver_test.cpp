@@ -1,7 +1,7 @@
 #include "protocol/record/archiver.hpp"
 
-#include <catch2/catch.hpp>
 #include <utility>
+#include "tests/support/catch.hpp"
 
 #include "protocol/record/channel_code.hpp"
 #include "tests/unit/record/collector.hpp"

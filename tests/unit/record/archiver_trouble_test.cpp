@@ -1,4 +1,4 @@
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/record/archiver.hpp"

@@ -1,9 +1,9 @@
 #include "protocol/record/event_log.hpp"
 
-#include <catch2/catch.hpp>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/record/file_bytes.hpp"
 #include "tests/unit/record/temporary_directory.hpp"

@@ -1,7 +1,7 @@
 #include "protocol/record/file_layer.hpp"
 
-#include <catch2/catch.hpp>
 #include <system_error>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/record/failing_files.hpp"
 #include "tests/unit/record/file_bytes.hpp"
@@ -42,13 +42,13 @@ TEST_CASE("directories are made with all that is missing above them", "[record][
 TEST_CASE("a failure names operation and path", "[record][file_layer]") {
     const test::TemporaryDirectory directory;
     const auto absent = directory.path() / "absent" / "file";
-    using Catch::Contains;
-    const auto names = Contains("absent/file");
+    const auto names = ContainsSubstring("absent/file");
     auto& files = posix_files();
-    CHECK_THROWS_WITH(files.open_append(absent), Contains("open") && names);
+    CHECK_THROWS_WITH(files.open_append(absent), ContainsSubstring("open") && names);
     CHECK_THROWS_WITH(files.truncate(absent, 0), names);
-    CHECK_THROWS_WITH(files.rename(absent, directory.path() / "x"), Contains("rename") && names);
-    CHECK_THROWS_WITH(files.remove(absent), Contains("remove") && names);
+    CHECK_THROWS_WITH(files.rename(absent, directory.path() / "x"),
+                      ContainsSubstring("rename") && names);
+    CHECK_THROWS_WITH(files.remove(absent), ContainsSubstring("remove") && names);
     CHECK_THROWS_AS(files.sync_directory(absent), std::system_error);
 }
 
@@ -58,7 +58,7 @@ TEST_CASE("a full disk is an error", "[record][file_layer]") {
         return;
     }
     const auto file = posix_files().open_append("/dev/full");
-    CHECK_THROWS_WITH(file->append(bytes_of("x")), Catch::Contains("append to /dev/full"));
+    CHECK_THROWS_WITH(file->append(bytes_of("x")), ContainsSubstring("append to /dev/full"));
 }
 
 TEST_CASE("truncate keeps the front", "[record][file_layer]") {

@@ -1,8 +1,8 @@
 #include "protocol/record/journal_codec.hpp"
 
-#include <catch2/catch.hpp>
 #include <functional>
 #include <vector>
+#include "tests/support/catch.hpp"
 
 #include "protocol/record/journal_header_json.hpp"
 #include "tests/unit/record/journal_samples.hpp"

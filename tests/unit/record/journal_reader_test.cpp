@@ -1,8 +1,8 @@
 #include "protocol/record/journal_reader.hpp"
 
-#include <catch2/catch.hpp>
 #include <random>
 #include <system_error>
+#include "tests/support/catch.hpp"
 
 #include "protocol/record/journal_codec.hpp"
 #include "protocol/record/journal_compression.hpp"

@@ -1,8 +1,8 @@
 #include "protocol/record/journal_writer.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <system_error>
+#include "tests/support/catch.hpp"
 
 #include "protocol/record/journal_reader.hpp"
 #include "tests/unit/record/failing_files.hpp"

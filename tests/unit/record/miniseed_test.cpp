@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <catch2/catch.hpp>
 #include <limits>
 #include <random>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/record/file_bytes.hpp"
 
@@ -88,7 +88,7 @@ TEST_CASE("a record gives back its samples and header", "[record][miniseed]") {
     CHECK(decoded->header.nominal_rate == Hertz(50.0));
     CHECK(decoded->header.timing_quality_percent == 80);
     CHECK(decoded->header.declared_rate_hz.has_value() == has_declared_rate);
-    CHECK(decoded->rate_hz() == (has_declared_rate ? double{50.000996F} : 50.0));
+    CHECK(decoded->rate_hz() == (has_declared_rate ? static_cast<double>(50.000996F) : 50.0));
     CHECK(std::equal(decoded->samples.begin(), decoded->samples.end(), samples.begin()));
 }
 

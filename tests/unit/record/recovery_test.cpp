@@ -1,6 +1,6 @@
 #include "protocol/record/recovery.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/record/collector.hpp"
 #include "tests/unit/record/data_root.hpp"

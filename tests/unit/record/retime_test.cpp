@@ -1,7 +1,7 @@
 #include "protocol/record/retime.hpp"
 
-#include <catch2/catch.hpp>
 #include <random>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/record/event_log.hpp"

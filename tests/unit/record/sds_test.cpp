@@ -1,8 +1,8 @@
 #include "protocol/record/sds.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <system_error>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/record/failing_files.hpp"
 #include "tests/unit/record/file_bytes.hpp"

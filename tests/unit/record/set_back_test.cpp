@@ -1,7 +1,7 @@
 // A clock that is set back within a session makes times come twice: in the archive, and in its replay.
 
 #include <algorithm>
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/record/data_root.hpp"
 

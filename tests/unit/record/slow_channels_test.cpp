@@ -1,8 +1,8 @@
 #include "protocol/record/slow_channels.hpp"
 
-#include <catch2/catch.hpp>
 #include <random>
 #include <set>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/record/collector.hpp"
 

@@ -1,6 +1,6 @@
 // How metadata grow when sensor or settings change: extend_station_xml().
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/record/station_files.hpp"

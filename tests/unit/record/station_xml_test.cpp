@@ -1,6 +1,6 @@
 #include "protocol/record/station_xml.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/record/station_files.hpp"
@@ -45,7 +45,8 @@ TEST_CASE("scales come back from the metadata", "[record][station_xml]") {
 
 TEST_CASE("the sensitivity has all digits of 2^24 / 9.80665", "[record][station_xml]") {
     // 1710799.916383270536 by long division; the nearest double in its shortest form.
-    CHECK_THAT(to_station_xml(description()), Catch::Contains("<Value>1710799.9163832706</Value>"));
+    CHECK_THAT(to_station_xml(description()),
+               ContainsSubstring("<Value>1710799.9163832706</Value>"));
 }
 
 TEST_CASE("an oven adds its channels", "[record][station_xml]") {
@@ -64,18 +65,18 @@ TEST_CASE("an oven adds its channels", "[record][station_xml]") {
 TEST_CASE("the oven's channels have the rate of their samples", "[record][station_xml]") {
     auto station = description();
     station.has_oven = true;
-    CHECK_THAT(to_station_xml(station), !Catch::Contains("<SampleRate>0.1<"));
+    CHECK_THAT(to_station_xml(station), !ContainsSubstring("<SampleRate>0.1<"));
     station.oven_interval = std::chrono::seconds(10);
     const auto text = to_station_xml(station);
     std::size_t seen = 0;
     for (auto at = text.find("<SampleRate>0.1<"); at != std::string::npos; ++seen)
         at = text.find("<SampleRate>0.1<", at + 1);
     CHECK(seen == 3);
-    CHECK_THAT(text, Catch::Contains("<Frequency>0.01<"));  // below half the rate
+    CHECK_THAT(text, ContainsSubstring("<Frequency>0.01<"));  // below half the rate
 }
 
 TEST_CASE("the clock's drift is that of the declared rate", "[record][station_xml]") {
-    CHECK_THAT(to_station_xml(description()), !Catch::Contains("ClockDrift"));
+    CHECK_THAT(to_station_xml(description()), !ContainsSubstring("ClockDrift"));
     auto station = description();
     station.declared_rate_hz = 50.001;
     const auto text = to_station_xml(station);
@@ -102,11 +103,11 @@ TEST_CASE("the metadata say what a reader has to know", "[record][station_xml]")
           "<SampleRate>50</SampleRate>", "<Dip>-90</Dip>", "<Azimuth>90</Azimuth>",
           "orientation not surveyed", "<Longitude>140.087</Longitude>",
           "startDate=\"2026-03-01T12:00:00.000000Z\"", "axis y; x, y, z are 1, 2, Z"}) {
-        CHECK_THAT(text, Catch::Contains(part));
+        CHECK_THAT(text, ContainsSubstring(part));
     }
     auto station = description();
     station.is_profile_verified = true;
-    CHECK_THAT(to_station_xml(station), Catch::Contains("device profile A351 (verified)"));
+    CHECK_THAT(to_station_xml(station), ContainsSubstring("device profile A351 (verified)"));
 }
 
 TEST_CASE("the same description gives the same bytes", "[record][station_xml]") {
@@ -117,7 +118,7 @@ TEST_CASE("a serial number that is no text still gives XML", "[record][station_x
     auto station = description();
     station.serial_number = "\x01\xFF<&\"";
     const auto text = to_station_xml(station);
-    CHECK_THAT(text, Catch::Contains("<SerialNumber>??&lt;&amp;\"</SerialNumber>"));
+    CHECK_THAT(text, ContainsSubstring("<SerialNumber>??&lt;&amp;\"</SerialNumber>"));
     CHECK_NOTHROW(File(text).read());
 }
 
@@ -139,7 +140,7 @@ TEST_CASE("metadata that cannot be used are refused with the file's name",
         replaced(whole, "<Coefficient number=\"1\">34.987</Coefficient>", ""));
     const File file(text);
     CHECK_THROWS_AS(file.read(), InputError);
-    CHECK_THROWS_WITH(file.read(), Catch::Contains("station.xml: "));
+    CHECK_THROWS_WITH(file.read(), ContainsSubstring("station.xml: "));
 }
 
 TEST_CASE("a missing file is an input error", "[record][station_xml]") {

@@ -1,6 +1,6 @@
 #include "protocol/record/stream_end.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/record/journal_reader.hpp"
 #include "tests/unit/record/data_root.hpp"

@@ -1,6 +1,6 @@
 #include "corrector/report/drawing.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "corrector/report/escaping.hpp"
 #include "corrector/report/program_run.hpp"
@@ -78,8 +78,8 @@ TEST_CASE("a bad figure costs no other, and its trouble is told", "[report][draw
     CHECK(drawing.pictures[1].first == "two.svg");
     REQUIRE(drawing.troubles.size() == 1);
     CHECK_THAT(drawing.troubles.front(),
-               Catch::StartsWith("bad.svg: gnuplot ended with status 1: \"bad.gp\" line ") &&
-                   Catch::EndsWith("No data in plot"));
+               StartsWith("bad.svg: gnuplot ended with status 1: \"bad.gp\" line ") &&
+                   EndsWith("No data in plot"));
 }
 
 TEST_CASE("a name from outside is drawn as it is and runs nothing", "[report][drawing]") {
@@ -95,7 +95,7 @@ TEST_CASE("a name from outside is drawn as it is and runs nothing", "[report][dr
              {});
     REQUIRE(drawing.pictures.size() == 1);
     CHECK_THAT(drawing.pictures.front().second,
-               Catch::Contains("`touch ") && Catch::Contains("@a {/x} ^2 \\n %s"));
+               ContainsSubstring("`touch ") && ContainsSubstring("@a {/x} ^2 \\n %s"));
     CHECK_FALSE(std::filesystem::exists(trap));
 }
 

@@ -1,6 +1,6 @@
 #include "corrector/report/escaping.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 using namespace a351::corrector;
 

@@ -1,6 +1,6 @@
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <regex>
+#include "tests/support/catch.hpp"
 
 #include "corrector/report/map_figure.hpp"
 #include "corrector/report/record_figures.hpp"
@@ -80,10 +80,10 @@ TEST_CASE("the published figures 12 and 13 have the published lines", "[report][
     const SurveyCorrection result = corrected(tsukuba::observations());
     // Printed there: 0.97348 x + 27825, R2 0.9748; -29.27 x + 3085, R2 0.926.
     CHECK_THAT(acceleration_figure(result).value().script,
-               Catch::Contains("'y = 0.9735 x + 27825.7, R² = 0.9748'") &&
-                   Catch::Contains("left out of the fit"));
+               ContainsSubstring("'y = 0.9735 x + 27825.7, R² = 0.9748'") &&
+                   ContainsSubstring("left out of the fit"));
     CHECK_THAT(difference_figure(result).value().script,
-               Catch::Contains("'y = -29.2309 x + 3083.3, R² = 0.9257'"));
+               ContainsSubstring("'y = -29.2309 x + 3083.3, R² = 0.9257'"));
 }
 
 TEST_CASE("every row is in a block of its kind, and an empty block is not plotted",
@@ -118,11 +118,11 @@ TEST_CASE("the axis of time names each stay once, and the date where the hour do
     CHECK(count(script, "'B (1)'") == 1);
     CHECK(count(script, "'B (2)'") == 1);
     CHECK_THAT(script,
-               Catch::Contains("set format x '%H:%M'") && Catch::Contains("'UTC, 2020-05-01'"));
+               ContainsSubstring("set format x '%H:%M'") && ContainsSubstring("'UTC, 2020-05-01'"));
     rows.back().time += std::chrono::days(2);
     script = residual_figure(corrected(rows)).value().script;
-    CHECK_THAT(script,
-               Catch::Contains("%m-%d\"") && Catch::Contains("'UTC, 2020-05-01 to 2020-05-03'"));
+    CHECK_THAT(script, ContainsSubstring("%m-%d\"") &&
+                           ContainsSubstring("'UTC, 2020-05-01 to 2020-05-03'"));
 }
 
 TEST_CASE("a record belongs to the row whose interval it has", "[report][figures]") {
@@ -156,8 +156,8 @@ TEST_CASE("a record belongs to the row that averages more of it", "[report][figu
     REQUIRE(records.size() == 1);
     CHECK(records.front().value == &values[1]);
     CHECK_THAT(reading_figures(result, records).at(0).caption,
-               Catch::Contains("the model day averages 280 s of it to 981702.125 mGal"));
-    CHECK_THAT(panel_figures(result, records).at(0).script, Catch::Contains("mean 981702.1"));
+               ContainsSubstring("the model day averages 280 s of it to 981702.125 mGal"));
+    CHECK_THAT(panel_figures(result, records).at(0).script, ContainsSubstring("mean 981702.1"));
 }
 
 TEST_CASE("labels of panels above each other do not touch", "[report][figures]") {
@@ -168,8 +168,8 @@ TEST_CASE("labels of panels above each other do not touch", "[report][figures]")
     result.rows[0].row.acceleration = MilliGal(981700.5 - 4.5);  // half a range of 6
     const auto records = find_records(result, values);
     const std::string script = panel_figures(result, records).at(0).script;
-    CHECK_THAT(script, Catch::Contains("set yrange [-6.00000:6.00000]") &&
-                           Catch::Contains("set ytics -4.00000,2.00000,4.00000"));
+    CHECK_THAT(script, ContainsSubstring("set yrange [-6.00000:6.00000]") &&
+                           ContainsSubstring("set ytics -4.00000,2.00000,4.00000"));
 }
 
 TEST_CASE("a reading's figure has its series, trend, extrema and interval", "[report][figures]") {
@@ -180,22 +180,22 @@ TEST_CASE("a reading's figure has its series, trend, extrema and interval", "[re
     const auto records = find_records(result, values);
     const Figure figure = reading_figures(result, records).at(0);
     CHECK(figure.name == "reading-01");
-    CHECK_THAT(figure.script, Catch::Contains("set title 'O\u2019Hara <3 (1)'"));
+    CHECK_THAT(figure.script, ContainsSubstring("set title 'O\u2019Hara <3 (1)'"));
     // The knock of 500 mGal does not stretch the axis.
-    CHECK_THAT(figure.script, Catch::Contains("set yrange [-1.100:1.100]"));
-    CHECK_THAT(figure.data, Catch::StartsWith("# minutes acceleration_mgal trend_mgal "
-                                              "temperature_degc\n0.0000 NaN NaN 42.50000 \n"));
-    CHECK_THAT(figure.data, Catch::Contains("\n0.0667 981700.000 981700.560 42.50020 \n"));
+    CHECK_THAT(figure.script, ContainsSubstring("set yrange [-1.100:1.100]"));
+    CHECK_THAT(figure.data, StartsWith("# minutes acceleration_mgal trend_mgal "
+                                       "temperature_degc\n0.0000 NaN NaN 42.50000 \n"));
+    CHECK_THAT(figure.data, ContainsSubstring("\n0.0667 981700.000 981700.560 42.50020 \n"));
     // sin(0.03 i) has its extrema at i = 52.4, 157.1 and 261.8.
     CHECK_THAT(figure.data,
-               Catch::Contains("trend_mgal\n1.7333 981701.500 \n5.2333 981699.500 \n8.7333 "));
-    CHECK_THAT(figure.data, Catch::Contains("interval: minutes trend_mgal\n0.0667 981700.560 \n"
-                                            "9.9667 "));
+               ContainsSubstring("trend_mgal\n1.7333 981701.500 \n5.2333 981699.500 \n8.7333 "));
+    CHECK_THAT(figure.data, ContainsSubstring("interval: minutes trend_mgal\n0.0667 981700.560 \n"
+                                              "9.9667 "));
 
     const auto panels = panel_figures(result, records);
     REQUIRE(panels.size() == 2);
-    CHECK_THAT(panels[0].script, Catch::Contains("plot 'reading-01.dat' index 0 using 1:($2-"));
-    CHECK_THAT(panels[1].script, Catch::Contains("plot 'reading-01.dat' index 0 using 1:($4-"));
+    CHECK_THAT(panels[0].script, ContainsSubstring("plot 'reading-01.dat' index 0 using 1:($2-"));
+    CHECK_THAT(panels[1].script, ContainsSubstring("plot 'reading-01.dat' index 0 using 1:($4-"));
     CHECK(panels[0].data.empty());
 }
 
@@ -208,8 +208,8 @@ TEST_CASE("the day's temperature breaks where it was not recorded", "[report][fi
         course.push_back({made_up::kMorning + std::chrono::minutes(minute), DegC(42.0 + minute)});
     }
     CHECK_THAT(temperature_figure(result, course).data,
-               Catch::Contains("00:01:00Z 43.0000 \n\n2020-05-01T00:05:00Z 47.0000 \n"));
-    CHECK_THAT(temperature_figure(result, {}).data, Catch::StartsWith("# readings"));
+               ContainsSubstring("00:01:00Z 43.0000 \n\n2020-05-01T00:05:00Z 47.0000 \n"));
+    CHECK_THAT(temperature_figure(result, {}).data, StartsWith("# readings"));
 }
 
 TEST_CASE("a degree of latitude is as long as one of longitude over its cosine",
@@ -233,8 +233,8 @@ TEST_CASE("a degree of latitude is as long as one of longitude over its cosine",
     CHECK(width_deg / (0.83 * 640) * 0.5 == Approx(height_deg / (0.87 * 560)).epsilon(1e-5));
     CHECK(std::stod(x[1]) < 10.0);
     CHECK(std::stod(x[2]) > 10.2);
-    CHECK_THAT(script, Catch::Contains("'A, 100 m'") && Catch::Contains("unknown gravity") &&
-                           Catch::Contains("set label '2 km'"));
+    CHECK_THAT(script, ContainsSubstring("'A, 100 m'") && ContainsSubstring("unknown gravity") &&
+                           ContainsSubstring("set label '2 km'"));
     CHECK(count(figure.value().data, "elsewhere") == 0);
     CHECK_FALSE(map_figure(result, {}).has_value());
 }
@@ -248,8 +248,8 @@ TEST_CASE("stations at one place still make a map", "[report][figures]") {
     }
     const Figure figure =
         map_figure(result, {site("A", 10.0, 45.0), site("B", 10.0, 45.0)}).value();
-    CHECK_THAT(figure.script, Catch::Contains("'A, 100 m'") && Catch::Contains("'B, 100 m'") &&
-                                  Catch::Contains("set label '20 m'"));
+    CHECK_THAT(figure.script, ContainsSubstring("'A, 100 m'") && ContainsSubstring("'B, 100 m'") &&
+                                  ContainsSubstring("set label '20 m'"));
 }
 
 TEST_CASE("a station without coordinates is on no map", "[report][figures]") {
@@ -263,8 +263,8 @@ TEST_CASE("a station without coordinates is on no map", "[report][figures]") {
     sites[1].is_placed = false;
     const auto figure = map_figure(result, sites);
     CHECK_THAT(figure.value().script,
-               Catch::Contains("'A, 100 m'") && !Catch::Contains("'B, 100 m'"));
-    CHECK_THAT(figure.value().caption, Catch::EndsWith("Without a position, and not on it: B."));
+               ContainsSubstring("'A, 100 m'") && !ContainsSubstring("'B, 100 m'"));
+    CHECK_THAT(figure.value().caption, EndsWith("Without a position, and not on it: B."));
     sites[0].is_placed = false;
     CHECK_FALSE(map_figure(result, sites));
 }

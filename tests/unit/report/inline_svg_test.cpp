@@ -1,6 +1,6 @@
 #include "corrector/report/inline_svg.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 using namespace a351::corrector;
 

@@ -1,8 +1,8 @@
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <random>
+#include "tests/support/catch.hpp"
 
 #include "corrector/report/long_record_page.hpp"
 
@@ -47,8 +47,8 @@ TEST_CASE("the page of a long record is well-formed and has the publication's fi
         CHECK(document.load_string(html.c_str()));
         // Raw and at 20 s, trend, modes, their scatter and correlation, all samples, response.
         CHECK(document.select_nodes("//*[local-name()='svg']").size() == (is_raw ? 8U : 7U));
-        CHECK_THAT(html, Catch::Contains("rate of change") && Catch::Contains("by spectrum") &&
-                             Catch::Contains("&lt;B&gt; is left out") &&
-                             !Catch::Contains("This figure is missing"));
+        CHECK_THAT(html, ContainsSubstring("rate of change") && ContainsSubstring("by spectrum") &&
+                             ContainsSubstring("&lt;B&gt; is left out") &&
+                             !ContainsSubstring("This figure is missing"));
     }
 }

@@ -1,7 +1,7 @@
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <set>
+#include "tests/support/catch.hpp"
 
 #include "corrector/report/html.hpp"
 #include "corrector/report/report.hpp"
@@ -60,7 +60,7 @@ void collect_ids(const pugi::xml_node& node, std::multiset<std::string>& ids) {
 TEST_CASE("the report is well-formed and stands alone, whatever names it is given",
           "[report][page]") {
     const Report made = report();
-    const std::string& html = file(made, "report.html");
+    const std::string html = file(made, "report.html");
     pugi::xml_document document;
     const pugi::xml_parse_result parsed = document.load_string(html.c_str());
     INFO(parsed.description());
@@ -73,10 +73,11 @@ TEST_CASE("the report is well-formed and stands alone, whatever names it is give
     std::multiset<std::string> ids;
     collect_ids(document, ids);
     CHECK(std::set<std::string>(ids.begin(), ids.end()).size() == ids.size());
-    CHECK_THAT(html, Catch::Contains("&lt;/td&gt;&lt;script&gt;") &&
-                         Catch::Contains("<td class=\"r\">00abcdef</td>") &&
-                         Catch::Contains("&lt;B&gt; is left out") &&
-                         Catch::Contains("<td>&lt;auto&gt;</td>") && !Catch::Contains("not twice"));
+    CHECK_THAT(html, ContainsSubstring("&lt;/td&gt;&lt;script&gt;") &&
+                         ContainsSubstring("<td class=\"r\">00abcdef</td>") &&
+                         ContainsSubstring("&lt;B&gt; is left out") &&
+                         ContainsSubstring("<td>&lt;auto&gt;</td>") &&
+                         !ContainsSubstring("not twice"));
 }
 
 TEST_CASE("the same survey gives the same report", "[report][page]") {
@@ -90,10 +91,10 @@ TEST_CASE("without gnuplot text, scripts and data are there and the report says 
     const Report made = report();
     const std::string reason = "figures are missing: gnuplot is not installed (not in PATH)";
     CHECK(made.warnings == std::vector<std::string>{reason});
-    const std::string& html = file(made, "report.html");
-    CHECK_THAT(html, Catch::Contains("<li>" + reason + "</li>") &&
-                         Catch::Contains("This figure is missing.") &&
-                         Catch::Contains("Repeated stations") && !Catch::Contains("<svg"));
+    const std::string html = file(made, "report.html");
+    CHECK_THAT(html, ContainsSubstring("<li>" + reason + "</li>") &&
+                         ContainsSubstring("This figure is missing.") &&
+                         ContainsSubstring("Repeated stations") && !ContainsSubstring("<svg"));
     CHECK_FALSE(file(made, "figures/residuals.gp").empty());
     CHECK_FALSE(file(made, "figures/residuals.dat").empty());
     for (const auto& [name, content] : made.files) CHECK_FALSE(name.ends_with(".svg"));
@@ -106,10 +107,10 @@ TEST_CASE("a gnuplot that fails is told once", "[report][page]") {
     const Report made = report();
     REQUIRE(made.warnings.size() == 1);
     CHECK_THAT(made.warnings.front(),
-               Catch::StartsWith("figures are missing: corrected.svg: gnuplot ended with status "
-                                 "2: no <terminal>; ") &&
-                   Catch::EndsWith(" more such"));
-    CHECK_THAT(file(made, "report.html"), Catch::Contains("no &lt;terminal&gt;"));
+               StartsWith("figures are missing: corrected.svg: gnuplot ended with status "
+                          "2: no <terminal>; ") &&
+                   EndsWith(" more such"));
+    CHECK_THAT(file(made, "report.html"), ContainsSubstring("no &lt;terminal&gt;"));
 }
 
 TEST_CASE("a table is as wide as its alignment and escapes its cells", "[report][page]") {

@@ -1,6 +1,6 @@
 #include "corrector/report/reading_grade.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "corrector/report/reading_name.hpp"
 
@@ -56,7 +56,7 @@ TEST_CASE("a temperature that moves means repeat, with a rate term care", "[repo
           "temperature not steady: rate -0.210 degC/h, which the model does not correct|");
     result.rows[0].rate_correction = MilliGal(5.25);
     CHECK(first_grade(result) == Grade::care);
-    CHECK_THAT(first_reasons(result), Catch::Contains("rests on a rate correction of 5.2 mGal"));
+    CHECK_THAT(first_reasons(result), ContainsSubstring("rests on a rate correction of 5.2 mGal"));
 }
 
 TEST_CASE("a temperature that goes one way counts from its range", "[report][grade]") {
@@ -123,7 +123,7 @@ TEST_CASE("a residual of more than two u means care, of three repeat", "[report]
     SurveyCorrection result = quiet(1);
     result.rows[0].residual = MilliGal(-4.1);
     CHECK(first_grade(result) == Grade::care);
-    CHECK_THAT(first_reasons(result), Catch::Contains("off its reference by -4.1 mGal"));
+    CHECK_THAT(first_reasons(result), ContainsSubstring("off its reference by -4.1 mGal"));
     result.rows[0].residual = MilliGal(6.1);
     CHECK(first_grade(result) == Grade::repeat);
     result.rows[0].residual.reset();
@@ -134,7 +134,7 @@ TEST_CASE("trends that disagree mean care", "[report][grade]") {
     SurveyCorrection result = quiet(1);
     result.rows[0].row.details = {{"smoother_minus_eemd_mgal", -0.51}};
     CHECK(first_grade(result) == Grade::care);
-    CHECK_THAT(first_reasons(result), Catch::Contains("differ by -0.51 mGal"));
+    CHECK_THAT(first_reasons(result), ContainsSubstring("differ by -0.51 mGal"));
     result.rows[0].row.details[0].value = 0.5;
     CHECK(first_grade(result) == Grade::trust);
 }

@@ -1,8 +1,8 @@
 #include "corrector/report/reading_table.hpp"
 
-#include <catch2/catch.hpp>
 #include <map>
 #include <pugixml.hpp>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/day/made_up_day.hpp"
 #include "tests/unit/survey/survey_rows.hpp"

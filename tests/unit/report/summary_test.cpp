@@ -1,6 +1,6 @@
 #include "corrector/report/summary.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/survey/survey_rows.hpp"
 
@@ -57,7 +57,7 @@ TEST_CASE("that nothing is to be repeated is said", "[report][summary]") {
     const std::vector<std::string> list = actions(result, all_good);
     REQUIRE(list.size() == 2);
     CHECK(list[0] == "Nothing is to be repeated.");
-    CHECK_THAT(list[1], Catch::StartsWith("Trust: "));
+    CHECK_THAT(list[1], StartsWith("Trust: "));
 }
 
 TEST_CASE("the limits name what nothing checks", "[report][summary]") {
@@ -65,11 +65,11 @@ TEST_CASE("the limits name what nothing checks", "[report][summary]") {
     rows[7].reference.reset();  // S6
     const std::vector<std::string> limits = limits_of(corrected(rows));
     REQUIRE(limits.size() == 2);
-    CHECK_THAT(limits[0], Catch::StartsWith("5 of 8 stations rest on one reading"));
-    CHECK_THAT(limits[1], Catch::EndsWith("nothing checks them: S6."));
+    CHECK_THAT(limits[0], StartsWith("5 of 8 stations rest on one reading"));
+    CHECK_THAT(limits[1], EndsWith("nothing checks them: S6."));
     rows[4].is_flagged = true;  // the second reading of the base
     CHECK_THAT(limits_of(corrected(rows)).front(),
-               Catch::StartsWith("The base B has 2 readings in the fit"));
+               StartsWith("The base B has 2 readings in the fit"));
 }
 
 TEST_CASE("the scatter is given with its own standard error", "[report][summary]") {
@@ -81,21 +81,21 @@ TEST_CASE("the scatter is given with its own standard error", "[report][summary]
     score.loso_mgal = 2.276;
     CHECK(standard_error_of_rms(score).value() == Approx(2.0084 / std::sqrt(28.0)));
     CHECK_THAT(honest_sentence(score),
-               Catch::StartsWith("n = 16: the scatter of 2.01 mGal (in sample) has itself a "
-                                 "standard error of about 0.38 mGal") &&
-                   Catch::EndsWith("2.28 mGal (cross-validated, leave-one-station-out)."));
+               StartsWith("n = 16: the scatter of 2.01 mGal (in sample) has itself a "
+                          "standard error of about 0.38 mGal") &&
+                   EndsWith("2.28 mGal (cross-validated, leave-one-station-out)."));
     score.dof = 0;
     CHECK_FALSE(standard_error_of_rms(score).has_value());
-    CHECK_THAT(honest_sentence(score), Catch::Contains("say nothing about accuracy"));
+    CHECK_THAT(honest_sentence(score), ContainsSubstring("say nothing about accuracy"));
 }
 
 TEST_CASE("the summary names the kind of every figure of accuracy", "[report][summary]") {
     const std::string html = summary_html(corrected(scattered_day()), {"a"}, {"figures <missing>"});
-    CHECK_THAT(html, Catch::Contains("<td>in sample</td>") &&
-                         Catch::Contains("<td>cross-validated (leave-one-out)</td>") &&
-                         Catch::Contains("<td>cross-validated (leave-one-station-out)</td>") &&
-                         Catch::Contains("Warnings about the input: 1,") &&
-                         Catch::Contains("figures &lt;missing&gt;"));
+    CHECK_THAT(html, ContainsSubstring("<td>in sample</td>") &&
+                         ContainsSubstring("<td>cross-validated (leave-one-out)</td>") &&
+                         ContainsSubstring("<td>cross-validated (leave-one-station-out)</td>") &&
+                         ContainsSubstring("Warnings about the input: 1,") &&
+                         ContainsSubstring("figures &lt;missing&gt;"));
 }
 
 TEST_CASE("a network's stations are no coefficients of its readings", "[report][summary]") {
@@ -106,10 +106,11 @@ TEST_CASE("a network's stations are no coefficients of its readings", "[report][
     CHECK(result.score.dof == 9);
     CHECK(standard_error_of_rms(result.score).value() ==
           Approx(*result.score.rms_mgal / std::sqrt(18.0)));
-    CHECK_THAT(honest_sentence(result.score), Catch::Contains("with 9 degrees of freedom"));
-    CHECK_THAT(summary_html(result, {}, {}),
-               Catch::Contains("12 readings in the fit, 11 unknowns, of which 8 stations (8 held), "
-                               "9 degrees of freedom."));
+    CHECK_THAT(honest_sentence(result.score), ContainsSubstring("with 9 degrees of freedom"));
+    CHECK_THAT(
+        summary_html(result, {}, {}),
+        ContainsSubstring("12 readings in the fit, 11 unknowns, of which 8 stations (8 held), "
+                          "9 degrees of freedom."));
 }
 
 TEST_CASE("a prior counts as a degree of freedom", "[report][summary]") {
@@ -126,8 +127,8 @@ TEST_CASE("the whole-day model's error is that of its prediction without the sta
     CorrectedRow& row = result.rows[0];
     row.row.notes = {"gap"};
     row.row.details = {{"left_out_mgal", row.row.reference->value() - 7.77}};
-    CHECK_THAT(summary_html(result, {}, {}), !Catch::Contains("7.77"));
+    CHECK_THAT(summary_html(result, {}, {}), !ContainsSubstring("7.77"));
     result.model = "day";
-    CHECK_THAT(summary_html(result, {}, {}), Catch::Contains("Error mGal (station left out)") &&
-                                                 Catch::Contains("<td class=\"r\">7.77</td>"));
+    CHECK_THAT(summary_html(result, {}, {}), ContainsSubstring("Error mGal (station left out)") &&
+                                                 ContainsSubstring("<td class=\"r\">7.77</td>"));
 }

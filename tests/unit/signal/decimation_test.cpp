@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include "tests/support/catch.hpp"
 
 namespace a351::corrector {
 namespace {

@@ -1,11 +1,11 @@
 #include "corrector/signal/decimator.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <random>
+#include "tests/support/catch.hpp"
 
 #include "corrector/eemd/noise.hpp"
 

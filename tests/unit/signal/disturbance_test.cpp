@@ -1,8 +1,8 @@
 #include "corrector/signal/disturbance.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 #include "corrector/eemd/noise.hpp"
 

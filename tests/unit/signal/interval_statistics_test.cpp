@@ -1,7 +1,7 @@
 #include "corrector/signal/interval_statistics.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/signal/record.hpp"
 

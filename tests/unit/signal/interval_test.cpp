@@ -1,8 +1,8 @@
 #include "corrector/signal/interval.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include "tests/support/catch.hpp"
 
 namespace a351::corrector {
 namespace {

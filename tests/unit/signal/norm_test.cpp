@@ -1,8 +1,8 @@
 #include "corrector/signal/norm.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/signal/record.hpp"
 

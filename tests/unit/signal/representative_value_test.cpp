@@ -1,8 +1,8 @@
 #include "corrector/signal/representative_value.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/signal/record.hpp"
 

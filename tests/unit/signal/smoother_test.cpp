@@ -2,10 +2,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include "tests/support/catch.hpp"
 
 #include "corrector/eemd/noise.hpp"
 
@@ -40,7 +40,8 @@ Matrix dense(const std::vector<double>& weights, double penalty) {
         differences(i, i + 2) = 1.0L;
     }
     Matrix a = static_cast<long double>(penalty) * differences.transpose() * differences;
-    for (Eigen::Index i = 0; i < n; ++i) a(i, i) += weights[static_cast<std::size_t>(i)];
+    for (Eigen::Index i = 0; i < n; ++i)
+        a(i, i) += static_cast<long double>(weights[static_cast<std::size_t>(i)]);
     return a;
 }
 
@@ -268,7 +269,7 @@ TEST_CASE("a period or a number of samples that means nothing is refused") {
     // Three samples far apart: the curve bends through them all and leaves less than 1e-6.
     std::vector<double> apart(161, kNan);
     for (const std::size_t i : {0U, 80U, 160U}) apart[i] = static_cast<double>(i % 3);
-    CHECK_THROWS_WITH(smooth(apart, 2.0), Catch::Contains("passes through all its samples"));
+    CHECK_THROWS_WITH(smooth(apart, 2.0), ContainsSubstring("passes through all its samples"));
     CHECK_THROWS_AS(PenalisedFit(std::vector<double>{0.0, 1.0, 0.0, 0.0}, 1.0),
                     std::invalid_argument);
 }

@@ -1,8 +1,8 @@
 #include "corrector/signal/trend_curve.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include "tests/support/catch.hpp"
 
 #include "corrector/eemd/noise.hpp"
 #include "corrector/signal/smoother.hpp"

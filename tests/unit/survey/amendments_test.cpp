@@ -1,7 +1,7 @@
 #include "corrector/survey/amendments.hpp"
 
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/survey/scratch_folder.hpp"
@@ -113,6 +113,6 @@ TEST_CASE("a bad amendment is refused with line, key and value", "[survey][amend
     }));
     CAPTURE(toml);
     auto windows = list();
-    CHECK_THROWS_WITH(amended(windows, toml), Catch::Contains(message));
+    CHECK_THROWS_WITH(amended(windows, toml), ContainsSubstring(message));
     CHECK_THROWS_AS(amended(windows, toml), InputError);
 }

@@ -1,7 +1,7 @@
 // A made-up morning written as miniSEED, StationXML and occupations, and corrected from there.
 #include "tests/unit/survey/morning.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "corrector/survey/occupation_rows.hpp"
 #include "protocol/core/input_error.hpp"

@@ -1,6 +1,6 @@
 // Least squares with the means of the horizontal axes.
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 #include "corrector/survey/survey_correction.hpp"
 #include "protocol/core/input_error.hpp"
@@ -76,6 +76,6 @@ TEST_CASE("a model with axes is not chosen by itself, and refused without their 
     rows[3].details.clear();
     CHECK_THROWS_WITH(
         correct_survey(rows, with_axes()),
-        Catch::Contains("model = t-rate-drift-axes: S3 (1) has no mean_x_g; allowed:"));
+        ContainsSubstring("model = t-rate-drift-axes: S3 (1) has no mean_x_g; allowed:"));
     CHECK_THROWS_AS(correct_survey(rows, with_axes()), InputError);
 }

@@ -1,9 +1,9 @@
 #include "corrector/survey/bootstrap.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
 #include <vector>
+#include "tests/support/catch.hpp"
 
 using namespace a351::corrector;
 

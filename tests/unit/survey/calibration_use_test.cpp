@@ -1,11 +1,11 @@
 #include "corrector/survey/calibration_use.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include "tests/support/catch.hpp"
 
 #include "corrector/survey/result_files.hpp"
 #include "protocol/core/input_error.hpp"
@@ -165,10 +165,10 @@ TEST_CASE("with a calibration one datum will do for the whole-day model", "[surv
     options.calibration->axis_bias.reset();
     options.calibration->warm_up.emplace();  // which says nothing of the day
     CHECK_THROWS_WITH(correct_with_calibration(rows, options, &day),
-                      Catch::Contains("needs at least 6 rows"));
+                      ContainsSubstring("needs at least 6 rows"));
     options.calibration.reset();
     CHECK_THROWS_WITH(correct_with_calibration(rows, options, &day),
-                      Catch::Contains("needs at least 6 rows"));
+                      ContainsSubstring("needs at least 6 rows"));
 }
 
 TEST_CASE("other models read what tilt has not changed", "[survey][calibration]") {

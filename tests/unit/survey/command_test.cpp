@@ -1,7 +1,7 @@
 // The program a351-correct as a script sees it: exit status, streams, files of a table.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/text/csv.hpp"
 #include "protocol/text/text_file.hpp"
@@ -55,9 +55,9 @@ TEST_CASE("table writes a report, the same bytes twice, in the formats asked for
     }
     CHECK(count == 7 + 6 * 5);  // six figures as .gp, .dat, .svg, .pdf and .png
     CHECK_THAT(text::read_text_file(folder.path() / "a/report.html"),
-               Catch::Contains("Gravity survey observations") &&
-                   Catch::Contains("n = 16: the scatter of 2.62 mGal (in sample)") &&
-                   Catch::Contains("<svg"));
+               ContainsSubstring("Gravity survey observations") &&
+                   ContainsSubstring("n = 16: the scatter of 2.62 mGal (in sample)") &&
+                   ContainsSubstring("<svg"));
 }
 
 TEST_CASE("without a gnuplot that works everything but figures is written", "[command]") {
@@ -74,14 +74,14 @@ TEST_CASE("without a gnuplot that works everything but figures is written", "[co
     }
     const Outcome outcome = run(folder, kTsukuba, "PATH=\"$PWD/bin\"");
     CHECK(outcome.status == 0);
-    CHECK_THAT(outcome.errors, Catch::StartsWith("a351-correct: ") && Catch::Contains(reason));
+    CHECK_THAT(outcome.errors, StartsWith("a351-correct: ") && ContainsSubstring(reason));
     CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
     for (const std::string name : {"occupations.csv", "result.json", "figures/residuals.gp"}) {
         CHECK(std::filesystem::exists(folder.path() / "result" / name));
     }
     CHECK_FALSE(std::filesystem::exists(folder.path() / "result/figures/residuals.svg"));
     CHECK_THAT(text::read_text_file(folder.path() / "result/report.html"),
-               Catch::Contains(reason) && Catch::Contains("Repeated stations"));
+               ContainsSubstring(reason) && ContainsSubstring("Repeated stations"));
 }
 
 TEST_CASE("the model paper prints its RMS before and after the drift step", "[command]") {
@@ -106,9 +106,9 @@ TEST_CASE("a network of one datum says how far it is off the references it does 
     CHECK(outcome.status == 0);
     CHECK_THAT(
         outcome.output,
-        Catch::Contains("known but not held: 12, off by 2.635 mGal rms (not in sample)") &&
-            Catch::Contains("(redundancy below 0.1), a blunder there cannot be found: No.12") &&
-            Catch::Contains("global test at 5 %") && Catch::Contains("dof = 2"));
+        ContainsSubstring("known but not held: 12, off by 2.635 mGal rms (not in sample)") &&
+            ContainsSubstring("(redundancy below 0.1), a blunder there cannot be found: No.12") &&
+            ContainsSubstring("global test at 5 %") && ContainsSubstring("dof = 2"));
     const auto json = nlohmann::json::parse(text::read_text_file(folder.path() / "a/result.json"));
     CHECK(json["network"]["dof"] == 2);
     CHECK(json["network"]["references_not_held"]["stations"] == 12);
@@ -116,8 +116,8 @@ TEST_CASE("a network of one datum says how far it is off the references it does 
     CHECK(json["models"].back()["dof"] == 4);  // 19 readings, a datum and a prior; 14 + 3 unknowns
     CHECK_THAT(
         text::read_text_file(folder.path() / "a/report.html"),
-        Catch::Contains("16 readings in the fit, 16 unknowns, of which 13 stations (1 held), "
-                        "2 degrees of freedom"));
+        ContainsSubstring("16 readings in the fit, 16 unknowns, of which 13 stations (1 held), "
+                          "2 degrees of freedom"));
     CHECK(run(folder, arguments + "--out b").status == 0);
     CHECK(text::read_text_file(folder.path() / "a/result.json") ==
           text::read_text_file(folder.path() / "b/result.json"));
@@ -209,7 +209,7 @@ TEST_CASE("bad usage ends with 2, one line on standard error and nothing written
     CAPTURE(arguments);
     const Outcome outcome = run(folder, arguments);
     CHECK(outcome.status == 2);
-    CHECK_THAT(outcome.errors, Catch::StartsWith("a351-correct: ") && Catch::Contains(message));
+    CHECK_THAT(outcome.errors, StartsWith("a351-correct: ") && ContainsSubstring(message));
     CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
     CHECK(outcome.output.empty());
     CHECK_FALSE(has_result(folder));
@@ -242,7 +242,7 @@ TEST_CASE("a tide from a file does what the model it was written by does", "[com
     folder.write("morning.csv", morning.substr(0, morning.find("2017-07-16T05")));
     const Outcome outcome = run(folder, kTsukuba + "--tide morning.csv");
     CHECK(outcome.status == 2);
-    CHECK_THAT(outcome.errors, Catch::Contains("morning.csv: time = 2017-07-16T05:"));
+    CHECK_THAT(outcome.errors, ContainsSubstring("morning.csv: time = 2017-07-16T05:"));
     CHECK_FALSE(has_result(folder));
 }
 
@@ -263,7 +263,7 @@ TEST_CASE("a result that has no place is refused, one that finds a full disk end
     folder.write("stdout.txt", "");
     const Outcome full = run(folder, tide + " > /dev/full 2> stderr.txt #");
     CHECK(full.status == 1);
-    CHECK_THAT(full.errors, Catch::StartsWith("a351-correct: standard output: cannot be written"));
+    CHECK_THAT(full.errors, StartsWith("a351-correct: standard output: cannot be written"));
 }
 
 TEST_CASE("help and version go to standard output and end with 0", "[command]") {

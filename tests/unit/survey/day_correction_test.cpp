@@ -1,6 +1,6 @@
 #include "corrector/survey/day_correction.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/day/made_up_day.hpp"
 
@@ -187,29 +187,31 @@ TEST_CASE("what keeps auto from the whole-day model is told", "[survey][day]") {
     const auto rows = rows_of(day);
     SurveyOptions options = with_model("day");
     options.priors.values.front() = Prior{-30.0, 1.0};
-    CHECK_THROWS_WITH(correct_survey(rows, options, &day), Catch::Contains("priors of its own"));
+    CHECK_THROWS_WITH(correct_survey(rows, options, &day), ContainsSubstring("priors of its own"));
     day.temperature.longest_gap_s = 3600.0;
     const auto result = correct_survey(rows, with_model("auto"), &day);
     CHECK(result.model != "day");
     REQUIRE_FALSE(result.remarks.empty());
-    CHECK_THAT(result.remarks.front(), Catch::Contains("not the whole-day model: the temperature"));
+    CHECK_THAT(result.remarks.front(),
+               ContainsSubstring("not the whole-day model: the temperature"));
 }
 
 TEST_CASE("a day that determines nothing is refused with its reason", "[survey][day]") {
     DayRecord day = kScattered.record();
     auto rows = rows_of(day);
     CHECK_THROWS_WITH(correct_survey(rows, with_model("day"), nullptr),
-                      Catch::Contains("model = day: needs the record of the day's temperature"));
+                      ContainsSubstring("model = day: needs the record of the day's temperature"));
     for (std::size_t i = 0; i + 5 < rows.size(); ++i) rows[i].reference.reset();
     CHECK_THROWS_WITH(correct_survey(rows, with_model("day"), &day),
-                      Catch::Contains("at least 6 rows with a reference, has 5"));
+                      ContainsSubstring("at least 6 rows with a reference, has 5"));
     rows = rows_of(day);
     day.temperature.longest_gap_s = 3600.0;
     CHECK_THROWS_WITH(correct_survey(rows, with_model("day"), &day),
-                      Catch::Contains("missing for 60 min at a time, allowed are 30"));
+                      ContainsSubstring("missing for 60 min at a time, allowed are 30"));
     day.temperature.longest_gap_s = 0.0;
     std::erase_if(day.bins, [](const DayBin& bin) { return bin.set_up == 4; });
-    CHECK_THROWS_WITH(correct_survey(rows, with_model("day"), &day), Catch::Contains("S4 (1) has"));
+    CHECK_THROWS_WITH(correct_survey(rows, with_model("day"), &day),
+                      ContainsSubstring("S4 (1) has"));
 }
 
 TEST_CASE("a temperature that begins late is remarked", "[survey][day]") {
@@ -221,5 +223,5 @@ TEST_CASE("a temperature that begins late is remarked", "[survey][day]") {
         std::vector<double>(whole.values().begin() + 2000, whole.values().end())};
     const auto remarks = correct_survey(rows_of(day), with_model("day"), &day).remarks;
     REQUIRE(remarks.size() == 1);
-    CHECK_THAT(remarks.front(), Catch::Contains("from 54 min before the first occupation"));
+    CHECK_THAT(remarks.front(), ContainsSubstring("from 54 min before the first occupation"));
 }

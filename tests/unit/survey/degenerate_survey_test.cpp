@@ -2,9 +2,9 @@
 // what is not is said.
 #include <algorithm>
 #include <boost/crc.hpp>
-#include <catch2/catch.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/text/csv.hpp"
 #include "tests/unit/survey/morning.hpp"
@@ -55,7 +55,7 @@ TEST_CASE("an occupation without data stays in the table, the rest is computed",
     const Outcome outcome = correct(morning);
     CHECK(outcome.status == 0);
     CHECK_THAT(outcome.errors,
-               Catch::Contains("S2 (2) at 2020-05-02T03:00:00Z is left out: no samples"));
+               ContainsSubstring("S2 (2) at 2020-05-02T03:00:00Z is left out: no samples"));
     const auto table = table_of(morning);
     REQUIRE(table.row_count() == 6);
     CHECK(table.cell(5, "site") == "S2");
@@ -65,7 +65,7 @@ TEST_CASE("an occupation without data stays in the table, the rest is computed",
     CHECK(table.cell(5, "flags") == "no-samples");
     CHECK(table.cell(5, "corrected_mgal").empty());
     for (const std::size_t row : {0U, 1U, 2U, 4U}) check_value(table, row);
-    CHECK_THAT(outcome.output, Catch::Contains("no-samples"));
+    CHECK_THAT(outcome.output, ContainsSubstring("no-samples"));
     const auto json = json_of(morning);
     CHECK(json["occupations"].size() == 5);
     CHECK(json["left_out"].dump() ==
@@ -89,7 +89,7 @@ TEST_CASE("a day whose second half is missing is corrected from its first", "[de
     const auto table = table_of(morning);
     REQUIRE(table.row_count() == 4);
     for (const std::size_t row : {0U, 1U, 2U}) check_value(table, row);
-    CHECK_THAT(table.cell(2, "flags"), Catch::Contains("gap"));
+    CHECK_THAT(table.cell(2, "flags"), ContainsSubstring("gap"));
     CHECK(table.cell(3, "flags") == "no-samples");
     CHECK(json_of(morning)["in_sample"]["n"] == 3);
 }
@@ -102,12 +102,12 @@ TEST_CASE("a base and a datum station that were lost are named, and others stand
         kHeader + "B,1,2020-05-01T20:50:20Z,2020-05-01T20:52:50Z,,\n" + kS1 + kS2);
     const Outcome outcome = correct(morning, "base='B'\ndatum=['B','S1','S2']\nmodel='t'\n");
     CHECK(outcome.status == 0);
-    CHECK_THAT(outcome.errors, Catch::Contains("base B has no occupation with a value") &&
-                                   Catch::Contains("datum B has no occupation with a value"));
+    CHECK_THAT(outcome.errors, ContainsSubstring("base B has no occupation with a value") &&
+                                   ContainsSubstring("datum B has no occupation with a value"));
     CHECK(json_of(morning)["base"] == "S1");
     const Outcome paper = correct(morning, "base='B'\nmodel='paper'\n");
     CHECK(paper.status == 2);
-    CHECK_THAT(paper.errors, Catch::Contains("base = B: no occupation of it"));
+    CHECK_THAT(paper.errors, ContainsSubstring("base = B: no occupation of it"));
 }
 
 TEST_CASE("the temperature of the day before is among the inputs, with its checksum",
@@ -148,11 +148,12 @@ TEST_CASE("a bad day of three is said, the others and the joint table are writte
     folder.write("c.toml", "[survey]\noccupations='occupations.csv'\nflags='ignore'\n");
     const Outcome outcome = run(folder, "survey a.toml b.toml c.toml");
     CHECK(outcome.status == 1);
-    CHECK_THAT(outcome.errors, Catch::Contains("1 of 3 days not corrected, the others are written: "
-                                               "bad: b.toml: root = ") &&
-                                   Catch::Contains("no occupation has samples"));
-    CHECK_THAT(outcome.output, Catch::Contains("survey a\n") && Catch::Contains("survey c\n") &&
-                                   Catch::Contains("all days but those not corrected"));
+    CHECK_THAT(outcome.errors,
+               ContainsSubstring("1 of 3 days not corrected, the others are written: "
+                                 "bad: b.toml: root = ") &&
+                   ContainsSubstring("no occupation has samples"));
+    CHECK_THAT(outcome.output, ContainsSubstring("survey a\n") && ContainsSubstring("survey c\n") &&
+                                   ContainsSubstring("all days but those not corrected"));
     const auto result = folder.path() / "result";
     for (const std::string name : {"a", "c"})
         CHECK(std::filesystem::exists(result / name / "report.html"));
@@ -160,10 +161,11 @@ TEST_CASE("a bad day of three is said, the others and the joint table are writte
     const auto joint = text::read_csv(result / "joint.csv");
     REQUIRE(joint.row_count() == 3);
     CHECK(joint.cell(0, "days") == "2");
-    CHECK_THAT(
-        text::read_text_file(result / "joint.html"),
-        Catch::Contains("Gravity survey of 3 days") && Catch::Contains("<li>bad: b.toml: ") &&
-            Catch::Contains("href=\"a/report.html\"") && Catch::Contains("href=\"c/report.html\""));
+    CHECK_THAT(text::read_text_file(result / "joint.html"),
+               ContainsSubstring("Gravity survey of 3 days") &&
+                   ContainsSubstring("<li>bad: b.toml: ") &&
+                   ContainsSubstring("href=\"a/report.html\"") &&
+                   ContainsSubstring("href=\"c/report.html\""));
     const Outcome none = run(folder, "survey b.toml --out none");
     CHECK(none.status == 2);
     CHECK_FALSE(std::filesystem::exists(folder.path() / "none"));
@@ -184,9 +186,10 @@ TEST_CASE("swapped times and overlaps cost only those occupations", "[degenerate
     CHECK(table.cell(3, "flags") == "ends-before-it-starts");
     CHECK(table.cell(5, "flags") == "overlaps-another");
     CHECK(table.cell(6, "flags") == "overlaps-another");
-    CHECK_THAT(outcome.errors,
-               Catch::Contains("S1 (2) at 2020-05-02T00:01:50Z is left out: ends before it starts, "
-                               "at 2020-05-02T00:01:10Z"));
+    CHECK_THAT(
+        outcome.errors,
+        ContainsSubstring("S1 (2) at 2020-05-02T00:01:50Z is left out: ends before it starts, "
+                          "at 2020-05-02T00:01:10Z"));
 }
 
 TEST_CASE("an amendment mends swapped times without touching the data", "[degenerate]") {
@@ -202,8 +205,8 @@ TEST_CASE("an amendment mends swapped times without touching the data", "[degene
     const Outcome outcome =
         correct(morning, "amendments='amendments.toml'\nflags='" + flags + "'\n");
     CHECK(outcome.status == 0);
-    CHECK_THAT(outcome.output, Catch::Contains("amended: exclude S2 (1): a lorry\n") &&
-                                   Catch::Contains(": swapped in the field book\n"));
+    CHECK_THAT(outcome.output, ContainsSubstring("amended: exclude S2 (1): a lorry\n") &&
+                                   ContainsSubstring(": swapped in the field book\n"));
     const auto table = table_of(morning);
     REQUIRE(table.row_count() == 4);
     check_value(table, 1);
@@ -242,9 +245,9 @@ TEST_CASE("one occupation alone is no survey: one line tells what became of the 
                            kHeader + kB + "S1,1,2020-05-02T03:00:00Z,2020-05-02T03:10:00Z,,\n");
     const Outcome outcome = correct(morning);
     CHECK(outcome.status == 2);
-    CHECK_THAT(outcome.errors, Catch::Contains("day.toml: ") &&
-                                   Catch::Contains("at least 2 rows") &&
-                                   Catch::Contains("S1 (1) at 2020-05-02T03:00:00Z is left out"));
+    CHECK_THAT(outcome.errors, ContainsSubstring("day.toml: ") &&
+                                   ContainsSubstring("at least 2 rows") &&
+                                   ContainsSubstring("S1 (1) at 2020-05-02T03:00:00Z is left out"));
     CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
     CHECK_FALSE(std::filesystem::exists(morning.folder().path() / "result"));
 }
@@ -293,7 +296,7 @@ TEST_CASE("wrong input files of a survey end with 2, one line and nothing writte
     CAPTURE(keys);
     const Outcome outcome = correct(morning, keys);
     CHECK(outcome.status == 2);
-    CHECK_THAT(outcome.errors, Catch::StartsWith("a351-correct: ") && Catch::Contains(message));
+    CHECK_THAT(outcome.errors, StartsWith("a351-correct: ") && ContainsSubstring(message));
     CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
     CHECK(outcome.output.empty());
     CHECK_FALSE(std::filesystem::exists(folder.path() / "result"));

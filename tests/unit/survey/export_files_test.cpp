@@ -1,7 +1,7 @@
 #include "corrector/survey/export_files.hpp"
 
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
 
 using namespace a351;
 using namespace a351::corrector;
@@ -89,6 +89,6 @@ TEST_CASE("GSadjust gets readings without tilt, but with flicker and drift", "[s
     result.rows.front().tilt_correction = MilliGal(2.0);
     result.rows.front().corrected =
         MilliGal(979910.0);  // what the model says of flicker is its own
-    CHECK_THAT(gsadjust_csv(result, kSites), Catch::Contains(",979900.250000,1.500000,") &&
-                                                 Catch::Contains(",979903.250000,1.500000,"));
+    CHECK_THAT(gsadjust_csv(result, kSites), ContainsSubstring(",979900.250000,1.500000,") &&
+                                                 ContainsSubstring(",979903.250000,1.500000,"));
 }

@@ -1,7 +1,7 @@
 #include "corrector/survey/joint_table.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 using namespace a351;
 using namespace a351::corrector;

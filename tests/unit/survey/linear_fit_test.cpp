@@ -1,7 +1,7 @@
 #include "corrector/survey/linear_fit.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 using namespace a351::corrector;
 

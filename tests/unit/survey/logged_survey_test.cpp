@@ -1,8 +1,8 @@
 // A survey day whose event log has slips, corrected by the program: they are said, the rest is computed.
 #include <array>
-#include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/record/event_log.hpp"
 #include "protocol/text/csv.hpp"
@@ -43,6 +43,15 @@ std::vector<std::string> rows_of(const Morning& morning) {
 
 using Rows = std::vector<std::string>;
 
+std::vector<record::Event> whole_morning() {
+    std::vector<record::Event> events;
+    for (std::size_t i = 0; i < Morning::kSites.size(); ++i) {
+        events.push_back(start(i));
+        events.push_back(stop(i));
+    }
+    return events;
+}
+
 }  // namespace
 
 TEST_CASE("a stop logged before its start costs that occupation, by its number", "[logged]") {
@@ -52,9 +61,10 @@ TEST_CASE("a stop logged before its start costs that occupation, by its number",
     const Outcome outcome =
         correct(morning, {late, early, start(1), stop(1), start(2), stop(2), start(3), stop(3)});
     CHECK(outcome.status == 0);
-    CHECK_THAT(outcome.errors,
-               Catch::Contains("B (1) at 2020-05-01T23:52:50Z is left out: ends before it starts, "
-                               "at 2020-05-01T23:50:20Z"));
+    CHECK_THAT(
+        outcome.errors,
+        ContainsSubstring("B (1) at 2020-05-01T23:52:50Z is left out: ends before it starts, "
+                          "at 2020-05-01T23:50:20Z"));
     CHECK(rows_of(morning) == Rows{"B (1) ends-before-it-starts*", "S1 (1) ", "S2 (1) ", "B (2) "});
 }
 
@@ -63,11 +73,12 @@ TEST_CASE("a start before the stop of another is said and flags what it ended", 
     const Outcome outcome =
         correct(morning, {start(0), stop(0), start(1), start(2), stop(2), start(3), stop(3)});
     CHECK(outcome.status == 0);
-    CHECK_THAT(outcome.errors, Catch::Contains("S1 (1) at 2020-05-01T23:54:20Z has no stop: it "
-                                               "lasts to the next start, at 2020-05-01T23:58:20Z"));
-    CHECK_THAT(rows_of(morning)[1], Catch::StartsWith("S1 (1) no-stop"));
+    CHECK_THAT(outcome.errors,
+               ContainsSubstring("S1 (1) at 2020-05-01T23:54:20Z has no stop: it "
+                                 "lasts to the next start, at 2020-05-01T23:58:20Z"));
+    CHECK_THAT(rows_of(morning)[1], StartsWith("S1 (1) no-stop"));
     CHECK_THAT(text::read_text_file(morning.folder().path() / "result/report.html"),
-               Catch::Contains("the way there included"));
+               ContainsSubstring("the way there included"));
 }
 
 TEST_CASE("events logged in another order than they happened are the same survey", "[logged]") {
@@ -82,16 +93,12 @@ TEST_CASE("events logged in another order than they happened are the same survey
 TEST_CASE("of a recorder's log the last day is corrected, or the time that is asked for",
           "[logged]") {
     const Morning morning;
-    std::vector<record::Event> events;
-    for (std::size_t i = 0; i < Morning::kSites.size(); ++i) {
-        events.push_back(start(i));
-        events.push_back(stop(i));
-    }
+    std::vector<record::Event> events = whole_morning();
     for (std::size_t i = 0; i < 2; ++i) events[i].utc -= std::chrono::hours(24);
     const Outcome last = correct(morning, events);
     CHECK(last.status == 0);
     CHECK_THAT(last.errors,
-               Catch::Contains("from 2020-05-01T23:54:20Z on; set-ups of earlier days: 1; "));
+               ContainsSubstring("from 2020-05-01T23:54:20Z on; set-ups of earlier days: 1; "));
     CHECK(rows_of(morning) == Rows{"S1 (1) ", "S2 (1) ", "B (2) "});
 
     const Outcome timed = run(
@@ -103,9 +110,10 @@ TEST_CASE("of a recorder's log the last day is corrected, or the time that is as
                            "[survey]\nmodel = 't'\nfrom_utc = '2020-05-02T00:00:00Z'\n");
     const Outcome swapped = run(morning.folder(), "survey day.toml --to 2020-05-01T00:00:00Z");
     CHECK(swapped.status == 2);
-    CHECK_THAT(swapped.errors,
-               Catch::Contains("day.toml: to_utc = 2020-05-01T00:00:00Z; allowed: an instant after "
-                               "from_utc = 2020-05-02T00:00:00Z"));
+    CHECK_THAT(
+        swapped.errors,
+        ContainsSubstring("day.toml: to_utc = 2020-05-01T00:00:00Z; allowed: an instant after "
+                          "from_utc = 2020-05-02T00:00:00Z"));
 }
 
 TEST_CASE("an option stands above the survey file, and the result says which held", "[logged]") {
@@ -133,20 +141,16 @@ TEST_CASE("an option stands above the survey file, and the result says which hel
 TEST_CASE("a damaged record of the archive is told by file and offset, and the day is corrected",
           "[logged]") {
     const Morning morning;
-    std::vector<record::Event> events;
-    for (std::size_t i = 0; i < Morning::kSites.size(); ++i) {
-        events.push_back(start(i));
-        events.push_back(stop(i));
-    }
     const auto file =
         morning.folder().path() / "data/archive/2020/XX/A351/BNZ.D/XX.A351.00.BNZ.D.2020.122";
     std::fstream(file, std::ios::in | std::ios::out | std::ios::binary).seekp(512 * 4)
         << std::string(512, '\0');
-    const Outcome outcome = correct(morning, events);
+    const Outcome outcome = correct(morning, whole_morning());
     CAPTURE(outcome.errors);
     CHECK(outcome.status == 0);
-    CHECK_THAT(outcome.errors,
-               Catch::Contains("XX.A351.00.BNZ.D.2020.122: offset 2048: 512 bytes are no record"));
+    CHECK_THAT(
+        outcome.errors,
+        ContainsSubstring("XX.A351.00.BNZ.D.2020.122: offset 2048: 512 bytes are no record"));
     const Rows rows = rows_of(morning);
     REQUIRE(rows.size() == 4);
     CHECK(Rows(rows.begin() + 1, rows.end()) == Rows{"S1 (1) ", "S2 (1) ", "B (2) "});

@@ -1,7 +1,7 @@
 #include "corrector/survey/model_fit.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/survey/survey_rows.hpp"
 

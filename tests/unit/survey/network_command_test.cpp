@@ -1,9 +1,9 @@
 // Networks by the program: what the readings determine comes back, what they leave open is said.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/utc_time.hpp"
 #include "protocol/text/csv.hpp"
@@ -117,8 +117,8 @@ TEST_CASE("a network with something open is refused in one line that says what",
     write_readings(folder, loops);
     const Outcome outcome = adjust(folder);
     CHECK(outcome.status == 2);
-    CHECK_THAT(outcome.errors, Catch::StartsWith("a351-correct: model = network: "));
-    for (const std::string& part : parts) CHECK_THAT(outcome.errors, Catch::Contains(part));
+    CHECK_THAT(outcome.errors, StartsWith("a351-correct: model = network: "));
+    for (const std::string& part : parts) CHECK_THAT(outcome.errors, ContainsSubstring(part));
     CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
     CHECK(outcome.output.empty());
     CHECK_FALSE(std::filesystem::exists(folder.path() / "result"));
@@ -145,9 +145,9 @@ TEST_CASE("a network with something weak is adjusted and says what, in text and 
     write_sites(folder);
     const Outcome outcome = adjust(folder);
     CHECK(outcome.status == 0);
-    CHECK_THAT(outcome.output, Catch::Contains(words));
+    CHECK_THAT(outcome.output, ContainsSubstring(words));
     CHECK_THAT(text::read_text_file(folder.path() / "result/report.html"),
-               Catch::Contains(words.substr(0, 40)));
+               ContainsSubstring(words.substr(0, 40)));
 }
 
 TEST_CASE(
@@ -162,10 +162,10 @@ TEST_CASE(
         CAPTURE(model);
         CHECK(outcome.status == 2);
         CHECK_THAT(outcome.errors,
-                   Catch::Contains("temperature, rate and time vary independently"));
+                   ContainsSubstring("temperature, rate and time vary independently"));
     }
     write_readings(folder, {{"B", "S1", "S2", "S3", "S1"}});
     const Outcome outcome = run(folder, table + "t-drift");
     CHECK(outcome.status == 2);
-    CHECK_THAT(outcome.errors, Catch::Contains("1 rows with a reference do not determine it"));
+    CHECK_THAT(outcome.errors, ContainsSubstring("1 rows with a reference do not determine it"));
 }

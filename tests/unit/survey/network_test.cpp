@@ -1,7 +1,7 @@
 #include "corrector/survey/network.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 #include "corrector/survey/survey_correction.hpp"
 #include "protocol/core/input_error.hpp"
@@ -81,9 +81,9 @@ TEST_CASE("redundancies of readings, datum and priors add up to the degrees of f
 TEST_CASE("readings of stations seen once are named as uncontrolled", "[survey][network]") {
     const auto network = adjust(day_with_quadratic_drift(0.0)).adjustment.value();
     REQUIRE(network.remarks.size() == 1);
-    CHECK_THAT(network.remarks.front(), Catch::Contains("S1 (1)") &&
-                                            Catch::Contains("S4 (1), S5 (1)") &&
-                                            !Catch::Contains("B (2)") && !Catch::Contains("S2"));
+    CHECK_THAT(network.remarks.front(),
+               ContainsSubstring("S1 (1)") && ContainsSubstring("S4 (1), S5 (1)") &&
+                   !ContainsSubstring("B (2)") && !ContainsSubstring("S2"));
 }
 
 TEST_CASE("the global test fails on a blunder and on weights that are too small",
@@ -109,14 +109,14 @@ TEST_CASE("the global test fails on a blunder and on weights that are too small"
 TEST_CASE("a network without datum is refused in words", "[survey][network]") {
     auto rows = day_with_quadratic_drift(0.0);
     for (SurveyRow& row : rows) row.reference.reset();
-    CHECK_THAT(adjust(rows).refusal, Catch::StartsWith("no datum") && Catch::Contains("B, S1"));
+    CHECK_THAT(adjust(rows).refusal, StartsWith("no datum") && ContainsSubstring("B, S1"));
 }
 
 TEST_CASE("a station to be held that has no reference is refused by name", "[survey][network]") {
     const auto rows = day_with_quadratic_drift(0.0);
     const std::vector<bool> in_use(rows.size(), true);
     CHECK_THAT(adjust_network(rows, in_use, {"B", "S2"}, {}, {}).refusal,
-               Catch::StartsWith("datum = S2: no reference gravity"));
+               StartsWith("datum = S2: no reference gravity"));
     CHECK(adjust_network(rows, in_use, {"B"}, {}, {}).adjustment.has_value());
 }
 
@@ -130,7 +130,7 @@ TEST_CASE("two groups of stations that nothing joins are refused by name", "[sur
     }
     rows.insert(rows.end(), next_day.begin(), next_day.end());
     CHECK_THAT(adjust(rows).refusal,
-               Catch::StartsWith("unconnected") && Catch::Contains("datum to TB, TS1, TS2"));
+               StartsWith("unconnected") && ContainsSubstring("datum to TB, TS1, TS2"));
 
     SECTION("a station of both joins them") {
         rows.back().site = "B";
@@ -151,17 +151,17 @@ TEST_CASE("groups of one day that only constant and drift join are named", "[sur
         if (sites[i] == "B") rows[i].reference = MilliGal(979800.0);
     }
     CHECK_THAT(adjust(rows).adjustment->remarks.front(),
-               Catch::StartsWith("not connected") && Catch::Contains(": S5, S6, S7"));
+               StartsWith("not connected") && ContainsSubstring(": S5, S6, S7"));
 }
 
 TEST_CASE("drift with one occupation of every station is refused in words", "[survey][network]") {
     auto rows = day_with_quadratic_drift(0.0);
     rows.erase(rows.begin() + 9, rows.end());
     rows.erase(rows.begin() + 4);
-    CHECK_THAT(adjust(rows).refusal, Catch::Contains("leave open S1, S2") &&
-                                         Catch::Contains("time_mgal_per_h") &&
-                                         Catch::Contains("occupied only once") &&
-                                         Catch::Contains("a prior on time_mgal_per_h"));
+    CHECK_THAT(adjust(rows).refusal, ContainsSubstring("leave open S1, S2") &&
+                                         ContainsSubstring("time_mgal_per_h") &&
+                                         ContainsSubstring("occupied only once") &&
+                                         ContainsSubstring("a prior on time_mgal_per_h"));
     SECTION("priors on drift and temperature help") {
         ModelPriors priors;
         set_prior(priors, "test", "time_mgal_per_h", {made_up::kDrift_mgal_per_h, 0.1});
@@ -180,7 +180,7 @@ TEST_CASE("a constant temperature is left out and said so", "[survey][network]")
         row.temperature = DegC(42.5);
     }
     const auto network = adjust(rows).adjustment.value();
-    CHECK_THAT(network.remarks.front(), Catch::Contains("temperature does not vary"));
+    CHECK_THAT(network.remarks.front(), ContainsSubstring("temperature does not vary"));
     CHECK(network.origin.value() + network.unknowns(1) ==
           Approx(true_gravity_mgal("S1")).epsilon(0).margin(1e-6));
 }
@@ -218,8 +218,7 @@ TEST_CASE("the survey's model network gives unknown stations values with uncerta
     CHECK(result.row_sets[1].scores.back().row_count == 12);
 
     for (SurveyRow& row : rows) row.reference.reset();
-    CHECK_THROWS_WITH(correct_survey(rows, options),
-                      Catch::StartsWith("model = network: no datum"));
+    CHECK_THROWS_WITH(correct_survey(rows, options), StartsWith("model = network: no datum"));
 }
 
 TEST_CASE("hiding a datum's reference gives the error that the network's LOSO says",
@@ -269,8 +268,8 @@ TEST_CASE("a loop without a reading in use is left out by name, the rest is comp
     CHECK(result.left_out.front().site == "B");
     CHECK(result.left_out.front().occupation == 4);
     CHECK(result.left_out.front().start == rows[12].time);
-    CHECK_THAT(result.remarks.back(), Catch::StartsWith("no reading in use between two pauses") &&
-                                          Catch::Contains("left out are B (4), S9 (4), S2 (4)"));
+    CHECK_THAT(result.remarks.back(), StartsWith("no reading in use between two pauses") &&
+                                          ContainsSubstring("left out are B (4), S9 (4), S2 (4)"));
     CHECK(result.stations.size() == 8);
     for (const CorrectedRow& row : result.rows)
         CHECK(row.corrected.value() ==

@@ -1,5 +1,5 @@
-#include <catch2/catch.hpp>
 #include <filesystem>
+#include "tests/support/catch.hpp"
 
 #include "corrector/survey/survey_row.hpp"
 #include "protocol/core/input_error.hpp"
@@ -95,7 +95,7 @@ TEST_CASE("a bad table of observations is refused with line, column and value",
     }));
     CAPTURE(content);
     const TableFile file(content);
-    CHECK_THROWS_WITH(file.read(), Catch::Contains(message));
+    CHECK_THROWS_WITH(file.read(), ContainsSubstring(message));
     CHECK_THROWS_AS(file.read(), InputError);
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("a tide that is to be given must be in the table", "[survey][observati
                     "site,occupation,time_utc,acceleration_mgal,temperature_degc\n"
                     "A,1,2020-01-01T00:00:00Z,981700,42.5\n")
                     .read();
-    CHECK_THROWS_WITH(set_given_tide(rows), Catch::Contains("tide = given"));
+    CHECK_THROWS_WITH(set_given_tide(rows), ContainsSubstring("tide = given"));
     set_tide(rows, kSites, TideModel::direct, kRigidEarth);
     CHECK(rows[0].tide ==
           direct_tide(rows[0].time, {Degrees(36.0), Degrees(140.0), Metres(10.0)}, kRigidEarth));

@@ -1,6 +1,6 @@
 #include "corrector/survey/occupation_list.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/survey/scratch_folder.hpp"
@@ -49,7 +49,7 @@ TEST_CASE("a bad table of occupations is refused with line, column and value",
         {"", "no occupation"},
     }));
     CAPTURE(rows);
-    CHECK_THROWS_WITH(read(rows), Catch::Contains(message));
+    CHECK_THROWS_WITH(read(rows), ContainsSubstring(message));
     CHECK_THROWS_AS(read(rows), InputError);
 }
 
@@ -68,7 +68,7 @@ TEST_CASE("a slip in the field costs its own occupation and is named, not the da
     REQUIRE(list.windows.size() == 1);
     CHECK(list.windows[0].site == "A");
     REQUIRE(list.warnings.size() == 2);
-    CHECK_THAT(list.warnings[0], Catch::Contains("of B, has no stop"));
+    CHECK_THAT(list.warnings[0], ContainsSubstring("of B, has no stop"));
     CHECK(list.warnings[1] ==
           "AA (1) at 2020-01-01T01:00:00Z is left out: not in the table of sites");
     REQUIRE(list.left_out.size() == 1);
@@ -106,15 +106,15 @@ TEST_CASE("of a log of several days the last one is taken, or what a time says",
     REQUIRE(first.windows.size() == 2);
     CHECK(first.windows[1].start == at("2020-01-01T13:59:59Z"));
     REQUIRE(first.warnings.size() == 1);
-    CHECK_THAT(first.warnings[0], Catch::Contains("lasts to the next start"));
+    CHECK_THAT(first.warnings[0], ContainsSubstring("lasts to the next start"));
 
     const auto all = read_logged_occupations(events, at("2020-01-01T08:00:00Z"));
     CHECK(all.windows.size() == 4);
     CHECK_THROWS_WITH(
         read_logged_occupations(events, at("2020-01-03T00:00:00Z"), at("2020-01-04T00:00:00Z")),
-        Catch::EndsWith(": no occupation starts from 2020-01-03T00:00:00Z on and before "
-                        "2020-01-04T00:00:00Z; allowed: a time with one of those that start from "
-                        "2020-01-01T08:00:00Z to 2020-01-02T13:59:59Z"));
+        EndsWith(": no occupation starts from 2020-01-03T00:00:00Z on and before "
+                 "2020-01-04T00:00:00Z; allowed: a time with one of those that start from "
+                 "2020-01-01T08:00:00Z to 2020-01-02T13:59:59Z"));
 }
 
 TEST_CASE("one end typed too late costs its own occupation, not those it overlaps",

@@ -1,7 +1,7 @@
 #include "corrector/survey/outlier_tests.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 #include "corrector/survey/survey_correction.hpp"
 #include "tests/unit/survey/survey_rows.hpp"

@@ -1,8 +1,8 @@
 #include "corrector/survey/result_files.hpp"
 
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include "tests/support/catch.hpp"
 
 #include "corrector/survey/aligned_text.hpp"
 #include "corrector/survey/table_text.hpp"

@@ -1,6 +1,6 @@
 // The single steps of a351-correct as a script sees them: tide, emd, decimate, smooth.
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 #include "protocol/text/csv.hpp"
 #include "protocol/text/text_file.hpp"
@@ -60,7 +60,7 @@ TEST_CASE("emd writes the modes and prints what tells them apart", "[command]") 
     CHECK(report.number(0, "standard_error") > 0.0);
     const Outcome odd = run(folder, arguments + "odd.csv --pairs --ensemble 21");
     CHECK(odd.status == 2);
-    CHECK_THAT(odd.errors, Catch::Contains("--ensemble = 21; allowed with --pairs: an even"));
+    CHECK_THAT(odd.errors, ContainsSubstring("--ensemble = 21; allowed with --pairs: an even"));
 }
 
 TEST_CASE("emd ends its modes elsewhere by --s-number, which is refused out of range",
@@ -79,7 +79,7 @@ TEST_CASE("emd ends its modes elsewhere by --s-number, which is refused out of r
     CHECK(modes[0] != modes[2]);
     const Outcome refused = run(folder, arguments + "none.csv --s-number 0");
     CHECK(refused.status == 2);
-    CHECK_THAT(refused.errors, Catch::Contains("--s-number = 0"));
+    CHECK_THAT(refused.errors, ContainsSubstring("--s-number = 0"));
 }
 
 TEST_CASE("decimate counts what is missing and keeps what is good", "[command]") {
@@ -95,7 +95,7 @@ TEST_CASE("decimate counts what is missing and keeps what is good", "[command]")
     CHECK(outcome.output.empty());
     // Of 100 values five reach beyond the start, four beyond the end and nine into the gap.
     CHECK_THAT(outcome.errors,
-               Catch::Contains("1000 samples (1 missing) to 100 values (82 valid)"));
+               ContainsSubstring("1000 samples (1 missing) to 100 values (82 valid)"));
     const auto table = text::read_csv(folder.path() / "out.csv");
     REQUIRE(table.row_count() == 100);
     CHECK(table.number(50, "value") == Approx(7.0).epsilon(1e-14));
@@ -110,15 +110,15 @@ TEST_CASE("a blank line in a single column is a missing sample to every step", "
     folder.write("in.csv", rows + "\n");
     const std::string input = " --input in.csv --column a";
     CHECK_THAT(run(folder, "decimate --factor 2" + input).errors,
-               Catch::Contains("100 samples (1 missing)"));
+               ContainsSubstring("100 samples (1 missing)"));
     const Outcome smoothed = run(folder, "smooth --cutoff 5" + input);
-    CHECK_THAT(smoothed.errors, Catch::Contains("100 samples (1 missing)"));
+    CHECK_THAT(smoothed.errors, ContainsSubstring("100 samples (1 missing)"));
     const auto table = text::CsvTable::parse(smoothed.output, "stdout");
     CHECK(table.row_count() == 100);
     CHECK(table.number(40, "weight") == 0.0);
     const Outcome refused = run(folder, "emd --output out.csv" + input);
     CHECK(refused.status == 2);
-    CHECK_THAT(refused.errors, Catch::Contains("in.csv:42: a = "));
+    CHECK_THAT(refused.errors, ContainsSubstring("in.csv:42: a = "));
 }
 
 TEST_CASE("smooth says when the weights did not settle", "[command]") {
@@ -126,7 +126,7 @@ TEST_CASE("smooth says when the weights did not settle", "[command]") {
     folder.write("in.csv", "a\n57\n50\n60\n1\n11\n5\n5\n2\n6\n9\n7\n4\n");
     const Outcome outcome = run(folder, "smooth --cutoff 10 --input in.csv --column a");
     CHECK(outcome.status == 0);
-    CHECK_THAT(outcome.errors, Catch::Contains("did not settle"));
+    CHECK_THAT(outcome.errors, ContainsSubstring("did not settle"));
 }
 
 TEST_CASE("smooth and decimate refuse samples whose squares overflow, and too few", "[command]") {
@@ -136,12 +136,13 @@ TEST_CASE("smooth and decimate refuse samples whose squares overflow, and too fe
     for (const std::string command : {"smooth --cutoff 5", "decimate --factor 2"}) {
         const Outcome huge = run(folder, command + " --input huge.csv --column a");
         CHECK(huge.status == 2);
-        CHECK_THAT(huge.errors, Catch::Contains("huge.csv:3: a = 1.2e308: out of range; allowed:"));
+        CHECK_THAT(huge.errors,
+                   ContainsSubstring("huge.csv:3: a = 1.2e308: out of range; allowed:"));
         CHECK(huge.output.empty());
     }
     const Outcome two = run(folder, "smooth --cutoff 5 --input two.csv --column a");
     CHECK(two.status == 2);
-    CHECK_THAT(two.errors, Catch::Contains("two.csv: a: 2 samples; allowed: 3 or more"));
+    CHECK_THAT(two.errors, ContainsSubstring("two.csv: a: 2 samples; allowed: 3 or more"));
 }
 
 TEST_CASE("a time column of unequal steps is refused where the step changes", "[command]") {
@@ -150,7 +151,7 @@ TEST_CASE("a time column of unequal steps is refused where the step changes", "[
         folder.write("in.csv", times);
         const Outcome outcome = run(folder, "smooth --cutoff 3 --input in.csv --column a");
         CHECK(outcome.status == 2);
-        CHECK_THAT(outcome.errors, Catch::Contains(place));
+        CHECK_THAT(outcome.errors, ContainsSubstring(place));
     };
     refused("time_s,a\n0,1\n2,1\n3,2\n4,1\n5,1\n",
             "in.csv:4: time_s = 3: 1 s after the row before it");
@@ -169,7 +170,7 @@ TEST_CASE("smooth draws a line through a line, its gap and its outlier", "[comma
     folder.write("in.csv", "a,b\n" + rows.substr(2));
     const Outcome outcome = run(folder, "smooth --cutoff 50 --input in.csv --column a");
     CHECK(outcome.status == 0);
-    CHECK_THAT(outcome.errors, Catch::Contains("100 samples (1 missing), noise level 0.5"));
+    CHECK_THAT(outcome.errors, ContainsSubstring("100 samples (1 missing), noise level 0.5"));
     const auto table = text::CsvTable::parse(outcome.output, "stdout");
     REQUIRE(table.row_count() == 100);
     for (const std::size_t i : {40U, 60U}) {

@@ -1,7 +1,7 @@
 #include "corrector/survey/survey_correction.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/survey/survey_rows.hpp"
@@ -127,31 +127,32 @@ TEST_CASE("a survey that cannot be corrected is refused with a reason", "[survey
     SECTION("unknown base") {
         options.base = "S9";
         CHECK_THROWS_WITH(correct_survey(rows, options),
-                          Catch::Contains("base = S9") && Catch::Contains("B, S1"));
+                          ContainsSubstring("base = S9") && ContainsSubstring("B, S1"));
     }
     SECTION("unknown datum") {
         options.datum = {"B", "S9"};
-        CHECK_THROWS_WITH(correct_survey(rows, options), Catch::Contains("datum = S9"));
+        CHECK_THROWS_WITH(correct_survey(rows, options), ContainsSubstring("datum = S9"));
     }
     SECTION("unknown model") {
         options.model = "kriging";
-        CHECK_THROWS_WITH(correct_survey(rows, options),
-                          Catch::Contains("model = kriging") && Catch::Contains("t-rate-drift"));
+        CHECK_THROWS_WITH(correct_survey(rows, options), ContainsSubstring("model = kriging") &&
+                                                             ContainsSubstring("t-rate-drift"));
     }
     SECTION("constant temperature") {
         for (SurveyRow& row : rows) row.temperature = DegC(42.5);
-        CHECK_THROWS_WITH(correct_survey(rows, options), Catch::Contains("do not determine"));
+        CHECK_THROWS_WITH(correct_survey(rows, options), ContainsSubstring("do not determine"));
     }
     SECTION("too few rows") {
         rows.resize(3);
         options.model = "t-rate-drift";
         CHECK_THROWS_WITH(correct_survey(rows, options),
-                          Catch::Contains("3 rows") && Catch::Contains("at least 4"));
+                          ContainsSubstring("3 rows") && ContainsSubstring("at least 4"));
     }
     SECTION("paper with a base seen once") {
         options.model = "paper";
         options.base = "S1";
-        CHECK_THROWS_WITH(correct_survey(rows, options), Catch::Contains("drift step is refused"));
+        CHECK_THROWS_WITH(correct_survey(rows, options),
+                          ContainsSubstring("drift step is refused"));
     }
     SECTION("nothing at all") { CHECK_THROWS_AS(correct_survey({}, options), InputError); }
 }

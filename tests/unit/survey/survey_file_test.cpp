@@ -1,6 +1,6 @@
 #include "corrector/survey/survey_file.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "corrector/signal/representative_value.hpp"
 #include "protocol/core/input_error.hpp"
@@ -127,6 +127,6 @@ TEST_CASE("a bad survey file is refused with line, key and value", "[survey][sur
         {"[survey]\nsites='none.csv'\n", "none.csv: cannot be read"},
     }));
     CAPTURE(toml);
-    CHECK_THROWS_WITH(desk.read(toml), Catch::Contains(message));
+    CHECK_THROWS_WITH(desk.read(toml), ContainsSubstring(message));
     CHECK_THROWS_AS(desk.read(toml), InputError);
 }

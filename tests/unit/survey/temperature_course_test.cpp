@@ -1,6 +1,6 @@
 #include "corrector/survey/temperature_course.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 using namespace a351;
 using namespace a351::corrector;

@@ -1,9 +1,9 @@
 #include "corrector/survey/tilt_series.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 
@@ -118,19 +118,19 @@ TEST_CASE("a set-up not to be used stays out", "[survey][tilt_series]") {
 
 TEST_CASE("a series that cannot tell the biases is refused in words", "[survey][tilt_series]") {
     CHECK_THAT(refusal_of(series({{0, 0}, {2, 0}, {-2, 0}, {0, 2}, {0, -2}})),
-               Catch::Contains("tilt: tilt series: 5 set-ups; allowed: 6 or more"));
+               ContainsSubstring("tilt: tilt series: 5 set-ups; allowed: 6 or more"));
     CHECK_THAT(refusal_of(series({{0, 0}, {2, 0}, {-2, 0}, {2, 0}, {-2, 0}, {0, 0}})),
-               Catch::Contains("y is tilted from 0.04 to 0.04 deg; allowed: both axes"));
+               ContainsSubstring("y is tilted from 0.04 to 0.04 deg; allowed: both axes"));
     CHECK_THAT(refusal_of(series({{0, 0}, {2, 0}, {0, 2}, {0, -2}, {2, 0}, {0, 0}})),
-               Catch::Contains("x is tilted from -0.07 to 1.93 deg"));
+               ContainsSubstring("x is tilted from -0.07 to 1.93 deg"));
     CHECK_THAT(refusal_of(series({{0, 0}, {2, 2}, {-2, -2}, {2, 2}, {-2, -2}, {0, 0}})),
-               Catch::Contains("x and y are tilted together"));
+               ContainsSubstring("x and y are tilted together"));
     CHECK_THAT(refusal_of(series(kThereAndBack, 0.0, 0.05)),
-               Catch::Contains("the temperature moved by 0.55 degC between set-ups"));
+               ContainsSubstring("the temperature moved by 0.55 degC between set-ups"));
     OccupationRows read = series(kThereAndBack);
     read.rows[4].site = "roof";
-    CHECK_THAT(refusal_of(read), Catch::Contains("set-ups at laboratory and roof"));
+    CHECK_THAT(refusal_of(read), ContainsSubstring("set-ups at laboratory and roof"));
     read = series(kThereAndBack);
     read.day.reset();
-    CHECK_THAT(refusal_of(read), Catch::Contains("needs the record of the day's temperature"));
+    CHECK_THAT(refusal_of(read), ContainsSubstring("needs the record of the day's temperature"));
 }

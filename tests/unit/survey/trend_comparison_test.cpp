@@ -1,6 +1,6 @@
 #include "corrector/survey/trend_comparison.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 using namespace a351::corrector;
 

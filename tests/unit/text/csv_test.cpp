@@ -1,12 +1,11 @@
 #include "protocol/text/csv.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 
 using namespace a351;
 using namespace a351::text;
-using Catch::Message;
 
 TEST_CASE("a table is read by column name, whatever the line ends", "[text][csv]") {
     const auto table = CsvTable::parse(
@@ -28,7 +27,7 @@ TEST_CASE("a blank line of a single column is an empty cell, but for the last", 
     CHECK(table.cell(3, "a").empty());
     CHECK(table.number(4, "a") == 5.0);
     CHECK(CsvTable::parse("a\n1\n  ", "t.csv").row_count() == 1);
-    CHECK_THROWS_WITH((void)table.number(1, "a"), Catch::Contains("t.csv:4: a = : not a number"));
+    CHECK_THROWS_WITH((void)table.number(1, "a"), ContainsSubstring("t.csv:4: a = : not a number"));
 }
 
 TEST_CASE("an empty cell is no number, and may be asked for as such", "[text][csv]") {

@@ -1,9 +1,9 @@
 #include "protocol/text/sites.hpp"
 
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 
@@ -58,16 +58,16 @@ TEST_CASE("a site without coordinates has the mean of the others, in any order",
 
 TEST_CASE("a bad sites file is refused with its line", "[text][sites]") {
     CHECK_THROWS_WITH(read_sites(written("site,longitude_deg\nX,1\n")),
-                      Catch::Contains(":1: column latitude_deg is missing"));
+                      ContainsSubstring(":1: column latitude_deg is missing"));
     CHECK_THROWS_WITH(read_sites(written(kHeader + "X,nan,36,0,\n")),
-                      Catch::Contains(":2: longitude_deg = nan: not a number"));
+                      ContainsSubstring(":2: longitude_deg = nan: not a number"));
     CHECK_THROWS_WITH(read_sites(written(kHeader + "X,1,36,0,\nX,1,36,0,\n")),
-                      Catch::Contains(":3: site = X: stands twice"));
+                      ContainsSubstring(":3: site = X: stands twice"));
     CHECK_THROWS_WITH(read_sites(written(kHeader + ",1,36,0,\n")),
-                      Catch::Contains(":2: site = : empty"));
+                      ContainsSubstring(":2: site = : empty"));
     CHECK_THROWS_WITH(read_sites(written(kHeader + "X,1,36,,\nY,1,36,,\n")),
-                      Catch::Contains("altitude_m = : empty for every site"));
+                      ContainsSubstring("altitude_m = : empty for every site"));
     // m/s2 instead of mGal.
     CHECK_THROWS_WITH(read_sites(written(kHeader + "X,1,36,0,9.799\n")),
-                      Catch::Contains(":2: gravity_mgal = 9.799: out of range"));
+                      ContainsSubstring(":2: gravity_mgal = 9.799: out of range"));
 }

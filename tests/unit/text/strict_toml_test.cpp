@@ -1,6 +1,6 @@
 #include "protocol/text/strict_toml.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 
@@ -48,6 +48,6 @@ TEST_CASE("trouble names file, line, key, value and what is allowed", "[text][st
     CHECK_THROWS_WITH(sub.choice_or("b", "y", {"y", "z"}),
                       "c.toml:3: s.b = 'x': not a known value; allowed: y, z");
     CHECK_THROWS_WITH(root.require_all_read(), "c.toml:1: a = 1: unknown key; allowed: s");
-    CHECK_THROWS_WITH(parse_toml("a = \n", "c.toml"), Catch::StartsWith("c.toml:1: not TOML: "));
+    CHECK_THROWS_WITH(parse_toml("a = \n", "c.toml"), StartsWith("c.toml:1: not TOML: "));
     CHECK_THROWS_AS(read_toml("/nowhere/c.toml"), InputError);
 }

@@ -2,7 +2,7 @@
 
 #include <sys/stat.h>
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/survey/scratch_folder.hpp"
@@ -32,7 +32,7 @@ TEST_CASE("a FIFO is refused, not waited for", "[text_file]") {
     const ScratchFolder folder;
     const auto fifo = folder.path() / "fifo";
     REQUIRE(::mkfifo(fifo.c_str(), S_IRUSR | S_IWUSR) == 0);
-    CHECK_THROWS_WITH(read_text_file(fifo), Catch::Contains("fifo: is no regular file; allowed"));
+    CHECK_THROWS_WITH(read_text_file(fifo), ContainsSubstring("fifo: is no regular file; allowed"));
     CHECK_THROWS_AS(open_file(folder.path()), InputError);
-    CHECK_THROWS_WITH(open_file(folder.path() / "none"), Catch::Contains("none: cannot be read"));
+    CHECK_THROWS_WITH(open_file(folder.path() / "none"), ContainsSubstring("none: cannot be read"));
 }

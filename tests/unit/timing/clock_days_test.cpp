@@ -1,11 +1,11 @@
 // The clock on simulated days: its errors against the truth, and whether it knows them.
 
 #include <array>
-#include <catch2/catch.hpp>
 #include <cstdio>
 #include <future>
 #include <utility>
 #include <vector>
+#include "tests/support/catch.hpp"
 
 #include "protocol/timing/hindsight.hpp"
 #include "tests/unit/timing/transport_world.hpp"

@@ -1,7 +1,7 @@
 #include "protocol/timing/sample_clock.hpp"
 
-#include <catch2/catch.hpp>
 #include <random>
+#include "tests/support/catch.hpp"
 
 using namespace a351;
 using namespace a351::timing;

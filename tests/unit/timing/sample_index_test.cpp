@@ -1,6 +1,6 @@
 #include "protocol/timing/sample_index.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 using namespace a351;
 using namespace a351::timing;

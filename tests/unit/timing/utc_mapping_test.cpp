@@ -1,7 +1,7 @@
 #include "protocol/timing/utc_mapping.hpp"
 
-#include <catch2/catch.hpp>
 #include <utility>
+#include "tests/support/catch.hpp"
 
 using namespace a351;
 using namespace a351::timing;

@@ -1,8 +1,8 @@
 #include "daemon/verdict/running_value.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include "tests/support/catch.hpp"
 
 namespace a351::daemon {
 namespace {

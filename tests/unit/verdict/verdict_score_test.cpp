@@ -1,7 +1,7 @@
 #include "tests/support/verdict_score.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 namespace a351::sim {
 namespace {

@@ -1,11 +1,11 @@
 #include "daemon/verdict/verdict.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <numbers>
+#include "tests/support/catch.hpp"
 
 namespace a351::daemon {
 namespace {

@@ -1,8 +1,8 @@
 #include "tests/support/verdict_truth.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include "tests/support/catch.hpp"
 
 namespace a351::sim {
 namespace {

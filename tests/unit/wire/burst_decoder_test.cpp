@@ -1,6 +1,6 @@
 #include "protocol/wire/burst_decoder.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/wire/burst_stream.hpp"
 

@@ -1,9 +1,9 @@
 #include "protocol/wire/burst_frame.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include "tests/support/catch.hpp"
 
 #include "protocol/text/csv.hpp"
 #include "protocol/wire/device_profile.hpp"

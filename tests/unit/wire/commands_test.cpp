@@ -1,8 +1,8 @@
 #include "protocol/wire/commands.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <set>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/wire/burst_stream.hpp"
 

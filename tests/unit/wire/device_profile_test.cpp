@@ -1,9 +1,9 @@
 #include "protocol/wire/device_profile.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <map>
 #include <string>
+#include "tests/support/catch.hpp"
 
 namespace a351::wire {
 namespace {

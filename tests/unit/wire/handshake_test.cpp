@@ -1,6 +1,6 @@
 #include "protocol/wire/handshake.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/wire/scripted_registers.hpp"
 
@@ -200,7 +200,7 @@ TEST_CASE("a faulty device is refused with its reason", "[wire][handshake]") {
           "is faulty");
     ScriptedRegisters flash;
     flash.set(kDiagStat, 0x0004);
-    CHECK_THAT(run_with(flash).reason(), Catch::Contains("FLASH_ERR"));
+    CHECK_THAT(run_with(flash).reason(), ContainsSubstring("FLASH_ERR"));
 }
 
 TEST_CASE("a write that is lost once is repeated", "[wire][handshake]") {

@@ -1,6 +1,6 @@
 #include "sim/device/device_stream.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/wire/burst_decoder.hpp"
 #include "sim/signal/signal_source.hpp"

@@ -1,6 +1,6 @@
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/text_file.hpp"
@@ -10,7 +10,6 @@
 using namespace a351;
 using namespace a351::sim;
 using namespace std::chrono_literals;
-using Catch::Matchers::Contains;
 
 namespace {
 
@@ -274,8 +273,9 @@ TEST_CASE("a flash file with the long-term filter at a rate it does not take is 
         set("SMPL_CTRL", is_too_fast ? "0x0200" : "0x0300");
         std::ofstream(file, std::ios::trunc) << text;
         if (is_too_fast) {
-            CHECK_THROWS_WITH(read_flash_file(file, profile()),
-                              Contains("pair:11:") && Contains("LONGFILT_CTRL = 0x1"));
+            CHECK_THROWS_WITH(
+                read_flash_file(file, profile()),
+                ContainsSubstring("pair:11:") && ContainsSubstring("LONGFILT_CTRL = 0x1"));
         } else {
             CHECK_NOTHROW(read_flash_file(file, profile()));
         }
@@ -330,8 +330,9 @@ TEST_CASE("a damaged flash file is refused in one line that names it", "[sim][fl
             static_cast<void>(read_flash_file(file, profile()));
             FAIL("taken");
         } catch (const InputError& error) {
-            CHECK_THAT(error.what(), Contains(file.filename().string()) && Contains(named));
-            CHECK_THAT(error.what(), !Contains("\n"));
+            CHECK_THAT(error.what(),
+                       ContainsSubstring(file.filename().string()) && ContainsSubstring(named));
+            CHECK_THAT(error.what(), !ContainsSubstring("\n"));
         }
     }
     std::filesystem::remove(file);

@@ -1,5 +1,5 @@
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 #include "sim/device/output_stage.hpp"
 #include "tests/unit/sim/device/machine_script.hpp"

@@ -1,4 +1,4 @@
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/text/csv.hpp"
 #include "tests/unit/sim/device/machine_script.hpp"

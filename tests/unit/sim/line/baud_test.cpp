@@ -1,6 +1,6 @@
 #include "sim/line/baud.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/sim/device/machine_script.hpp"
 

@@ -6,9 +6,9 @@
 #include <unistd.h>
 
 #include <array>
-#include <catch2/catch.hpp>
 #include <cstring>
 #include <fstream>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 

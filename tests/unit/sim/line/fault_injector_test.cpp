@@ -1,6 +1,6 @@
 #include "sim/line/fault_injector.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/sim/line/fault_rig.hpp"

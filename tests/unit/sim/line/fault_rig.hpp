@@ -3,11 +3,11 @@
 /// A device under a fault script, and a host that takes all that comes.
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <map>
 #include <string>
 #include <vector>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/timing/sample_index.hpp"

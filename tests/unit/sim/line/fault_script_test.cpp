@@ -1,8 +1,8 @@
 #include "sim/line/fault_script.hpp"
 
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <filesystem>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "sim/line/control_orders.hpp"
@@ -10,7 +10,6 @@
 using namespace a351;
 using namespace a351::sim;
 using namespace std::chrono_literals;
-using Catch::Matchers::Contains;
 
 namespace {
 
@@ -74,8 +73,8 @@ TEST_CASE("what is wrong in a script is said with file, line, key, value and wha
             static_cast<void>(parse(toml));
             FAIL("was taken");
         } catch (const InputError& error) {
-            for (const char* part : parts) CHECK_THAT(error.what(), Contains(part));
-            CHECK_THAT(error.what(), !Contains("\n"));
+            for (const char* part : parts) CHECK_THAT(error.what(), ContainsSubstring(part));
+            CHECK_THAT(error.what(), !ContainsSubstring("\n"));
         }
     };
     const std::string head = "[[fault]]\nkind = \"flip_bit\"\n";
@@ -105,7 +104,7 @@ TEST_CASE("an overrun needs a speed at which a host gets along", "[sim][fault_sc
     rules.speed = 50.0;
     CHECK(parse_fault("overrun", rules).kind == FaultKind::overrun);
     rules.speed = 50.1;
-    CHECK_THROWS_WITH(parse_fault("overrun", rules), Contains("up to 50"));
+    CHECK_THROWS_WITH(parse_fault("overrun", rules), ContainsSubstring("up to 50"));
 }
 
 TEST_CASE("words that are no fault are refused in one line", "[sim][fault_script]") {
@@ -118,7 +117,7 @@ TEST_CASE("words that are no fault are refused in one line", "[sim][fault_script
             static_cast<void>(parse_fault(words, kRules));
             FAIL("was taken");
         } catch (const InputError& error) {
-            CHECK_THAT(error.what(), !Contains("\n"));
+            CHECK_THAT(error.what(), !ContainsSubstring("\n"));
         }
     }
     const Fault fault = parse_fault("  hang_up   seconds=2.5 loses_power=true", kRules);

@@ -1,7 +1,7 @@
 #include "sim/line/frame_damage.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/wire/burst_frame.hpp"
 

@@ -1,8 +1,8 @@
 #include "sim/line/line.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <chrono>
+#include "tests/support/catch.hpp"
 
 using namespace a351;
 using namespace a351::sim;

@@ -1,6 +1,6 @@
 #include "sim/line/run_faults.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "tests/unit/sim/line/fault_rig.hpp"
 

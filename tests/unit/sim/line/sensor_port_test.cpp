@@ -6,12 +6,12 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <catch2/catch.hpp>
 #include <fstream>
 #include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/wire/burst_decoder.hpp"

@@ -2,8 +2,8 @@
 
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <fstream>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/text_file.hpp"

@@ -1,12 +1,12 @@
 #include "sim/oven/modbus_server.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <fstream>
 #include <numeric>
 #include <random>
 #include <sstream>
 #include <string>
+#include "tests/support/catch.hpp"
 
 #include "fake_oven.hpp"
 

@@ -1,6 +1,6 @@
 #include "sim/oven/oven_controller.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "fake_oven.hpp"
 

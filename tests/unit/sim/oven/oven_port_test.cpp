@@ -6,11 +6,11 @@
 
 #include <array>
 #include <atomic>
-#include <catch2/catch.hpp>
 #include <cerrno>
 #include <filesystem>
 #include <memory>
 #include <thread>
+#include "tests/support/catch.hpp"
 
 #include "fake_oven.hpp"
 

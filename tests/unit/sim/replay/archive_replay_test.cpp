@@ -1,7 +1,7 @@
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
 #include <utility>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/record/miniseed.hpp"
@@ -163,11 +163,11 @@ TEST_CASE("damage in a day file is passed over and told of", "[sim][replay]") {
 TEST_CASE("archives of two stations, or without an axis, are refused", "[sim][replay]") {
     Archive archive;
     archive.add(3, 0, 10);
-    CHECK_THROWS_WITH(archive.open(), Catch::Contains("no axis among the files"));
+    CHECK_THROWS_WITH(archive.open(), ContainsSubstring("no axis among the files"));
     archive.add(0, 0, 10);
     CHECK_NOTHROW(archive.open());
     CHECK_THROWS_WITH(ArchiveSource({archive.file(0)}, {"N", "E", "Z"}),
-                      Catch::Contains("BN1: not of the axes N,E,Z; allowed: --axes"));
+                      ContainsSubstring("BN1: not of the axes N,E,Z; allowed: --axes"));
 }
 
 TEST_CASE("an archive is sent in the layout that the host configures, transient or not",

@@ -1,6 +1,6 @@
-#include <catch2/catch.hpp>
 #include <fstream>
 #include <map>
+#include "tests/support/catch.hpp"
 
 #include "protocol/record/archiver.hpp"
 #include "protocol/record/journal_reader.hpp"

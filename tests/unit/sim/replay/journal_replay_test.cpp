@@ -1,5 +1,5 @@
-#include <catch2/catch.hpp>
 #include <string>
+#include "tests/support/catch.hpp"
 
 #include "protocol/record/journal_codec.hpp"
 #include "sim/replay/journal_recording.hpp"

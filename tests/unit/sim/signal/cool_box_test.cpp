@@ -1,8 +1,8 @@
 #include "sim/signal/cool_box.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
+#include "tests/support/catch.hpp"
 
 using namespace a351;
 using namespace a351::sim;

@@ -1,7 +1,7 @@
 #include "sim/signal/earth_tide.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 #include "protocol/text/csv.hpp"
 

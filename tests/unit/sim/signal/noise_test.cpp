@@ -1,10 +1,10 @@
 #include "sim/noise/noise.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <vector>
+#include "tests/support/catch.hpp"
 
 #include "sim/signal/signal_source.hpp"
 

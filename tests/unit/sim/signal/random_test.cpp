@@ -1,8 +1,8 @@
 #include "sim/noise/random.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
+#include "tests/support/catch.hpp"
 
 using a351::sim::normal_quantile;
 using a351::sim::RandomStream;

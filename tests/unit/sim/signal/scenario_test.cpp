@@ -1,6 +1,6 @@
 #include "sim/scenario/scenario.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
@@ -10,7 +10,6 @@
 
 using namespace a351;
 using namespace a351::sim;
-using Catch::Matchers::Contains;
 
 namespace {
 
@@ -51,19 +50,20 @@ TEST_CASE("unknown and missing keys and impossible values are refused by name", 
     CHECK_NOTHROW(parse_scenario(good, "day.toml"));
     CHECK_THROWS_WITH(
         parse_scenario(with(good, "white_mgal = 2.5", "white_mgals = 2.5"), "day.toml"),
-        Contains("day.toml:") && Contains("sensor.white_mgal") && Contains("missing"));
+        ContainsSubstring("day.toml:") && ContainsSubstring("sensor.white_mgal") &&
+            ContainsSubstring("missing"));
     CHECK_THROWS_WITH(
         parse_scenario(with(good, "[sensor]\n", "[sensor]\nextra_mgal = 1.0\n"), "day.toml"),
-        Contains("extra_mgal"));
+        ContainsSubstring("extra_mgal"));
     CHECK_THROWS_WITH(
         parse_scenario(with(good, "crystal_tau_s = 43.0", "crystal_tau_s = -43.0"), "day.toml"),
-        Contains("crystal_tau_s") && Contains("-43"));
+        ContainsSubstring("crystal_tau_s") && ContainsSubstring("-43"));
     CHECK_THROWS_WITH(
         parse_scenario(with(good, "vehicle_s = [5.0, 20.0]", "vehicle_s = [20.0, 5.0]"),
                        "day.toml"),
-        Contains("vehicle_s"));
+        ContainsSubstring("vehicle_s"));
     CHECK_THROWS_WITH(parse_scenario("base = \"nowhere\"\nname = \"x\"\n", "day.toml"),
-                      Contains("nowhere") && Contains("tsukuba"));
+                      ContainsSubstring("nowhere") && ContainsSubstring("tsukuba"));
     CHECK_THROWS_AS(load_scenario("no-such-scenario"), InputError);
 }
 
@@ -144,8 +144,9 @@ TEST_CASE("a record without occupations has its own limits, one site and no sche
 TEST_CASE("what does not fit into the record is refused in one line", "[sim][scenario]") {
     const auto refused = [](const std::string& text, const std::string& part) {
         CAPTURE(text, part);
-        CHECK_THROWS_WITH(parse_scenario("base = \"tsukuba\"\nname = \"x\"\n" + text, "x.toml"),
-                          Contains("x.toml") && Contains(part) && !Contains("\n"));
+        CHECK_THROWS_WITH(
+            parse_scenario("base = \"tsukuba\"\nname = \"x\"\n" + text, "x.toml"),
+            ContainsSubstring("x.toml") && ContainsSubstring(part) && !ContainsSubstring("\n"));
     };
     const std::string site =
         "[[site]]\nname = \"A\"\nlongitude_deg = 1\nlatitude_deg = 2\naltitude_m = 3\n"
@@ -158,7 +159,7 @@ TEST_CASE("what does not fit into the record is refused in one line", "[sim][sce
         refused(fixed + with(site, "\"A\"", std::string("\"") + name + "\"") + air, "name");
         CHECK_THROWS_WITH(
             parse_scenario("base = \"tsukuba\"\nname = \"" + std::string(name) + "\"\n", "x.toml"),
-            Contains("x.toml") && Contains("name") && !Contains("\n"));
+            ContainsSubstring("x.toml") && ContainsSubstring("name") && !ContainsSubstring("\n"));
     }
     refused(fixed + site, "ambient");
     refused(fixed + "lead_in_h = 3.0\n" + site + air, "lead_in_h");
@@ -201,16 +202,18 @@ TEST_CASE("the air around the oven is refused from the scenario's own set point 
     };
     const std::string warm = "[oven]\nset_point_degc = 55\n";
     CHECK_NOTHROW(parse(warm + "[[ambient]]\nat_h = 1\ndegc = 54.9\n"));
-    CHECK_THROWS_WITH(parse(warm + "[[ambient]]\nat_h = 1\ndegc = 55\n"), Contains("degc = 55"));
-    CHECK_THROWS_WITH(parse("[[ambient]]\nat_h = 1\ndegc = 42.5\n"),
-                      Contains("degc = 42.5") && Contains("oven.set_point_degc = 42.5"));
+    CHECK_THROWS_WITH(parse(warm + "[[ambient]]\nat_h = 1\ndegc = 55\n"),
+                      ContainsSubstring("degc = 55"));
+    CHECK_THROWS_WITH(
+        parse("[[ambient]]\nat_h = 1\ndegc = 42.5\n"),
+        ContainsSubstring("degc = 42.5") && ContainsSubstring("oven.set_point_degc = 42.5"));
     CHECK_THROWS_WITH(parse("[[lid_open]]\nsite = \"No.1\"\noutside_degc = 43\n"),
-                      Contains("outside_degc"));
+                      ContainsSubstring("outside_degc"));
     CHECK_THROWS_WITH(parse("[schedule]\nambient_after_degc = 50\n"),
-                      Contains("set_point_degc") && Contains("50 degC"));
+                      ContainsSubstring("set_point_degc") && ContainsSubstring("50 degC"));
     // The base's own course is as warm as 34.4 degC.
     CHECK_THROWS_WITH(parse("[oven]\nset_point_degc = 34\n"),
-                      Contains("set_point_degc") && Contains("34.4 degC"));
+                      ContainsSubstring("set_point_degc") && ContainsSubstring("34.4 degC"));
 }
 
 TEST_CASE("an oven whose step would be unstable is refused with its bound; at the bound it is calm",
@@ -219,9 +222,10 @@ TEST_CASE("an oven whose step would be unstable is refused with its bound; at th
         return parse_scenario("base = \"tsukuba\"\nname = \"x\"\n[oven]\n" + oven, "x.toml");
     };
     CHECK_THROWS_WITH(parse("heater_capacity_j_per_k = 1\nheater_body_k_per_w = 0.01\n"),
-                      Contains("heater_capacity_j_per_k") && Contains("100.08"));
-    CHECK_THROWS_WITH(parse("body_capacity_j_per_k = 1\nbody_ambient_k_per_w = 0.5\n"),
-                      Contains("body_capacity_j_per_k") && Contains("2.2 or more"));
+                      ContainsSubstring("heater_capacity_j_per_k") && ContainsSubstring("100.08"));
+    CHECK_THROWS_WITH(
+        parse("body_capacity_j_per_k = 1\nbody_ambient_k_per_w = 0.5\n"),
+        ContainsSubstring("body_capacity_j_per_k") && ContainsSubstring("2.2 or more"));
     const Scenario at_the_bound = parse(
         "heater_body_k_per_w = 0.01\nheater_capacity_j_per_k = 100.1\n"
         "body_capacity_j_per_k = 100.1\n");
@@ -246,9 +250,9 @@ TEST_CASE("set-ups are measured by the shortest stay that can be drawn", "[sim][
                              "[0,0,0,0,0,0,0,0,0,0]\nabout_x_deg = [0,0,0,0,0,0,0,0,0,0]\n")));
     CHECK_THROWS_WITH(parse("shortest_s = 60\n" + stay("length_s = 240\nabout_y_deg = [0, 0, 0]\n"
                                                        "about_x_deg = [0, 0, 0]\n")),
-                      Contains("about_y_deg") && Contains("No.1 (1)"));
+                      ContainsSubstring("about_y_deg") && ContainsSubstring("No.1 (1)"));
     CHECK_THROWS_WITH(parse("shortest_s = 60\nsetups = 3\n" + stay("length_s = 240\n")),
-                      Contains("setups") && Contains("No.1 (1)"));
+                      ContainsSubstring("setups") && ContainsSubstring("No.1 (1)"));
 }
 
 TEST_CASE("a stay that the one before leaves no time for is refused", "[sim][survey_plan]") {
@@ -262,7 +266,8 @@ TEST_CASE("a stay that the one before leaves no time for is refused", "[sim][sur
                            "x.toml"),
             1);
     };
-    CHECK_THROWS_WITH(plan_of("00:40:00"), Contains("No.2 (1)") && Contains("not over in time"));
+    CHECK_THROWS_WITH(plan_of("00:40:00"),
+                      ContainsSubstring("No.2 (1)") && ContainsSubstring("not over in time"));
     CHECK_NOTHROW(plan_of("01:40:00"));
 }
 
@@ -275,7 +280,7 @@ TEST_CASE("occupations that cannot be moved apart within the record are refused"
                 ":00Z\"\nambient_degc = 25\n";
     }
     CHECK_THROWS_WITH(plan_survey(parse_scenario(text, "x.toml"), 1),
-                      Contains("No.1") && Contains("further apart"));
+                      ContainsSubstring("No.1") && ContainsSubstring("further apart"));
 }
 
 TEST_CASE("several set-ups share an occupation without a gap, each with its own draws",

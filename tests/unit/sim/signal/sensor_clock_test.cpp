@@ -1,7 +1,7 @@
 #include "sim/signal/sensor_clock.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 #include "sim/signal/signal_source.hpp"
 

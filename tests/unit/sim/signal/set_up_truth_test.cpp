@@ -1,7 +1,7 @@
 #include "sim/signal/set_up_truth.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "tests/support/catch.hpp"
 
 #include "protocol/text/csv.hpp"
 #include "sim/signal/signal_source.hpp"

@@ -1,8 +1,8 @@
 #include "sim/signal/signal_source.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include "tests/support/catch.hpp"
 
 #include "sim/signal/earth_tide.hpp"
 

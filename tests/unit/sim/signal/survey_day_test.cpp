@@ -1,10 +1,10 @@
 /// The simulated survey day and the simulated night indoors against the published ones.  The long form
 /// with more seeds and with EEMD is plant_statistics_bench.
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <vector>
+#include "tests/support/catch.hpp"
 
 #include "corrector/signal/band_pass.hpp"
 #include "protocol/text/csv.hpp"

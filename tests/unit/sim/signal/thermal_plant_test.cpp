@@ -1,11 +1,11 @@
 #include "sim/plant/thermal_plant.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <vector>
+#include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "sim/plant/temperature_error.hpp"

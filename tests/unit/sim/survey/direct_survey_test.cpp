@@ -3,9 +3,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <csignal>
+#include "tests/support/catch.hpp"
 
 #include "protocol/record/archive_reader.hpp"
 #include "protocol/record/event_log.hpp"
@@ -97,7 +97,7 @@ TEST_CASE("a day is not written beside any part of another", "[sim][direct_surve
         CAPTURE(name);
         CHECK_THROWS_WITH(
             write_survey(brief_day(), *wire::find_profile("A351"), 1, directory.path()),
-            Catch::Contains(std::string("already holds ") + name) && !Catch::Contains("\n"));
+            ContainsSubstring(std::string("already holds ") + name) && !ContainsSubstring("\n"));
         std::filesystem::remove_all(directory.path() / name);
     }
     CHECK(std::filesystem::is_empty(directory.path()));
