@@ -76,20 +76,19 @@ void keep_between(std::vector<OccupationWindow>& windows, const std::optional<Ut
     }
 }
 
-/// Of windows by start.
-void keep_last_day(OccupationList& list, const std::filesystem::path& origin) {
-    auto& windows = list.windows;
-    const auto later = std::adjacent_find(windows.rbegin(), windows.rend(),
-                                          [](const OccupationWindow& a, const OccupationWindow& b) {
-                                              return a.start - b.start >= record::kSurveyNight;
-                                          });
-    if (later == windows.rend()) return;
-    const auto first = std::prev(later.base());
+/// With a warning that there are others.
+void keep_last_day(std::vector<record::Occupation>& occupations, OccupationList& list,
+                   const std::filesystem::path& origin) {
+    if (occupations.empty()) return;
+    const std::size_t all = occupations.size();
+    const UtcTime last = occupations.back().set_ups.back().start;
+    occupations = record::survey_day(std::move(occupations), last);
+    if (occupations.size() == all) return;
     list.warnings.push_back(
-        origin.string() + ": the last day is taken, from " + to_rfc3339(first->start) +
-        " on; set-ups of earlier days: " + std::to_string(std::distance(windows.begin(), first)) +
+        origin.string() + ": the last day is taken, from " +
+        to_rfc3339(occupations.front().set_ups.front().start) +
+        " on; occupations of earlier days: " + std::to_string(all - occupations.size()) +
         "; from_utc and to_utc choose others");
-    windows.erase(windows.begin(), first);
 }
 
 UtcTime instant(const text::CsvTable& table, std::size_t row, std::string_view column) {
@@ -160,7 +159,9 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
                                 std::to_string(damage.line) + ": not an event, passed over");
     }
     const std::set<UtcTime> ends = ends_without_stop(log.events);
-    for (const record::Occupation& occupation : record::occupations_of(log.events)) {
+    auto occupations = record::occupations_of(log.events);
+    if (!from && !to) keep_last_day(occupations, list, events);
+    for (const record::Occupation& occupation : occupations) {
         for (const record::Occupation::SetUp& set_up : occupation.set_ups) {
             list.windows.push_back({occupation.site, occupation.number, set_up.start, set_up.end,
                                     !occupation.used.value_or(true)});
@@ -169,10 +170,7 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
         if (ends.contains(last.end)) last.notes.emplace_back("no-stop");
     }
     sort_by_start(list.windows);
-    if (from || to)
-        keep_between(list.windows, from, to, events);
-    else
-        keep_last_day(list, events);
+    keep_between(list.windows, from, to, events);
     for (const OccupationWindow& window : list.windows) {
         if (!window.notes.empty())
             list.warnings.push_back(named(window) +

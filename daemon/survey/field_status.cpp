@@ -76,17 +76,8 @@ double distance_m(const text::Site& site, Degrees latitude, Degrees longitude) {
 }  // namespace
 
 std::vector<record::Occupation> survey_day(const Occupations& occupations, UtcTime now) {
-    auto list = occupations.list();
     const auto& running = occupations.running();
-    UtcTime later = running ? running->start : now;
-    auto first = list.end();
-    while (first != list.begin() &&
-           later - std::prev(first)->set_ups.back().start < record::kSurveyNight) {
-        --first;
-        later = first->set_ups.front().start;
-    }
-    list.erase(list.begin(), first);
-    return list;
+    return record::survey_day(occupations.list(), running ? running->start : now);
 }
 
 OccupationReading reading_of(const std::vector<SetUp>& set_ups, const LiveRecord& live,

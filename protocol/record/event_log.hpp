@@ -71,6 +71,12 @@ struct Occupation {
 /// A survey day ends where no set-up begins for so long: longer than any drive between benchmarks.
 inline constexpr Nanoseconds kSurveyNight = std::chrono::hours(6);
 
+/// Returns the occupations of the survey day that contains `later`.  Starts count, not ends: a stop forgotten in the
+/// evening does not join two days.
+/// @param occupations  as of occupations_of(), none after `later`.
+[[nodiscard]] std::vector<Occupation> survey_day(std::vector<Occupation> occupations,
+                                                 UtcTime later);
+
 /// Site of the occupation that still runs after the last event: started, neither stopped nor
 /// discarded.
 [[nodiscard]] std::optional<std::string> running_site(const std::vector<Event>& events);

@@ -97,6 +97,17 @@ std::vector<Occupation> occupations_of(const std::vector<Event>& events) {
     return occupations;
 }
 
+std::vector<Occupation> survey_day(std::vector<Occupation> occupations, UtcTime later) {
+    auto first = occupations.end();
+    while (first != occupations.begin() &&
+           later - std::prev(first)->set_ups.back().start < kSurveyNight) {
+        --first;
+        later = first->set_ups.front().start;
+    }
+    occupations.erase(occupations.begin(), first);
+    return occupations;
+}
+
 std::optional<std::string> running_site(const std::vector<Event>& events) {
     EventReplay replay;
     for (const Event& event : events) replay.take(event);

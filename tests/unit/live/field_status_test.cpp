@@ -102,6 +102,18 @@ TEST_CASE("a stop forgotten in the evening does not make one day of two", "[fiel
     CHECK(day[0].set_ups.front().start == minute(60 * 20));
 }
 
+TEST_CASE("a site of the day before does not come again", "[field]") {
+    FakeRecorder recorder;
+    recorder.last = minute(60 * 20);
+    Occupations occupations(recorder, two_sites(),
+                            {event("start", minute(0)), event("stop", minute(10))});
+    const LiveRecord live{kProfile, 50, {}};
+    (void)occupations.start("No.0", {}, minute(60 * 20));
+    REQUIRE(occupations.running());
+    REQUIRE(occupations.running()->number == 2);
+    CHECK(field_status(occupations, live, minute(60 * 20 + 1)).warnings.empty());
+}
+
 TEST_CASE("the target is an event, and stays after a restart", "[field]") {
     FakeRecorder recorder;
     Occupations occupations(recorder, {}, {}, {.target = MilliGal(0.7)});

@@ -98,7 +98,7 @@ TEST_CASE("of a recorder's log the last day is corrected, or the time that is as
     const Outcome last = correct(morning, events);
     CHECK(last.status == 0);
     CHECK_THAT(last.errors,
-               ContainsSubstring("from 2020-05-01T23:54:20Z on; set-ups of earlier days: 1; "));
+               ContainsSubstring("from 2020-05-01T23:54:20Z on; occupations of earlier days: 1; "));
     CHECK(rows_of(morning) == Rows{"S1 (1) ", "S2 (1) ", "B (2) "});
 
     const Outcome timed = run(

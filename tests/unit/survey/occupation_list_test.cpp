@@ -99,8 +99,8 @@ TEST_CASE("of a log of several days the last one is taken, or what a time says",
     REQUIRE(last.warnings.size() == 1);
     CHECK(last.warnings[0] ==
           events.string() +
-              ": the last day is taken, from 2020-01-02T08:00:00Z on; set-ups of "
-              "earlier days: 2; from_utc and to_utc choose others");
+              ": the last day is taken, from 2020-01-02T08:00:00Z on; occupations "
+              "of earlier days: 2; from_utc and to_utc choose others");
 
     const auto first = read_logged_occupations(events, {}, at("2020-01-02T08:00:00Z"));
     REQUIRE(first.windows.size() == 2);
