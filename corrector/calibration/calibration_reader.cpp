@@ -1,9 +1,9 @@
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <limits>
 
 #include "corrector/calibration/calibration.hpp"
+#include "corrector/linear_algebra/cholesky.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/strict_toml.hpp"
 #include "protocol/text/text_file.hpp"
@@ -92,7 +92,7 @@ std::optional<CalibratedCoefficients<kCount>> coefficients_of(
     part.values = Eigen::Map<const Eigen::Matrix<double, kCount, 1>>(values.data());
     part.covariance = Eigen::Map<const Matrix>(covariance.data());
     if (part.covariance != part.covariance.transpose() ||
-        part.covariance.llt().info() != Eigen::Success)
+        !Cholesky(part.covariance).is_positive_definite())
         table.refuse("covariance", "no covariance", "a symmetric, positive definite matrix");
     return part;
 }

@@ -21,7 +21,6 @@ namespace a351::corrector {
 namespace {
 
 constexpr int kMostModes = 64;  // more than floor(log2 n) of any record
-constexpr int kMostMembers = 1'000'000;
 constexpr int kMostThreads = 256;
 
 struct EmdCommandOptions {

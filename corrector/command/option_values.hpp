@@ -15,6 +15,9 @@ namespace a351::corrector {
 /// @throws InputError  outside [low, high], or not a number.
 double number_option(std::string_view name, double value, double low, double high);
 
+/// Largest ensemble that a command accepts: a day of computing for a day of data.
+inline constexpr int kMostMembers = 1'000'000;
+
 /// Gravimetric factors between which an Earth could be.
 inline constexpr double kLeastFactor = 0.5;
 inline constexpr double kGreatestFactor = 2.0;

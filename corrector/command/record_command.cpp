@@ -47,7 +47,6 @@ RecordResult analysed(const RecordCommandOptions& options) {
     RecordResult result;
     result.options.cycle_s = number_option("--cycle", options.cycle_s, 200.0, 7200.0);
     result.options.shift_s = number_option("--shift", options.shift_s, 0.0, options.cycle_s);
-    constexpr int kMostMembers = 1'000'000;
     number_option("--ensemble", options.ensemble, 1, kMostMembers);
     result.options.ensemble_size = options.ensemble;
     result.options.seed = options.seed;

@@ -1,10 +1,11 @@
 #include "corrector/day/day_model.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "corrector/day/day_problem.hpp"
+#include "corrector/linear_algebra/cholesky.hpp"
+#include "corrector/linear_algebra/normal_matrix.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -28,7 +29,7 @@ Estimates estimate(const DayProblem& problem, const DayRecord& record, std::size
     Eigen::MatrixXd columns = problem.scaled(u);
     whiten(record.bins, noise, columns);
     const auto x = columns.rightCols(estimated);
-    const Eigen::VectorXd scaled = normal_matrix(x).llt().solve(x.transpose() * columns.col(0));
+    const Eigen::VectorXd scaled = Cholesky(normal_matrix(x)).solve(x.transpose() * columns.col(0));
     const Eigen::VectorXd left = columns.col(0) - x * scaled;
 
     Estimates result;
@@ -37,9 +38,8 @@ Estimates estimate(const DayProblem& problem, const DayRecord& record, std::size
     Eigen::MatrixXd all(x.rows(), 1 + estimated + kLags);
     all << problem.scaled(u), problem.lag_columns(u, result.values);
     whiten(record.bins, problem.expected_noise(u), all);
-    const Eigen::MatrixXd normal = normal_matrix(all.rightCols(estimated + kLags));
     const Eigen::MatrixXd covariance =
-        normal.llt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
+        Cholesky(normal_matrix(all.rightCols(estimated + kLags))).inverse();
     const Eigen::MatrixXd unscaling = problem.unscaling();
     result.standard_errors =
         (unscaling * covariance * unscaling.transpose()).diagonal().cwiseSqrt();

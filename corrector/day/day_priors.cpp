@@ -1,7 +1,8 @@
 #include "corrector/day/day_priors.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
+
+#include "corrector/linear_algebra/cholesky.hpp"
 
 namespace a351::corrector {
 
@@ -9,15 +10,14 @@ void DayPriors::observe(const std::vector<Eigen::Index>& places, const Eigen::Ve
                         const Eigen::MatrixXd& covariance) {
     const Matrix before = factor * factor.transpose();
     const Eigen::MatrixXd innovation = before(places, places) + covariance;
-    const Eigen::MatrixXd gain =
-        innovation.llt().solve(Eigen::MatrixXd(before(places, Eigen::all))).transpose();
+    const Eigen::MatrixXd gain = Cholesky(innovation).solve(before(places, Eigen::all)).transpose();
     mean += gain * (values - Eigen::VectorXd(mean(places)));
     // In Joseph's form, which stays a covariance however exact the measurement is.
     Matrix left = Matrix::Identity();
     for (std::size_t k = 0; k < places.size(); ++k)
         left.col(places[k]) -= gain.col(static_cast<Eigen::Index>(k));
     const Matrix after = left * before * left.transpose() + gain * covariance * gain.transpose();
-    factor = Matrix(0.5 * (after + after.transpose())).llt().matrixL();
+    factor = Cholesky(0.5 * (after + after.transpose())).lower();
 }
 
 // fit_day() documents the priors, methods.md where they come from.

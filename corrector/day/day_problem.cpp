@@ -2,14 +2,14 @@
 
 #include <nlopt.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
 
+#include "corrector/linear_algebra/cholesky.hpp"
+#include "corrector/linear_algebra/normal_matrix.hpp"
 #include "corrector/signal/median.hpp"
-
 #include "protocol/core/units.hpp"
 
 namespace a351::corrector {
@@ -46,12 +46,6 @@ double bin_scatter_mgal(const std::vector<DayBin>& bins) {
 }  // namespace
 
 double LogNormalPrior::at(double u) const { return median * std::pow(factor, u); }
-
-Eigen::MatrixXd normal_matrix(const Eigen::Ref<const Eigen::MatrixXd>& columns) {
-    Eigen::MatrixXd normal = columns.transpose() * columns;
-    normal.diagonal().array() += 1.0;
-    return normal;
-}
 
 DayProblem::DayProblem(const DayRecord& record, const std::vector<DayStation>& stations,
                        const DayPriors& priors)
@@ -212,10 +206,11 @@ double DayProblem::cost(const Point& u) const {
     const double log_determinant = whiten(record_.bins, noise(u), columns);
     const auto y = columns.col(0);
     const auto x = columns.rightCols(estimated());
-    const Eigen::LLT<Eigen::MatrixXd> factor(normal_matrix(x));
-    const Eigen::VectorXd half = factor.matrixL().solve(x.transpose() * y);
-    const double log_normal = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-    double sum = log_determinant + log_normal + y.squaredNorm() - half.squaredNorm();
+    const Cholesky factor(normal_matrix(x));
+    if (!factor.is_positive_definite())
+        return HUGE_VAL;  // Numbers that overflow, far from the priors.
+    const Eigen::VectorXd half = factor.half_solve(x.transpose() * y);
+    double sum = log_determinant + factor.log_determinant() + y.squaredNorm() - half.squaredNorm();
     for (const double value : u) sum += value * value;
     return 0.5 * sum;
 }

@@ -92,7 +92,4 @@ private:
     Eigen::MatrixXd fixed_;  ///< The design, lagged columns left 0.
 };
 
-/// X'X + 1, with the unit priors of scaled columns.
-[[nodiscard]] Eigen::MatrixXd normal_matrix(const Eigen::Ref<const Eigen::MatrixXd>& columns);
-
 }  // namespace a351::corrector

@@ -1,7 +1,5 @@
 #include "corrector/fixed_point/apply_calibration.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "corrector/day/day_columns.hpp"
 #include "corrector/fixed_point/fourier.hpp"
 #include "corrector/fixed_point/regression.hpp"
+#include "corrector/linear_algebra/cholesky.hpp"
 #include "corrector/survey/aligned_text.hpp"
 #include "protocol/core/units.hpp"
 
@@ -19,8 +18,8 @@ namespace {
 
 // 15 samples of 20 s: white noise falls to 0.39 of it, a cycle of 15 min keeps 99 %.
 constexpr std::size_t kHalfWindow = 7;
-constexpr double kShortest_s = 39.0;  // two steps, with a margin for the clock
-constexpr double kSigns = 2.0;        // of its error, for a part to be applied
+constexpr double kShortestPeriod_s = 39.0;  // two steps, with a margin for the clock
+constexpr double kSigns = 2.0;              // of its error, for a part to be applied
 
 struct Response {
     double level = 0.0, slow = 0.0, rate = 0.0;  ///< 0: not applied
@@ -37,7 +36,7 @@ struct Response {
 Response response_of(const ThermalResponse& thermal, std::vector<std::string>& remarks) {
     using Vector = Eigen::Matrix<double, 5, 1>;
     using Matrix = Eigen::Matrix<double, 5, 5>;
-    const Matrix information = thermal.covariance.llt().solve(Matrix::Identity());
+    const Matrix information = Cholesky(thermal.covariance).inverse();
     Matrix together = information;
     Vector weighted = information * thermal.values;
     for (Eigen::Index k = 0; k < 5; ++k) {
@@ -45,7 +44,7 @@ Response response_of(const ThermalResponse& thermal, std::vector<std::string>& r
         together(k, k) += 1.0 / (prior.deviation * prior.deviation);
         weighted(k) += prior.mean / (prior.deviation * prior.deviation);
     }
-    const Matrix covariance = together.inverse();
+    const Matrix covariance = Cholesky(together).inverse();
     const Vector values = covariance * weighted;
 
     Response response;
@@ -185,7 +184,7 @@ AppliedCalibration apply_calibration(const ThermalResponse& thermal, const Recor
 
     const std::array<const std::vector<double>*, 3> series{
         &segment.acceleration_mgal, &applied.parametric_mgal, &applied.by_modes_mgal};
-    const std::vector<double> edges_s{kShortest_s,
+    const std::vector<double> edges_s{kShortestPeriod_s,
                                       240.0,
                                       600.0,
                                       1500.0,

@@ -54,7 +54,6 @@ std::optional<std::size_t> bridged(const Part& before, const Part& after, double
 
 LongRecord joined_record(std::vector<LongRecord> parts) {
     LongRecord all;
-    all.source = parts.front().source;
     all.raw_rate_hz = parts.front().raw_rate_hz;
     all.step_s = parts.front().step_s;
     all.is_tide_removed = true;
@@ -63,7 +62,7 @@ LongRecord joined_record(std::vector<LongRecord> parts) {
         LongRecord& part = parts[k];
         if (std::abs(part.step_s / all.step_s - 1.0) > kSameStep) {
             throw InputError(part.source.string() + ": a sample every " +
-                             text::shortest(part.step_s) + " s, " + all.source.string() +
+                             text::shortest(part.step_s) + " s, " + parts.front().source.string() +
                              " has one every " + text::shortest(all.step_s) +
                              " s; allowed: one step in all parts of a record");
         }

@@ -45,7 +45,7 @@ struct RecordStretch {
 };
 
 struct LongRecord {
-    std::filesystem::path source;          ///< File or data root it was read from.
+    std::filesystem::path source;          ///< File or data root it was read from; empty: joined.
     std::vector<RecordStretch> stretches;  ///< In order of time; each at least one sample.
     double raw_rate_hz = 0.0;
     double step_s = kRecordStep_s;  ///< Between samples, on the sensor's clock.

@@ -1,13 +1,12 @@
 #include "corrector/fixed_point/record_calibration.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
+#include "corrector/linear_algebra/cholesky.hpp"
+#include "corrector/linear_algebra/symmetric_eigen.hpp"
 #include "corrector/survey/aligned_text.hpp"
 #include "protocol/core/units.hpp"
 
@@ -61,19 +60,19 @@ Information information_of(const TwoPathFit& fit) {
         }
     }
     // The priors are independent: the other terms, integrated out, leave theirs untouched.
-    const Matrix posterior = covariance.llt().solve(Matrix::Identity());
+    const Matrix posterior = Cholesky(covariance).inverse();
     return {0.5 * (posterior + posterior.transpose()) - Matrix::Identity(), posterior * estimate};
 }
 
 /// The part of it in directions of at least kLeastInformation, and their number.
 std::pair<Information, int> told(const Information& all) {
-    const Eigen::SelfAdjointEigenSolver<Matrix> axes(all.matrix);
+    const SymmetricEigen axes = symmetric_eigen(all.matrix);
     Information part;
     int count = 0;
     for (Index k = 0; k < kCount; ++k) {
-        if (axes.eigenvalues()(k) < kLeastInformation) continue;
-        const Vector axis = axes.eigenvectors().col(k);
-        part.matrix += axes.eigenvalues()(k) * axis * axis.transpose();
+        if (axes.values(k) < kLeastInformation) continue;
+        const Vector axis = axes.vectors.col(k);
+        part.matrix += axes.values(k) * axis * axis.transpose();
         part.vector += axis * axis.dot(all.vector);
         ++count;
     }
@@ -83,13 +82,13 @@ std::pair<Information, int> told(const Information& all) {
 /// vector' matrix^+ vector, and the rank.
 std::pair<double, int> explained(const Information& part) {
     constexpr double kNothing = 1e-6;
-    const Eigen::SelfAdjointEigenSolver<Matrix> axes(part.matrix);
+    const SymmetricEigen axes = symmetric_eigen(part.matrix);
     double sum = 0.0;
     int rank = 0;
     for (Index k = 0; k < kCount; ++k) {
-        if (axes.eigenvalues()(k) < kNothing) continue;
-        const double along = axes.eigenvectors().col(k).dot(part.vector);
-        sum += along * along / axes.eigenvalues()(k);
+        if (axes.values(k) < kNothing) continue;
+        const double along = axes.vectors.col(k).dot(part.vector);
+        sum += along * along / axes.values(k);
         ++rank;
     }
     return {sum, rank};
@@ -114,12 +113,12 @@ double agreement(const std::vector<Information>& records) {
 }
 
 ThermalResponse passed_on(const Information& all) {
-    const Eigen::SelfAdjointEigenSolver<Matrix> axes(all.matrix);
+    const SymmetricEigen axes = symmetric_eigen(all.matrix);
     Vector values = Vector::Zero();
     Matrix covariance = Matrix::Zero();
     for (Index k = 0; k < kCount; ++k) {
-        const Vector axis = axes.eigenvectors().col(k);
-        const double information = axes.eigenvalues()(k), along = axis.dot(all.vector);
+        const Vector axis = axes.vectors.col(k);
+        const double information = axes.values(k), along = axis.dot(all.vector);
         const bool is_told = information >= kLeastInformation;
         values += axis * along / (is_told ? information : 1.0 + std::max(0.0, information));
         covariance += (is_told ? 1.0 / information : kOpenDeviation * kOpenDeviation) * axis *
@@ -143,7 +142,7 @@ PooledThermal pool_thermal(const std::vector<TwoPathFit>& fits) {
         all.matrix += records.back().matrix;
         all.vector += records.back().vector;
     }
-    const Matrix covariance = (all.matrix + Matrix::Identity()).inverse();
+    const Matrix covariance = Cholesky(all.matrix + Matrix::Identity()).inverse();
     const Vector estimate = covariance * all.vector;
     const Vector means = prior_means(), deviations = prior_deviations();
 

@@ -2,7 +2,6 @@
 
 #include <nlopt.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -12,6 +11,8 @@
 #include "corrector/day/day_columns.hpp"
 #include "corrector/fixed_point/fourier.hpp"
 #include "corrector/fixed_point/regression.hpp"
+#include "corrector/linear_algebra/cholesky.hpp"
+#include "corrector/linear_algebra/normal_matrix.hpp"
 #include "protocol/core/units.hpp"
 
 namespace a351::corrector {
@@ -90,22 +91,22 @@ public:
     [[nodiscard]] double cost(const Lags& u) const {
         const Eigen::MatrixXd x = design(u);
         const Eigen::VectorXd y = readings();
-        const Eigen::LLT<Eigen::MatrixXd> factor(normal(x));
-        const Eigen::VectorXd half = factor.matrixL().solve(x.transpose() * y);
-        double sum = 2.0 * factor.matrixLLT().diagonal().array().log().sum() + y.squaredNorm() -
-                     half.squaredNorm();
+        const Cholesky factor(normal_matrix(x));
+        if (!factor.is_positive_definite()) return HUGE_VAL;  // Numbers that overflow.
+        const Eigen::VectorXd half = factor.half_solve(x.transpose() * y);
+        double sum = factor.log_determinant() + y.squaredNorm() - half.squaredNorm();
         for (const double value : u) sum += value * value;
         return 0.5 * sum;
     }
 
     /// From afar by subplexes, from nearby by parabolas, which need a third of the time.
     [[nodiscard]] Lags most_likely(Lags u, bool is_nearby) const {
-        constexpr unsigned kCount = 3;
+        constexpr unsigned kLags = 3;
         const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> search(
-            nlopt_create(is_nearby ? NLOPT_LN_BOBYQA : NLOPT_LN_SBPLX, kCount), &nlopt_destroy);
+            nlopt_create(is_nearby ? NLOPT_LN_BOBYQA : NLOPT_LN_SBPLX, kLags), &nlopt_destroy);
         const auto cost_of = [](unsigned, const double* point, double*, void* problem) {
             Lags at;
-            std::copy_n(point, kCount, at.begin());
+            std::copy_n(point, kLags, at.begin());
             return static_cast<const Problem*>(problem)->cost(at);
         };
         constexpr double kFarthest = 5.0;  // standard deviations of the priors
@@ -123,7 +124,7 @@ public:
     /// In units of the priors' deviations.
     [[nodiscard]] Eigen::VectorXd coefficients(const Lags& u) const {
         const Eigen::MatrixXd x = design(u);
-        return normal(x).llt().solve(x.transpose() * readings());
+        return Cholesky(normal_matrix(x)).solve(x.transpose() * readings());
     }
 
     /// Of coefficients and lags, in units of the priors' deviations; linearised.
@@ -138,8 +139,7 @@ public:
             jacobian.col(kLinear + static_cast<Index>(k)) =
                 (design(more) - design(less)) * beta / (2.0 * kStep);
         }
-        const Index terms = jacobian.cols();
-        return normal(jacobian).llt().solve(Eigen::MatrixXd::Identity(terms, terms));
+        return Cholesky(normal_matrix(jacobian)).inverse();
     }
 
     /// Takes the noise from what the coefficients leave.
@@ -203,12 +203,6 @@ private:
         parts.head(frequencies_).array() /= noise_.array().sqrt();
         parts.tail(frequencies_).array() /= noise_.array().sqrt();
         return parts;
-    }
-
-    static Eigen::MatrixXd normal(const Eigen::MatrixXd& x) {
-        Eigen::MatrixXd product = x.transpose() * x;
-        product.diagonal().array() += 1.0;
-        return product;
     }
 
     void smooth_noise(const Eigen::VectorXd& power) {
@@ -321,13 +315,12 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
         if (parameter.is_determined) parameter.needed.clear();
     }
     fit.covariance = units.asDiagonal() * scaled * units.asDiagonal();
-    constexpr auto kLevel = static_cast<Index>(TwoPathTerm::level),
-                   kSlow = static_cast<Index>(TwoPathTerm::slow);
+    constexpr auto level = static_cast<Index>(TwoPathTerm::level),
+                   slow = static_cast<Index>(TwoPathTerm::slow);
     fit.static_slope = fit[TwoPathTerm::level].value + fit[TwoPathTerm::slow].value;
-    fit.static_slope_error =
-        std::sqrt(fit.covariance(kLevel, kLevel) + fit.covariance(kSlow, kSlow) +
-                  2.0 * fit.covariance(kLevel, kSlow));
-    const double prior = std::hypot(units(kLevel), units(kSlow));
+    fit.static_slope_error = std::sqrt(fit.covariance(level, level) + fit.covariance(slow, slow) +
+                                       2.0 * fit.covariance(level, slow));
+    const double prior = std::hypot(units(level), units(slow));
     fit.is_static_slope_determined = fit.static_slope_error < kDeterminedDeviation * prior;
 
     const TimeSeries<DegC> whole({}, Hertz(1.0 / step_s), temperature_degc);

@@ -11,12 +11,12 @@
 namespace a351::corrector {
 namespace {
 
-const std::string kName = "map";
+const std::string kMapName = "map";
 // The plot within the SVG, so that the place of a label in pixels is known.
-constexpr int kWidth_px = 640, kHeight_px = 560;
+constexpr int kMapWidth_px = 640, kMapHeight_px = 560;
 constexpr double kLeft = 0.14, kRight = 0.97, kBottom = 0.10, kTop = 0.97;
-constexpr double kPlotWidth_px = (kRight - kLeft) * kWidth_px;
-constexpr double kPlotHeight_px = (kTop - kBottom) * kHeight_px;
+constexpr double kPlotWidth_px = (kRight - kLeft) * kMapWidth_px;
+constexpr double kPlotHeight_px = (kTop - kBottom) * kMapHeight_px;
 constexpr double kLetter_px = 6.0;  // of the labels' 11 px letters, as wide as the widest digits
 constexpr double kLine_px = 13.0;
 constexpr double kKilometresPerDegree = 111.2;  // of latitude, on a sphere of 6371 km
@@ -179,7 +179,7 @@ std::optional<Figure> map_figure(const SurveyCorrection& result,
                                     station_lines(stations, is_known));
         if (!block) continue;
         clauses.push_back(
-            "'" + kName + ".dat' index " + std::to_string(*block) + " using 1:2 with points " +
+            "'" + kMapName + ".dat' index " + std::to_string(*block) + " using 1:2 with points " +
             (is_known ? "pt 9 ps 0.7 lc rgb " + kBlue : "pt 8 ps 0.8 lw 1.5 lc rgb " + kVermilion) +
             " title '" + (is_known ? "known" : "unknown") + " gravity'");
     }
@@ -203,10 +203,10 @@ std::optional<Figure> map_figure(const SurveyCorrection& result,
         };
         return "set xrange " + text(frame.longitude) + "set yrange " + text(frame.latitude);
     }();
-    return Figure{kName,
+    return Figure{kMapName,
                   "Stations with their heights; one scale in both directions." +
                       (absent.empty() ? absent : absent + '.'),
-                  script_head(kName, kWidth_px, kHeight_px) + "set lmargin at screen " +
+                  script_head(kMapName, kMapWidth_px, kMapHeight_px) + "set lmargin at screen " +
                       fixed(kLeft, 2) + "\nset rmargin at screen " + fixed(kRight, 2) +
                       "\nset bmargin at screen " + fixed(kBottom, 2) + "\nset tmargin at screen " +
                       fixed(kTop, 2) + '\n' + range + "set xtics " + fixed(step_deg, 7) +

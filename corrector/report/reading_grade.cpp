@@ -101,19 +101,20 @@ void add_trends(ReadingGrade& reading, const SurveyRow& row) {
 }
 
 /// What readings of one station scatter by after all corrections.
-struct Scatter {
+struct ReadingScatter {
     std::string name;
     double mgal = 0.0;
 };
 
-std::optional<Scatter> scatter_of(const SurveyCorrection& result) {
+std::optional<ReadingScatter> scatter_of(const SurveyCorrection& result) {
     if (result.model != "day") {
         if (!result.score.s_mgal) return std::nullopt;
-        return Scatter{"s", *result.score.s_mgal};
+        return ReadingScatter{"s", *result.score.s_mgal};
     }
     // The rest of what the model estimates is taken off the readings.
     for (const Coefficient& coefficient : result.coefficients) {
-        if (coefficient.name == "placement_mgal") return Scatter{"placement", coefficient.value};
+        if (coefficient.name == "placement_mgal")
+            return ReadingScatter{"placement", coefficient.value};
     }
     return std::nullopt;
 }

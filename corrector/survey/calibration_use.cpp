@@ -1,11 +1,11 @@
 #include "corrector/survey/calibration_use.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "corrector/linear_algebra/symmetric_eigen.hpp"
 #include "corrector/survey/aligned_text.hpp"
 #include "protocol/core/input_error.hpp"
 
@@ -108,14 +108,13 @@ std::optional<Disagreement> disagreement(const DayFit& fit,
     }
     const Eigen::MatrixXd gained = Eigen::MatrixXd::Identity(count, count) -
                                    Eigen::MatrixXd(fit.shift_covariance(places, places));
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(scale.asDiagonal() * gained *
-                                                              scale.asDiagonal());
+    const SymmetricEigen axes = symmetric_eigen(scale.asDiagonal() * gained * scale.asDiagonal());
     const Eigen::VectorXd along =
-        axes.eigenvectors().transpose() * scale.cwiseProduct(Eigen::VectorXd(fit.shift(places)));
+        axes.vectors.transpose() * scale.cwiseProduct(Eigen::VectorXd(fit.shift(places)));
     Disagreement test;
     for (Eigen::Index k = 0; k < count; ++k) {
-        if (axes.eigenvalues()(k) < 1.0) continue;
-        test.chi_square += along(k) * along(k) / axes.eigenvalues()(k);
+        if (axes.values(k) < 1.0) continue;
+        test.chi_square += along(k) * along(k) / axes.values(k);
         ++test.dof;
     }
     if (test.dof == 0) return std::nullopt;

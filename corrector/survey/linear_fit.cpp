@@ -1,8 +1,9 @@
 #include "corrector/survey/linear_fit.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
+
+#include "corrector/linear_algebra/pivoted_qr.hpp"
 
 namespace a351::corrector {
 
@@ -52,21 +53,14 @@ std::optional<LinearFit> fit_linear(const Eigen::Ref<const Eigen::MatrixXd>& col
             rows.row(row) = priors.weights(k) * Eigen::RowVectorXd::Unit(q, k);
             right(row++) = priors.weights(k) * priors.values(k);
         }
-        Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows);
+        const PivotedQr qr(rows);
         // Columns are centred to about 1e-16 of their values; what is left of a constant one is noise.
         const double noise =
             1e-12 * (1.0 + columns.cwiseAbs().maxCoeff()) * std::sqrt(static_cast<double>(n));
-        for (Eigen::Index k = 0; k < q; ++k) {
-            if (!(std::abs(qr.matrixR()(k, k)) > noise)) return std::nullopt;
-        }
-        if (qr.rank() < q) return std::nullopt;
+        if (!(qr.pivots().array() > noise).all() || qr.rank() < q) return std::nullopt;
         slopes = qr.solve(right);
         fit.prior_rss = (right - rows * slopes).tail(fit.prior_count).squaredNorm();
-        // X = Q R P^T, so (X^T X)^-1 = P R^-1 R^-T P^T.
-        const Eigen::MatrixXd inverse_r =
-            qr.matrixR().topLeftCorner(q, q).template triangularView<Eigen::Upper>().solve(
-                Eigen::MatrixXd::Identity(q, q));
-        const Eigen::MatrixXd root = qr.colsPermutation() * inverse_r;
+        const Eigen::MatrixXd root = qr.cofactor_root();
         slope_cofactor = root * root.transpose();
     }
     const Eigen::VectorXd mean_cofactor = slope_cofactor * fit.column_means;

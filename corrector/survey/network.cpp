@@ -1,10 +1,10 @@
 #include "corrector/survey/network.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
+#include "corrector/linear_algebra/pivoted_qr.hpp"
 #include "corrector/survey/aligned_text.hpp"
 #include "corrector/survey/network_diagnosis.hpp"
 #include "corrector/survey/network_system.hpp"
@@ -21,13 +21,10 @@ void solve(NetworkAdjustment& network, const NetworkSystem& system) {
     Eigen::MatrixXd a = weights.asDiagonal() * system.a;
     const Eigen::VectorXd scale = a.colwise().norm().transpose().cwiseInverse();
     a = a * scale.asDiagonal();
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
+    const PivotedQr qr(a);
     const Eigen::Index p = a.cols();
     network.unknowns = scale.asDiagonal() * qr.solve(weights.asDiagonal() * system.y);
-    const Eigen::MatrixXd inverse_r =
-        qr.matrixR().topLeftCorner(p, p).template triangularView<Eigen::Upper>().solve(
-            Eigen::MatrixXd::Identity(p, p));
-    const Eigen::MatrixXd root = scale.asDiagonal() * (qr.colsPermutation() * inverse_r);
+    const Eigen::MatrixXd root = scale.asDiagonal() * qr.cofactor_root();
     network.covariance = root * root.transpose();
 
     const Eigen::VectorXd residuals = system.a * network.unknowns - system.y;

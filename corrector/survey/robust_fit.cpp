@@ -1,11 +1,11 @@
 #include "corrector/survey/robust_fit.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
 
+#include "corrector/linear_algebra/pivoted_qr.hpp"
 #include "corrector/signal/median.hpp"
 
 namespace a351::corrector {
@@ -41,10 +41,10 @@ struct Problem {
         rows.bottomRows(prior_design.rows()) = prior_design;
         right.tail(prior_y.size()) = prior_y;
         if (rows.rows() < p) return std::nullopt;
-        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows);
+        const PivotedQr qr(rows);
         // Temperatures are printed to 0.01 degC: smaller pivots come from rows alike.
         constexpr double kLeastPivot = 1e-9;
-        if (!(std::abs(qr.matrixR()(p - 1, p - 1)) > kLeastPivot)) return std::nullopt;
+        if (!(qr.pivots()(p - 1) > kLeastPivot)) return std::nullopt;
         return qr.solve(right);
     }
 

@@ -22,8 +22,8 @@ struct SurveyFile {
     std::filesystem::path occupations;  ///< CSV; empty: the event log of the root.
     std::filesystem::path amendments;   ///< TOML for amend(); empty: none.
     std::filesystem::path calibration;  ///< What survey.calibration was read from; empty: none.
-    std::optional<UtcTime> from,
-        to;  ///< Which occupations, by their start; neither: a log's last day.
+    std::optional<UtcTime> from;        ///< Occupations that start from here on ...
+    std::optional<UtcTime> to;          ///< ... and before this; neither: a log's last day.
     SurveyOptions survey;
     TideChoice tide;
     std::optional<TrendCurve> curve;  ///< Absent: the signal's default.  `paper` has its own.

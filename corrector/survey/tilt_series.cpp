@@ -1,11 +1,11 @@
 #include "corrector/survey/tilt_series.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "corrector/day/day_model.hpp"
+#include "corrector/linear_algebra/cholesky.hpp"
+#include "corrector/linear_algebra/symmetric_eigen.hpp"
 #include "corrector/survey/aligned_text.hpp"
 #include "corrector/survey/day_correction.hpp"
 #include "protocol/core/input_error.hpp"
@@ -20,7 +20,7 @@ constexpr double kLeastTilt_deg = 0.5;
 // 0.3 degC move the reading by 10 mGal, of which the fit may leave a tenth.
 constexpr double kGreatestRange_degc = 0.3;
 
-bool takes_part(const SurveyRow& row) { return !row.is_flagged && !row.is_excluded; }
+bool is_in_series(const SurveyRow& row) { return !row.is_flagged && !row.is_excluded; }
 
 [[noreturn]] void refuse(const std::string& origin, const std::string& trouble,
                          const std::string& allowed) {
@@ -37,7 +37,8 @@ Eigen::MatrixXd tilts_deg(const OccupationRows& read) {
     Eigen::MatrixXd all(static_cast<Eigen::Index>(bins.size()), 2);
     Eigen::Index count = 0;
     for (const DayBin& bin : bins)
-        if (takes_part(read.rows[bin.set_up])) all.row(count++) << tilt_deg(bin.x), tilt_deg(bin.y);
+        if (is_in_series(read.rows[bin.set_up]))
+            all.row(count++) << tilt_deg(bin.x), tilt_deg(bin.y);
     return all.topRows(count);
 }
 
@@ -53,10 +54,9 @@ void require_both_axes(const Eigen::MatrixXd& tilts, const std::string& origin) 
         refuse(origin, trouble, allowed);
     }
     const Eigen::MatrixXd centred = tilts.rowwise() - tilts.colwise().mean();
-    const Eigen::Matrix2d scatter =
-        centred.transpose() * centred / static_cast<double>(tilts.rows());
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(scatter);
-    const double across = std::sqrt(std::max(0.0, axes.eigenvalues()(0)));
+    const SymmetricEigen axes =
+        symmetric_eigen(centred.transpose() * centred / static_cast<double>(tilts.rows()));
+    const double across = std::sqrt(std::max(0.0, axes.values(0)));
     if (across < kLeastTilt_deg / 2.0)
         refuse(origin,
                "x and y are tilted together: across, the tilts scatter by " + fixed(across, 2) +
@@ -67,7 +67,7 @@ void require_both_axes(const Eigen::MatrixXd& tilts, const std::string& origin) 
 double temperature_range_degc(const OccupationRows& read) {
     double least = HUGE_VAL, greatest = -HUGE_VAL;
     for (const SurveyRow& row : read.rows) {
-        if (!takes_part(row)) continue;
+        if (!is_in_series(row)) continue;
         least = std::min(least, row.temperature.value());
         greatest = std::max(greatest, row.temperature.value());
     }
@@ -112,7 +112,7 @@ std::vector<DayBin> freed_from(const std::vector<DayBin>& bins, const Eigen::Vec
 
 TiltSeries measure_axis_bias(const OccupationRows& read, const std::string& origin) {
     TiltSeries series;
-    series.set_ups = static_cast<std::size_t>(std::ranges::count_if(read.rows, takes_part));
+    series.set_ups = static_cast<std::size_t>(std::ranges::count_if(read.rows, is_in_series));
     series.temperature_range_degc = temperature_range_degc(read);
     require_tilt_series(read, series, origin);
     const Eigen::MatrixXd tilts = tilts_deg(read);
@@ -128,7 +128,7 @@ TiltSeries measure_axis_bias(const OccupationRows& read, const std::string& orig
     std::vector<DayStation> stations;
     for (std::size_t i = 0; i < read.rows.size(); ++i) {
         DayStation station{read.rows[i].tide, gravity, 0};
-        if (!takes_part(read.rows[i])) station = {read.rows[i].tide, std::nullopt, i};
+        if (!is_in_series(read.rows[i])) station = {read.rows[i].tide, std::nullopt, i};
         stations.push_back(station);
     }
     double mean = 0.0;
@@ -160,12 +160,12 @@ AxisBias combine(const std::vector<TiltSeries>& series) {
     Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
     Eigen::Vector2d weighted = Eigen::Vector2d::Zero();
     for (const TiltSeries& one : series) {
-        const Eigen::Matrix2d inverse = one.bias.covariance.inverse();
+        const Eigen::Matrix2d inverse = Cholesky(one.bias.covariance).inverse();
         information += inverse;
         weighted += inverse * one.bias.values;
     }
     AxisBias bias;
-    const Eigen::Matrix2d covariance = information.inverse();
+    const Eigen::Matrix2d covariance = Cholesky(information).inverse();
     bias.covariance << covariance(0, 0), covariance(0, 1), covariance(0, 1), covariance(1, 1);
     bias.values = covariance * weighted;
     return bias;

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint32_t kHeaderLimit = 8 * 1024;
 constexpr std::uint64_t kBodyLimit = std::uint64_t{16} * 1024;
 constexpr std::string_view kLivePath = "/live";
-constexpr std::chrono::seconds kLinger{1};
+constexpr std::chrono::seconds kRefusalLinger{1};
 constexpr std::chrono::milliseconds kAcceptPause{100};
 
 Request plain(const HttpRequest& message) {
@@ -213,7 +213,7 @@ private:
     static asio::awaitable<void> refuse(beast::tcp_stream& stream, Response response) {
         error_code error;
         const auto reply = packed(std::move(response), 11, false, false);
-        stream.expires_after(kLinger);
+        stream.expires_after(kRefusalLinger);
         co_await http::async_write(stream, reply, into(error));
         if (error) co_return;
         stream.socket().shutdown(tcp::socket::shutdown_send, error);

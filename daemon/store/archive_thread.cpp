@@ -1,6 +1,7 @@
 #include "daemon/store/archive_thread.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "protocol/record/channel_code.hpp"
 #include "protocol/record/sds.hpp"
@@ -11,7 +12,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr seconds kSyncInterval{30};
+constexpr seconds kArchiveSyncInterval{30};
 constexpr seconds kSpaceInterval{1};   // A disk can fill up within a minute.
 constexpr seconds kModelInterval{10};  // Of instrument time, and
 constexpr milliseconds kShortestModelInterval{100};
@@ -167,7 +168,7 @@ bool ArchiveThread::put_away(bool is_last) {
         for (; !undescribed_.empty(); undescribed_.pop_front())
             hooks_.session_began(undescribed_.front());
         write_outbox();
-        if (is_last || time_.now() - last_sync_ >= kSyncInterval) sync();
+        if (is_last || time_.now() - last_sync_ >= kArchiveSyncInterval) sync();
     } catch (const std::exception& error) {
         note_fault(error.what());
         retry_at_ = time_.now() + time_.retry_interval;

@@ -11,9 +11,9 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr milliseconds kWriteInterval{50};  // Half of what is promised leaves room for the disk.
-constexpr milliseconds kSyncInterval{800};  // Of the second that is promised.
-constexpr seconds kClockInterval{1};        // Of instrument time, and
-constexpr milliseconds kShortestClockInterval{100};
+constexpr milliseconds kJournalSyncInterval{800};  // Leaves 0.2 s of the promised 1 s.
+constexpr seconds kClockInterval{1};  // Between two clock readings: on the instrument's time,
+constexpr milliseconds kShortestClockInterval{100};  // and on real time.
 // Together with 12 bytes per stamp below the largest chunk.
 constexpr std::size_t kMostBytes = std::size_t{48} << 10;
 constexpr std::size_t kMostReads = 1000;
@@ -158,7 +158,7 @@ void JournalThread::work(Phase phase) {
         while (auto chunk = next_posted()) write(std::move(*chunk));
     }
     carry_out_commits();
-    if (is_dirty_ && may_try_again() && time_.now() - last_sync_ >= kSyncInterval) sync();
+    if (is_dirty_ && may_try_again() && time_.now() - last_sync_ >= kJournalSyncInterval) sync();
 }
 
 /// The header of a session stays: it waits to be written in the place of what came before it.

@@ -11,6 +11,9 @@ namespace a351::daemon {
 /// 41 at 5 Hz.
 inline constexpr double kReachSeconds = 9.02;
 
+/// Interval between values of the live series, s.
+inline constexpr double kLiveStepSeconds = 2.0;
+
 /// One value of the live 2 s series: the axes and the temperature through the decimation of the
 /// evening, so that field and evening see the same.  A value that is missing is NaN.
 struct LiveSample {

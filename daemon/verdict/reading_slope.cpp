@@ -1,6 +1,6 @@
 #include "daemon/verdict/reading_slope.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -9,7 +9,6 @@
 namespace a351::daemon {
 namespace {
 
-constexpr double kStepSeconds = 2.0;
 constexpr int kPerMinute = 30;
 constexpr int kLeastMinutes = 3;  ///< Fewer have no scatter to speak of.
 
@@ -49,8 +48,8 @@ std::optional<double> RunningValue::minute_variance() const {
 
 RunningReading RunningValue::reading(MilliGal target, VerdictState state) const {
     RunningReading reading;
-    reading.used_s = kStepSeconds * used_;
-    reading.left_out_s = kStepSeconds * left_out_;
+    reading.used_s = kLiveStepSeconds * used_;
+    reading.left_out_s = kLiveStepSeconds * left_out_;
     if (used_ == 0) return reading;
     reading.value = MilliGal(zero_mgal_ + sum_mgal_ / used_);
     const auto variance = minute_variance();

@@ -10,7 +10,6 @@
 namespace a351::daemon {
 namespace {
 
-constexpr double kStepSeconds = 2.0;
 constexpr std::size_t kMinute = 30;  ///< Samples.
 constexpr std::size_t kHour = 60;    ///< Minutes.
 constexpr std::size_t kUsualMinutes = 10;
@@ -61,7 +60,7 @@ void TouchWatch::follow_shake(const LiveSample& sample) {
         knock_begun_.reset();
         return;
     }
-    if (!knock_begun_) knock_begun_ = sample.seen_at - from_seconds(kStepSeconds);
+    if (!knock_begun_) knock_begun_ = sample.seen_at - from_seconds(kLiveStepSeconds);
     last_knock_ = sample.seen_at;
     if (seconds_between(*knock_begun_, sample.seen_at) > options_.handled_s) {
         last_handled_ = sample.seen_at;

@@ -62,9 +62,7 @@ std::uint16_t rate_code(const DeviceProfile& profile, int output_rate_hz) {
 
 Handshake::Handshake(const DeviceProfile& profile, SensorSettings settings,
                      std::string serial_number)
-    : profile_(&profile),
-      settings_(settings),
-      expected_serial_number_(std::move(serial_number)) {
+    : profile_(&profile), settings_(settings), expected_serial_number_(std::move(serial_number)) {
     if (profile.filter_coded(settings.filter_code) == nullptr) {
         throw std::invalid_argument("Handshake: profile " + std::string(profile.name) +
                                     " has no filter coded " + hex(settings.filter_code));
@@ -246,8 +244,10 @@ void Handshake::take_configuration(std::uint16_t value) {
 
 void Handshake::take_aliasing(std::uint16_t value) {
     if ((value & kFlagAliasing) != 0) {
+        const FilterSpec* const filter = profile_->filter_coded(settings_.filter_code);
         return fail(mismatch(kFlag, 0, value, kFlagAliasing) + ": ALIASI_ERR, filter " +
-                    std::string(profile_->filter_coded(settings_.filter_code)->name) +
+                    (filter != nullptr ? std::string(filter->name)
+                                       : std::to_string(settings_.filter_code)) +
                     " is not allowed at " + std::to_string(settings_.output_rate_hz) + " Hz");
     }
     ask(Stage::window, kWinCtrl);

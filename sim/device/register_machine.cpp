@@ -10,7 +10,7 @@ namespace {
 using wire::Register;
 using wire::Window;
 
-constexpr std::byte kCarriageReturn{0x0D};
+constexpr std::byte kEndOfAnswer{0x0D};
 constexpr std::uint8_t kWriteBit = 0x80;
 constexpr std::uint8_t kEvenAddress = 0xFE;
 constexpr std::uint8_t kFirstUserFilter = 0xB;   // FILTER_SEL (7.12).
@@ -109,7 +109,7 @@ void RegisterMachine::read(std::uint8_t address, std::vector<std::byte>& answers
     answers.push_back(std::byte{address});
     answers.push_back(static_cast<std::byte>(value >> 8));
     answers.push_back(static_cast<std::byte>(value & 0xFF));
-    answers.push_back(kCarriageReturn);
+    answers.push_back(kEndOfAnswer);
     if (window_ == Window::w0) clear_after_read(address & kEvenAddress);
 }
 

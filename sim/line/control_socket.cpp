@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& path) {
+[[noreturn]] void fail_at(const fs::path& path) {
     throw std::system_error(errno, std::generic_category(), path.string());
 }
 
@@ -74,7 +74,7 @@ ControlSocket::ControlSocket(fs::path path, Handler handler)
     if (has_stale_socket(path_)) fs::remove(path_);
     const sockaddr_un address = address_of(path_);
     listener_ = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    if (listener_ < 0) fail(path_);
+    if (listener_ < 0) fail_at(path_);
     struct stat file {};
     if (::bind(listener_, plain(address), sizeof address) != 0 ||
         ::listen(listener_, static_cast<int>(kMostClients)) != 0 ||

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const std::string& operation) {
+[[noreturn]] void fail_to(const std::string& operation) {
     throw std::system_error(errno, std::generic_category(), operation);
 }
 
@@ -66,7 +66,7 @@ bool has_stale_link(const fs::path& link) {
 }  // namespace
 
 Pty::Terminal::Terminal(int baud) : master(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
-    if (master < 0) fail("open a pseudo-terminal");
+    if (master < 0) fail_to("open a pseudo-terminal");
     try {
         open_slave(baud);
     } catch (...) {
@@ -80,15 +80,15 @@ void Pty::Terminal::open_slave(int baud) {
     std::array<char, 128> name{};
     if (::fcntl(master, F_SETFL, O_NONBLOCK) != 0 || ::grantpt(master) != 0 ||
         ::unlockpt(master) != 0 || ::ptsname_r(master, name.data(), name.size()) != 0) {
-        fail("unlock the pseudo-terminal");
+        fail_to("unlock the pseudo-terminal");
     }
     path = name.data();
     slave = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
     termios settings{};
-    if (slave < 0 || ::tcgetattr(slave, &settings) != 0) fail("open " + path);
+    if (slave < 0 || ::tcgetattr(slave, &settings) != 0) fail_to("open " + path);
     ::cfmakeraw(&settings);
     ::cfsetspeed(&settings, speed_code(baud));
-    if (::tcsetattr(slave, TCSANOW, &settings) != 0) fail("set up " + path);
+    if (::tcsetattr(slave, TCSANOW, &settings) != 0) fail_to("set up " + path);
 }
 
 Pty::Terminal::~Terminal() {
@@ -150,7 +150,7 @@ std::vector<std::byte> Pty::read() {
     const ssize_t got = ::read(terminal_.master, buffer.data(), buffer.size());
     if (got < 0) {
         if (errno == EAGAIN || errno == EINTR) return {};
-        fail("read " + terminal_.path);
+        fail_to("read " + terminal_.path);
     }
     return {buffer.begin(), buffer.begin() + got};
 }
@@ -159,7 +159,7 @@ std::size_t Pty::write(std::span<const std::byte> bytes) {
     const ssize_t taken = ::write(terminal_.master, bytes.data(), bytes.size());
     if (taken >= 0) return static_cast<std::size_t>(taken);
     if (errno == EAGAIN || errno == EINTR) return 0;
-    fail("write " + terminal_.path);
+    fail_to("write " + terminal_.path);
 }
 
 pollfd Pty::watched(bool for_space) const noexcept {
@@ -168,14 +168,14 @@ pollfd Pty::watched(bool for_space) const noexcept {
 
 int Pty::baud() const {
     termios settings{};
-    if (::tcgetattr(terminal_.slave, &settings) != 0) fail("ask " + terminal_.path);
+    if (::tcgetattr(terminal_.slave, &settings) != 0) fail_to("ask " + terminal_.path);
     const auto found = std::ranges::find(kSpeeds, ::cfgetospeed(&settings), &Speed::code);
     return found == kSpeeds.end() ? 0 : found->baud;
 }
 
 std::size_t Pty::unread() const {
     int waiting = 0;
-    if (::ioctl(terminal_.slave, FIONREAD, &waiting) != 0) fail("ask " + terminal_.path);
+    if (::ioctl(terminal_.slave, FIONREAD, &waiting) != 0) fail_to("ask " + terminal_.path);
     return static_cast<std::size_t>(waiting);
 }
 
