@@ -120,6 +120,68 @@ double energy(std::span<const double> values) {
     return squares;
 }
 
+/// The record as it is decomposed, with the way back to its unit.
+class Preparation {
+public:
+    Preparation(std::span<const double> signal, const EemdOptions& options)
+        : exponent(checked_exponent(signal, options)), scaled_(signal.size()) {
+        std::transform(signal.begin(), signal.end(), scaled_.begin(),
+                       [this](double value) { return std::ldexp(value, -exponent); });
+        const std::size_t n = signal.size();
+        plan.noise_level = options.noise_ratio * standard_deviation(scaled_);
+        plan.residue_origin = mean_of(scaled_);
+        plan.margin = options.reflect_ends ? n / 2 : 0;
+        if (plan.margin > 0) scaled_ = reflected(scaled_, plan.margin);
+        plan.signal = scaled_;
+        plan.members = plan.noise_level > 0.0 ? options.ensemble_size : 1;
+        plan.pairs = plan.noise_level > 0.0 && options.complementary_pairs;
+        plan.mode_count =
+            static_cast<std::size_t>(options.mode_count.value_or(default_mode_count(n)));
+        plan.sifting = {options.stopping, options.finish, options.ends, options.spline_ends};
+        plan.seed = options.seed;
+        threads_ = options.threads;
+        if (options.progress) {
+            progress_ = [&options, members = plan.members](int done) {
+                return options.progress(done, members);
+            };
+        }
+    }
+    Preparation(const Preparation&) = delete;  // the plan looks at the record of its own
+    Preparation& operator=(const Preparation&) = delete;
+
+    /// @throws EemdCancelled
+    [[nodiscard]] EnsembleSums sum(const EnsemblePlan& of) const {
+        auto sums = sum_ensemble(of, threads_, progress_);
+        if (!sums) throw EemdCancelled();
+        return *std::move(sums);
+    }
+    /// Ensemble mean of a sum over the members, not yet in the unit of the record.
+    [[nodiscard]] std::vector<double> mean(std::span<const double> sum) const {
+        std::vector<double> values(sum.size());
+        std::transform(sum.begin(), sum.end(), values.begin(),
+                       [this](double value) { return value / plan.members; });
+        return values;
+    }
+    void restore_unit(std::span<double> values) const {
+        for (double& value : values) value = std::ldexp(value, exponent);
+    }
+    /// In the unit of the record.
+    [[nodiscard]] double noise_level() const { return std::ldexp(plan.noise_level, exponent); }
+
+    const int exponent;
+    EnsemblePlan plan;
+
+private:
+    static int checked_exponent(std::span<const double> signal, const EemdOptions& options) {
+        validate(options);
+        return common_exponent(signal);
+    }
+
+    std::vector<double> scaled_;
+    int threads_ = 1;
+    std::function<bool(int)> progress_;
+};
+
 }  // namespace
 
 int default_mode_count(std::size_t n) noexcept {
@@ -127,48 +189,27 @@ int default_mode_count(std::size_t n) noexcept {
 }
 
 EemdResult eemd(std::span<const double> signal, const EemdOptions& options) {
-    validate(options);
-    const int exponent = common_exponent(signal);
-    std::vector<double> scaled(signal.size());
-    std::transform(signal.begin(), signal.end(), scaled.begin(),
-                   [exponent](double value) { return std::ldexp(value, -exponent); });
-
+    const Preparation prepared(signal, options);
+    const EnsemblePlan& plan = prepared.plan;
     const std::size_t n = signal.size();
-    EnsemblePlan plan;
-    plan.noise_level = options.noise_ratio * standard_deviation(scaled);
-    plan.residue_origin = mean_of(scaled);
-    plan.margin = options.reflect_ends ? n / 2 : 0;
-    if (plan.margin > 0) scaled = reflected(scaled, plan.margin);
-    plan.signal = scaled;
-    plan.members = plan.noise_level > 0.0 ? options.ensemble_size : 1;
-    plan.pairs = plan.noise_level > 0.0 && options.complementary_pairs;
-    plan.mode_count = static_cast<std::size_t>(options.mode_count.value_or(default_mode_count(n)));
-    plan.sifting = {options.stopping, options.finish, options.ends, options.spline_ends};
-    plan.seed = options.seed;
-    std::function<bool(int)> progress;
-    if (options.progress) {
-        progress = [&](int done) { return options.progress(done, plan.members); };
-    }
-    const auto sums = sum_ensemble(plan, options.threads, progress);
-    if (!sums) throw EemdCancelled();
+    const EnsembleSums sums = prepared.sum(plan);
 
     const int draw_size = plan.pairs ? 2 : 1;
     const auto component = [&](std::size_t k, double origin) {
-        const auto sum = std::span(sums->values).subspan(k * n, n);
+        const auto sum = std::span(sums.values).subspan(k * n, n);
         Component out;
-        out.values.resize(n);
-        std::transform(sum.begin(), sum.end(), out.values.begin(),
-                       [&](double value) { return value / plan.members; });
+        out.values = prepared.mean(sum);
         out.energy_share = energy(out.values);  // divided by the total below
-        for (double& value : out.values) value = std::ldexp(value, exponent);
+        prepared.restore_unit(out.values);
         out.extrema_count = count_extrema(out.values);
         out.mean_period_samples =
             out.extrema_count == 0
                 ? std::numeric_limits<double>::infinity()
                 : 2.0 * static_cast<double>(n) / static_cast<double>(out.extrema_count);
-        out.standard_error = standard_error(sum, sums->squares[k], draw_size * origin,
+        out.standard_error = standard_error(sum, sums.squares[k], draw_size * origin,
                                             plan.members / draw_size, draw_size);
-        if (out.standard_error) *out.standard_error = std::ldexp(*out.standard_error, exponent);
+        if (out.standard_error)
+            *out.standard_error = std::ldexp(*out.standard_error, prepared.exponent);
         return out;
     };
     EemdResult result;
@@ -181,7 +222,7 @@ EemdResult eemd(std::span<const double> signal, const EemdOptions& options) {
         result.residue.energy_share /= total_energy;
     }
     result.members = plan.members;
-    result.noise_level = std::ldexp(plan.noise_level, exponent);
+    result.noise_level = prepared.noise_level();
     for (std::size_t i = 0; i < n; ++i) {
         double total = 0.0;
         for (const Component& mode : result.modes) total += mode.values[i];
@@ -189,6 +230,26 @@ EemdResult eemd(std::span<const double> signal, const EemdOptions& options) {
         result.closure_error = std::max(result.closure_error, std::abs(signal[i] - total));
     }
     return result;
+}
+
+EemdTrend eemd_trend(std::span<const double> signal, std::size_t most_extrema,
+                     const EemdOptions& options) {
+    const Preparation prepared(signal, options);
+    EnsemblePlan plan = prepared.plan;
+    std::vector<double> left(static_cast<std::size_t>(plan.members) * plan.signal.size());
+    plan.left = left;
+    plan.mode_count = 0;
+    EemdTrend trend;
+    trend.noise_level = prepared.noise_level();
+    for (;; ++trend.modes_taken_off) {
+        trend.values = prepared.mean(prepared.sum(plan).values);
+        prepared.restore_unit(trend.values);
+        const bool is_slow = count_extrema(trend.values) <= most_extrema;
+        if (is_slow || trend.modes_taken_off == static_cast<int>(prepared.plan.mode_count)) break;
+        plan.continues = true;
+        plan.mode_count = 1;
+    }
+    return trend;
 }
 
 }  // namespace a351::corrector

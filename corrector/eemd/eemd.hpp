@@ -80,4 +80,21 @@ struct EemdResult {
 /// @throws EemdCancelled, and whatever `options.progress` throws.
 [[nodiscard]] EemdResult eemd(std::span<const double> signal, const EemdOptions& options = {});
 
+/// The slow part of a series alone.
+struct EemdTrend {
+    std::vector<double> values;  ///< (n), unit of the signal.
+    int modes_taken_off = 0;
+    double noise_level = 0.0;  ///< Std. deviation of the added noise, unit of the signal.
+};
+
+/// The residue of eemd(), the same bits, with the fewest modes that leave at most `most_extrema`
+/// extrema in it; with options.mode_count modes where no fewer do.  Slower modes are never made.
+///
+/// All members lose a mode before any loses the next: they need ensemble_size times the memory of
+/// the signal.  `options.progress` counts the members again for every mode.
+///
+/// @param signal, options, @throws  as eemd().
+[[nodiscard]] EemdTrend eemd_trend(std::span<const double> signal, std::size_t most_extrema,
+                                   const EemdOptions& options = {});
+
 }  // namespace a351::corrector

@@ -36,12 +36,12 @@ int sift_limit(const StoppingRule& stopping) noexcept {
 
 }  // namespace
 
-// The kernels work on whole groups of four samples.
+// The kernels work on whole groups of eight samples.
 EmdWorkspace::EmdWorkspace(std::size_t sample_count, const SiftKernels& kernels)
     : kernels_(kernels),
       sample_count_(sample_count),
-      residue_(sample_count + 3),
-      mode_(sample_count + 3),
+      residue_(sample_count + 7),
+      mode_(sample_count + 7),
       knots_(sample_count),
       envelope_(sample_count + 2 * AlternatingKnots::kMostAdded) {}
 

@@ -13,8 +13,13 @@ constexpr int kMembersPerBlock = 8;  // even, so that a block holds whole pairs
 
 std::size_t sum_length(const EnsemblePlan& plan) { return plan.signal.size() - 2 * plan.margin; }
 
+/// Components that are summed: the modes and the residue, or that alone.
+std::size_t sum_count(const EnsemblePlan& plan) {
+    return plan.left.empty() ? plan.mode_count + 1 : 1;
+}
+
 EnsembleSums make_sums(const EnsemblePlan& plan) {
-    const std::size_t components = plan.mode_count + 1;
+    const std::size_t components = sum_count(plan);
     return {std::vector<double>(sum_length(plan) * components), std::vector<double>(components)};
 }
 
@@ -29,7 +34,7 @@ public:
     explicit BlockWorker(const EnsemblePlan& plan)
         : plan_(plan),
           emd_(plan.signal.size(), *plan.kernels),
-          pair_(plan.pairs ? sum_length(plan) * (plan.mode_count + 1) : 0),
+          pair_(plan.pairs ? sum_length(plan) * sum_count(plan) : 0),
           sums_(make_sums(plan)) {}
 
     /// Sums the members of one block, in member order.
@@ -44,6 +49,10 @@ public:
 
 private:
     void add_member(int member) noexcept {
+        if (!plan_.left.empty()) {
+            take_off_modes(member);
+            return;
+        }
         add_noise(member);
         std::size_t k = 0;
         for (; k < plan_.mode_count; ++k) {
@@ -55,6 +64,22 @@ private:
             for (; k < plan_.mode_count; ++k) take_zero(member, k);
         }
         take(member, plan_.mode_count, emd_.residue());
+    }
+
+    void take_off_modes(int member) noexcept {
+        const std::span<double> residue = emd_.residue();
+        const std::span<double> left =
+            plan_.left.subspan(static_cast<std::size_t>(member) * residue.size(), residue.size());
+        if (plan_.continues) {
+            std::copy(left.begin(), left.end(), residue.begin());
+        } else {
+            add_noise(member);
+        }
+        for (std::size_t k = 0; k < plan_.mode_count; ++k) {
+            if (emd_.next_mode(plan_.sifting).empty()) break;
+        }
+        std::copy(residue.begin(), residue.end(), left.begin());
+        take(member, 0, residue);
     }
 
     void add_noise(int member) noexcept {

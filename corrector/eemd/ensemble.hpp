@@ -23,13 +23,17 @@ struct EnsemblePlan {
     SiftOptions sifting;
     std::uint64_t seed = 0;
     double residue_origin = 0.0;  ///< Subtracted from the residue before it is squared.
+    /// Room for all members, one after the other, or none.  With room, what is left of every member
+    /// is put there, and that alone is summed, not the modes.
+    std::span<double> left;
+    bool continues = false;  ///< Members begin with the content of `left`, not with noise.
     const SiftKernels* kernels = &fastest_kernels();
 };
 
 /// Sums over all members, one component after the other, the residue last.
 struct EnsembleSums {
-    std::vector<double> values;  ///< (n (mode_count + 1))
-    /// (mode_count + 1) sums over draws and samples of the square of a draw's sum; a draw is a
+    std::vector<double> values;  ///< (n components)
+    /// (components) sums over draws and samples of the square of a draw's sum; a draw is a
     /// member, or a pair of them.  The residue counts from residue_origin.
     std::vector<double> squares;
 };

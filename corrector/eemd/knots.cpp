@@ -13,7 +13,7 @@ double line_at(double position, double x1, double y1, double x2, double y2) {
 }  // namespace
 
 AlternatingKnots::AlternatingKnots(std::size_t sample_count)
-    : positions_(sample_count + 2 * kMostAdded + 4),
+    : positions_(sample_count + 2 * kMostAdded + 8),
       values_(positions_.size()),
       segment_starts_(sample_count / 64 + 2) {}
 

@@ -4,8 +4,8 @@ namespace a351::corrector {
 namespace {
 
 constexpr std::size_t kArrays = 12;
-// Four cubics are read at a time, beginning at any of them.
-constexpr std::size_t kReadBeyond = 4;
+// Eight cubics are read at a time, beginning at any of them.
+constexpr std::size_t kReadBeyond = 8;
 
 /// Elements from one array to the next.  Addresses equal in their last twelve bits, 512 doubles,
 /// hold each other up when one is written and another read: 12 arrays 40 apart never are.

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "corrector/eemd/lanes.hpp"
+
 namespace a351::corrector {
 namespace {
 
@@ -54,7 +56,7 @@ inline void philox_block(std::uint64_t first_pair, std::uint64_t member, std::ui
     // Blocks begin at multiples of their length, so the upper word is the same for all of one.
     const auto first = static_cast<std::uint32_t>(first_pair);
     const auto upper = static_cast<std::uint32_t>(first_pair >> 32);
-#pragma GCC ivdep
+    A351_INDEPENDENT
     for (std::uint32_t i = 0; i < kNoiseBlock; ++i) {
         std::uint32_t c0 = first + i;
         std::uint32_t c1 = upper;
@@ -85,7 +87,7 @@ inline void philox_block(std::uint64_t first_pair, std::uint64_t member, std::ui
 inline void transform_block(const std::uint32_t* w0, const std::uint32_t* w1,
                             const std::uint32_t* w2, const std::uint32_t* w3, double* cosine,
                             double* sine) {
-#pragma GCC ivdep
+    A351_INDEPENDENT
     for (std::size_t i = 0; i < kNoiseBlock; ++i) {
         const double u = (upper_bits(w0[i], w1[i]) + 1.0) * 0x1p-53;
         const double radius = __builtin_sqrt(-2.0 * natural_log(u));

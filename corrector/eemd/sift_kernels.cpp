@@ -2,9 +2,18 @@
 
 namespace a351::corrector {
 
+std::vector<const SiftKernels*> available_kernels() {
+    std::vector<const SiftKernels*> available = {&portable_kernels()};
+    for (const SiftKernels* const kernels : {avx2_kernels(), avx512_kernels()}) {
+        if (kernels != nullptr) available.push_back(kernels);
+    }
+    return available;
+}
+
 const SiftKernels& fastest_kernels() noexcept {
-    const SiftKernels* const avx2 = avx2_kernels();
-    return avx2 != nullptr ? *avx2 : portable_kernels();
+    if (const SiftKernels* const kernels = avx512_kernels()) return *kernels;
+    if (const SiftKernels* const kernels = avx2_kernels()) return *kernels;
+    return portable_kernels();
 }
 
 }  // namespace a351::corrector

@@ -2,10 +2,12 @@
 /// @file
 /// Cubic splines through the alternating knots of two envelopes, and the mean of the two.
 ///
-/// Plain loops, compiled once for every instruction set (sift_kernels.hpp): all names are internal
-/// to the file that includes this one, and nothing of the standard library's is instantiated.
-/// Elements of a loop do not depend on each other, but for the elimination, which is written for
-/// pairs of doubles; so every instruction set gives the same bits.
+/// Compiled once for every instruction set (sift_kernels.hpp): all names are internal to the file
+/// that includes this one, and nothing of the standard library's is instantiated.  Elements of a
+/// loop do not depend on each other, but for the elimination, which is written for pairs of doubles;
+/// so every instruction set gives the same bits.  The loops write whole groups of lanes, up to
+/// kLanes - 1 elements too far.  Those are either written again later, when they are known, or
+/// receive the value that they already have, because no loop changes its own input.
 ///
 /// One envelope alone: knots (X_i, Y_i), h_i = X_{i+1} - X_i, s_i = (Y_{i+1} - Y_i) / h_i and
 ///
@@ -18,6 +20,7 @@
 
 #include <cstddef>
 
+#include "corrector/eemd/lanes.hpp"
 #include "corrector/eemd/mean_envelope.hpp"
 
 namespace a351::corrector {
@@ -29,17 +32,15 @@ typedef double Pair __attribute__((vector_size(16), aligned(8), may_alias));
 inline Pair load(const double* from) { return *reinterpret_cast<const Pair*>(from); }
 inline void store(double* to, Pair value) { *reinterpret_cast<Pair*>(to) = value; }
 
-/// Distances and slopes from knot k to k + 2, first <= k < last.
+/// Distances and slopes from knot k to k + 2, first <= k < last, and some beyond.
 inline void set_up(const double* x, const double* y, std::size_t first, std::size_t last,
-                   const SplineArrays& arrays) {
-    double* const h = arrays.h;
-    double* const inverse = arrays.inverse;
-    double* const slope = arrays.slope;
-#pragma GCC ivdep
-    for (std::size_t k = first; k < last; ++k) {
-        h[k] = x[k + 2] - x[k];
-        inverse[k] = 1.0 / h[k];
-        slope[k] = (y[k + 2] - y[k]) * inverse[k];
+                   SplineArrays arrays) {
+    for (std::size_t k = first; k < last; k += kLanes) {
+        const Lanes h = load_lanes(x + k + 2) - load_lanes(x + k);
+        const Lanes inverse = 1.0 / h;
+        store_lanes(arrays.h + k, h);
+        store_lanes(arrays.inverse + k, inverse);
+        store_lanes(arrays.slope + k, (load_lanes(y + k + 2) - load_lanes(y + k)) * inverse);
     }
 }
 
@@ -49,7 +50,7 @@ inline void set_up(const double* x, const double* y, std::size_t first, std::siz
 ///     z_k = right_k p_{k-2} - coupling_k z_{k-2}        pivot of row k: p_k / p_{k-2}
 ///
 /// (product: of the two coefficients between rows k and k - 2) has no division in its chain.
-/// p_{k-2} is brought to 1 now and then, lest it overflow.
+/// p_{k-2} is brought to 1 now and then, so that it does not overflow.
 struct Elimination {
     Pair before = {0.0, 0.0};    ///< p_{k-4}
     Pair latest = {1.0, 1.0};    ///< p_{k-2}
@@ -81,24 +82,21 @@ struct Elimination {
         reduced *= inverse;
         latest = Pair{1.0, 1.0};
     }
-    /// What divide_by_pivots() takes.
-    void keep(std::size_t k, const SplineArrays& arrays) const {
+    /// Stores the input of divide_by_pivots() in b and e, which average() fills only later.
+    void keep(std::size_t k, SplineArrays arrays) const {
         store(arrays.pivot + k, latest);
-        store(arrays.link + k, coupling * before);
-        store(arrays.c + k, reduced);
+        store(arrays.e + k, coupling * before);
+        store(arrays.b + k, reduced);
     }
 };
 
-/// c_k + link_k c_{k'} = c_k' (what c holds), k' the next row towards the middle.
-inline void divide_by_pivots(std::size_t first, std::size_t last, const SplineArrays& arrays) {
-    const double* const pivot = arrays.pivot;
-    double* const link = arrays.link;
-    double* const c = arrays.c;
-#pragma GCC ivdep
-    for (std::size_t k = first; k < last; ++k) {
-        const double inverse = 1.0 / pivot[k];
-        link[k] *= inverse;
-        c[k] *= inverse;
+/// c_k + link_k c_{k'} = c_k' (what c holds), k' the next row towards the middle; first <= k < last,
+/// and some beyond.
+inline void divide_by_pivots(std::size_t first, std::size_t last, SplineArrays arrays) {
+    for (std::size_t k = first; k < last; k += kLanes) {
+        const Lanes inverse = 1.0 / load_lanes(arrays.pivot + k);
+        store_lanes(arrays.link + k, load_lanes(arrays.e + k) * inverse);
+        store_lanes(arrays.c + k, load_lanes(arrays.b + k) * inverse);
     }
 }
 
@@ -110,7 +108,7 @@ constexpr std::size_t kBlock = 32;
 
 /// Eliminates the rows before `middle` from the left and the others from the right.
 inline void eliminate(const double* x, const double* y, std::size_t n, std::size_t middle,
-                      SplineEnds ends, const SplineArrays& arrays) {
+                      SplineEnds ends, SplineArrays arrays) {
     const double* const h = arrays.h;
     const double* const slope = arrays.slope;
     Elimination up;
@@ -155,14 +153,14 @@ inline void eliminate(const double* x, const double* y, std::size_t n, std::size
     }
     if (i < middle) {
         // One row of one envelope: the pair's other one is the first from the right.
-        const Pair first_right = load(arrays.c + i);
-        const Pair first_pivot = load(arrays.pivot + i);
-        const Pair first_link = load(arrays.link + i);
+        const double pivot = arrays.pivot[middle];
+        const double coupled = arrays.e[middle];
+        const double reduced = arrays.b[middle];
         up.step(load(h + i - 2), load(h + i), right(i));
         up.keep(i, arrays);
-        arrays.c[middle] = first_right[1];
-        arrays.pivot[middle] = first_pivot[1];
-        arrays.link[middle] = first_link[1];
+        arrays.pivot[middle] = pivot;
+        arrays.e[middle] = coupled;
+        arrays.b[middle] = reduced;
     }
     divide_by_pivots(up_divided, middle, arrays);
     divide_by_pivots(middle, down_divided, arrays);
@@ -170,7 +168,7 @@ inline void eliminate(const double* x, const double* y, std::size_t n, std::size
 
 /// c of one envelope of two to four knots, every second from `first`.
 inline void solve_few(const double* x, std::size_t first, std::size_t n, SplineEnds ends,
-                      const SplineArrays& arrays) {
+                      SplineArrays arrays) {
     const std::size_t knots = (n - first + 1) / 2;
     const std::size_t a = first;
     double* const c = arrays.c;
@@ -209,41 +207,36 @@ inline void solve_few(const double* x, std::size_t first, std::size_t n, SplineE
 /// last + 1.  Cubics are summed in halves, here and at the samples: a processor looks ahead too few
 /// operations to fill the waiting in Horner's chain.
 inline void average(const double* x, const double* y, std::size_t first, std::size_t last,
-                    const SplineArrays& arrays) {
-    const double* const h = arrays.h;
-    const double* const inverse = arrays.inverse;
-    const double* const slope = arrays.slope;
-    const double* const c = arrays.c;
-    double* const b = arrays.b;
-    double* const e = arrays.e;
+                    SplineArrays arrays) {
     constexpr double kThird = 1.0 / 3.0;
-#pragma GCC ivdep
-    for (std::size_t k = first - 1; k < last; ++k) {
-        b[k] = slope[k] - kThird * h[k] * (c[k + 2] + 2.0 * c[k]);
-        e[k] = kThird * inverse[k] * (c[k + 2] - c[k]);
+    const auto at = [](const double* array, std::size_t k) { return load_lanes(array + k); };
+    for (std::size_t k = first - 1; k < last; k += kLanes) {
+        const Lanes c = at(arrays.c, k);
+        const Lanes next_c = at(arrays.c, k + 2);
+        store_lanes(arrays.b + k,
+                    at(arrays.slope, k) - kThird * at(arrays.h, k) * (next_c + 2.0 * c));
+        store_lanes(arrays.e + k, kThird * at(arrays.inverse, k) * (next_c - c));
     }
-    double* const mean_y = arrays.mean_y;
-    double* const mean_b = arrays.mean_b;
-    double* const mean_c = arrays.mean_c;
-    double* const mean_e = arrays.mean_e;
-#pragma GCC ivdep
-    for (std::size_t k = first; k < last; ++k) {
-        const double d = x[k] - x[k - 1];
-        const double bend = d * e[k - 1];
-        const double half = c[k - 1] + bend;
-        const double other_c = half + 2.0 * bend;
-        const double other_b = b[k - 1] + d * (c[k - 1] + other_c);
-        const double other_y = (y[k - 1] + d * b[k - 1]) + d * d * half;
-        mean_y[k] = 0.5 * (y[k] + other_y);
-        mean_b[k] = 0.5 * (b[k] + other_b);
-        mean_c[k] = 0.5 * (c[k] + other_c);
-        mean_e[k] = 0.5 * (e[k] + e[k - 1]);
+    for (std::size_t k = first; k < last; k += kLanes) {
+        const Lanes d = at(x, k) - at(x, k - 1);
+        const Lanes c = at(arrays.c, k - 1);
+        const Lanes b = at(arrays.b, k - 1);
+        const Lanes e = at(arrays.e, k - 1);
+        const Lanes bend = d * e;
+        const Lanes half = c + bend;
+        const Lanes other_c = half + 2.0 * bend;
+        const Lanes other_b = b + d * (c + other_c);
+        const Lanes other_y = (at(y, k - 1) + d * b) + d * d * half;
+        store_lanes(arrays.mean_y + k, 0.5 * (at(y, k) + other_y));
+        store_lanes(arrays.mean_b + k, 0.5 * (at(arrays.b, k) + other_b));
+        store_lanes(arrays.mean_c + k, 0.5 * (at(arrays.c, k) + other_c));
+        store_lanes(arrays.mean_e + k, 0.5 * (at(arrays.e, k) + e));
     }
 }
 
 /// c of all rows from the middle outwards, and the mean cubics as they become known.
 inline void substitute(const double* x, const double* y, std::size_t n, std::size_t middle,
-                       SplineEnds ends, const SplineArrays& arrays) {
+                       SplineEnds ends, SplineArrays arrays) {
     const double* const link = arrays.link;
     double* const c = arrays.c;
     Pair up = load(c + middle - 2);
@@ -293,7 +286,9 @@ inline void substitute(const double* x, const double* y, std::size_t n, std::siz
 
 /// Fits both envelopes through `n` >= 4 alternating knots and leaves their mean in `arrays`.
 inline void fit_mean_envelope(const double* x, const double* y, std::size_t n, SplineEnds ends,
-                              const SplineArrays& arrays) {
+                              const SplineArrays& shared) {
+    // Our own, so that no store below can change a pointer.
+    const SplineArrays arrays = shared;
     if (n < 8) {  // fewer than two rows from either end for both envelopes
         set_up(x, y, 0, n - 2, arrays);
         // Rounded once: a bow sifted off a monotone rest is symmetric, and the last bit decides

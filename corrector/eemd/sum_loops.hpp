@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include "corrector/eemd/lanes.hpp"
+
 namespace a351::corrector {
 namespace {
 
@@ -11,7 +13,7 @@ namespace {
 typedef double Quad __attribute__((vector_size(32), aligned(8), may_alias));
 
 inline void subtract(double* from, const double* what, std::size_t n) {
-#pragma GCC ivdep
+    A351_INDEPENDENT
     for (std::size_t i = 0; i < n; ++i) from[i] -= what[i];
 }
 

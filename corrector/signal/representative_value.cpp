@@ -178,12 +178,11 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
     if (options.curve != TrendCurve::paper) decomposition.ends = EndRule::mirror;
     const std::vector<double> despiked = despike(valid, found);
     const auto quiet = std::span(despiked).subspan(part.first, part_size);
-    const EemdResult components =
-        eemd(options.despike ? quiet : valid.subspan(part.first, part_size), decomposition);
-    const std::vector<double> eemd_curve = trend_curve(components, options.curve);
+    const Trend trend = trend_curve(options.despike ? quiet : valid.subspan(part.first, part_size),
+                                    decomposition, options.curve);
     const SmoothTrend smoothed = smooth(quiet, options.cutoff_s * series.rate().value());
     std::vector<double> curve =
-        options.trend == TrendMethod::smoother ? smoothed.curve : eemd_curve;
+        options.trend == TrendMethod::smoother ? smoothed.curve : trend.curve;
     const Interval interval = choose_interval(curve, part.disturbed_first, part.disturbed_last);
     const std::size_t part_begin = run.begin + part.first;
     const std::size_t first = part_begin + interval.first;
@@ -203,7 +202,7 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
 
     RepresentativeValue value{
         .acceleration = mean_of(curve),
-        .eemd_mean = mean_of(eemd_curve),
+        .eemd_mean = mean_of(trend.curve),
         .smoother_mean = mean_of(smoothed.curve),
         .smoother_standard_error =
             MilliGal(smoothed.standard_error_of_mean(interval.first, interval.last)),
@@ -220,7 +219,7 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
         .y = summarise(record.y),
         .z = summarise(record.z),
         .rectification = {},
-        .noise_level = MilliGal(components.noise_level),
+        .noise_level = MilliGal(trend.noise_level),
         .series = series,
         .curve = TimeSeries<MilliGal>(series.time_of(static_cast<double>(part_begin)),
                                       series.rate(), std::move(curve)),

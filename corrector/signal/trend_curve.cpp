@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace a351::corrector {
 namespace {
@@ -29,16 +30,22 @@ const Component* slowest_mode(const EemdResult& components) {
 
 }  // namespace
 
-std::vector<double> trend_curve(const EemdResult& components, TrendCurve choice) {
+std::vector<double> paper_curve(const EemdResult& components) {
     std::vector<double> curve = components.residue.values;
     const Component* const slowest = slowest_mode(components);
-    for (const Component& mode : components.modes) {
-        const bool is_chosen =
-            choice == TrendCurve::paper ? &mode == slowest : mode.extrema_count <= kMostExtrema;
-        if (!is_chosen) continue;
-        for (std::size_t i = 0; i < curve.size(); ++i) curve[i] += mode.values[i];
-    }
+    if (slowest == nullptr) return curve;
+    for (std::size_t i = 0; i < curve.size(); ++i) curve[i] += slowest->values[i];
     return curve;
+}
+
+Trend trend_curve(std::span<const double> signal, const EemdOptions& decomposition,
+                  TrendCurve choice) {
+    if (choice == TrendCurve::paper) {
+        const EemdResult components = eemd(signal, decomposition);
+        return {paper_curve(components), components.noise_level};
+    }
+    EemdTrend trend = eemd_trend(signal, kMostExtrema, decomposition);
+    return {std::move(trend.values), trend.noise_level};
 }
 
 }  // namespace a351::corrector

@@ -1,7 +1,8 @@
 #pragma once
 /// @file
-/// The slow part of a series, as the sum of components of its decomposition.
+/// The slow part of a series by its decomposition.
 
+#include <span>
 #include <vector>
 
 #include "corrector/eemd/eemd.hpp"
@@ -14,13 +15,22 @@ enum class TrendMethod {
     smoother,  ///< smooth(), smoother.hpp.
 };
 
-/// Which components make the trend curve.  None is ever chosen by its number.
+/// How much of the decomposition makes the trend curve.  No mode is ever chosen by its number.
 enum class TrendCurve {
     paper,  ///< The residue and the mode of the longest mean period.
-    slow,   ///< The residue and every mode with at most 7 extrema: does not hang on one mode.
+    slow,   ///< The residue after the fewest modes that leave at most 7 extrema in it.
 };
 
-/// Sum of the chosen components, (n) in their unit.
-[[nodiscard]] std::vector<double> trend_curve(const EemdResult& components, TrendCurve choice);
+/// The residue and the slowest mode that is not zero, (n) in their unit.
+[[nodiscard]] std::vector<double> paper_curve(const EemdResult& components);
+
+struct Trend {
+    std::vector<double> curve;  ///< (n), unit of the signal.
+    double noise_level = 0.0;   ///< Std. deviation of the added noise, unit of the signal.
+};
+
+/// @throws  as eemd().
+[[nodiscard]] Trend trend_curve(std::span<const double> signal, const EemdOptions& decomposition,
+                                TrendCurve choice);
 
 }  // namespace a351::corrector

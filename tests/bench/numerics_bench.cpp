@@ -64,6 +64,39 @@ BENCHMARK(ensemble)
     ->Args({65536, 100})
     ->Unit(benchmark::kMillisecond);
 
+/// An occupation's series: drift, a wave of a quarter of an hour, white noise half as large.
+std::vector<double> occupation_series() {
+    std::vector<double> values(450);
+    fill_white_noise(1, 0, values);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double t = static_cast<double>(i);
+        values[i] = 0.5 * values[i] + std::sin(t / 70.0) + 0.003 * t;
+    }
+    return values;
+}
+
+EemdOptions occupation_options() {
+    EemdOptions options;
+    options.ends = EndRule::mirror;
+    return options;
+}
+
+/// Compares the part of the decomposition that a survey needs with the whole of it.
+void trend_alone(benchmark::State& state) {
+    const auto signal = occupation_series();
+    const EemdOptions options = occupation_options();
+    for (auto _ : state) benchmark::DoNotOptimize(eemd_trend(signal, 7, options));
+    state.counters["modes"] = eemd_trend(signal, 7, options).modes_taken_off;
+}
+BENCHMARK(trend_alone)->Unit(benchmark::kMillisecond);
+
+void trend_of_all_modes(benchmark::State& state) {
+    const auto signal = occupation_series();
+    const EemdOptions options = occupation_options();
+    for (auto _ : state) benchmark::DoNotOptimize(eemd(signal, options));
+}
+BENCHMARK(trend_of_all_modes)->Unit(benchmark::kMillisecond);
+
 void ensemble_threads(benchmark::State& state) {
     const auto signal = noisy_oscillation(5400);
     EemdOptions options;
@@ -86,8 +119,14 @@ BENCHMARK(ensemble_s4)
     ->Args({65536, 100})
     ->Unit(benchmark::kMillisecond);
 
-/// The loops for processors without AVX2.
-void ensemble_portable(benchmark::State& state) {
+/// The loops of one instruction set: 0 the portable ones, then as available_kernels() lists them.
+void ensemble_kernels(benchmark::State& state) {
+    const auto available = available_kernels();
+    const auto index = static_cast<std::size_t>(state.range(2));
+    if (index >= available.size()) {
+        state.SkipWithError("not on this processor");
+        return;
+    }
     const auto signal = noisy_oscillation(static_cast<std::size_t>(state.range(0)));
     EnsemblePlan plan;
     plan.signal = signal;
@@ -95,11 +134,16 @@ void ensemble_portable(benchmark::State& state) {
     plan.members = static_cast<int>(state.range(1));
     plan.mode_count = static_cast<std::size_t>(modes_for(signal.size()));
     plan.sifting.finish = FinishRule::always;
-    plan.kernels = &portable_kernels();
+    plan.kernels = available[index];
+    state.SetLabel(plan.kernels->name);
     for (auto _ : state) benchmark::DoNotOptimize(sum_ensemble(plan, 1, {}));
     count_sifts(state);
 }
-BENCHMARK(ensemble_portable)->Args({5400, 40})->Unit(benchmark::kMillisecond);
+BENCHMARK(ensemble_kernels)
+    ->Args({5400, 40, 0})
+    ->Args({5400, 40, 1})
+    ->Args({5400, 40, 2})
+    ->Unit(benchmark::kMillisecond);
 
 /// What a second thread gains at best on this machine: chains of products, no memory.
 void arithmetic(benchmark::State& state) {

@@ -63,17 +63,18 @@ EemdOptions options_from(const std::uint8_t* bytes) {
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
 void compare_kernels(const std::vector<double>& signal, const EemdOptions& options) {
-    if (avx2_kernels() == nullptr) return;
     EnsemblePlan plan;
     plan.signal = signal;
     plan.mode_count = static_cast<std::size_t>(*options.mode_count);
     plan.sifting = {options.stopping, options.finish, options.ends, options.spline_ends};
-    plan.kernels = avx2_kernels();
-    const auto fast = sum_ensemble(plan, 1, {});
     plan.kernels = &portable_kernels();
     const auto portable = sum_ensemble(plan, 1, {});
-    for (std::size_t i = 0; i < fast->values.size(); ++i) {
-        require(bits(fast->values[i]) == bits(portable->values[i]));
+    for (const SiftKernels* const kernels : available_kernels()) {
+        plan.kernels = kernels;
+        const auto sums = sum_ensemble(plan, 1, {});
+        for (std::size_t i = 0; i < sums->values.size(); ++i) {
+            require(bits(sums->values[i]) == bits(portable->values[i]));
+        }
     }
 }
 

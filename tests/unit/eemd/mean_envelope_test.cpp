@@ -19,9 +19,13 @@ const std::vector<double> kKnots = {0,      0,    1,    2,      3.5,  5,      9.
 /// The mean of both splines, from the cubics that fit_mean_envelope() left.
 class Mean {
 public:
-    Mean(const std::vector<double>& x, const std::vector<double>& y, SplineEnds ends)
+    Mean(const std::vector<double>& x, std::vector<double> y, SplineEnds ends)
         : x_(x), envelope_(x.size()) {
-        fastest_kernels().fit_mean_envelope(x.data(), y.data(), x.size(), ends, envelope_.arrays());
+        std::vector<double> with_room = x;
+        with_room.resize(x.size() + 8);
+        y.resize(x.size() + 8);
+        fastest_kernels().fit_mean_envelope(with_room.data(), y.data(), x.size(), ends,
+                                            envelope_.arrays());
     }
     [[nodiscard]] double operator()(double t) const {
         std::size_t k = 1;

@@ -13,13 +13,18 @@
 namespace a351::corrector {
 namespace {
 
-constexpr const char* kPortableOnly =
-    "this processor, or this build, has the portable loops only: nothing to compare";
-
 std::vector<std::uint64_t> bits(std::span<const double> values) {
     std::vector<std::uint64_t> out;
     for (const double value : values) out.push_back(std::bit_cast<std::uint64_t>(value));
     return out;
+}
+
+/// All but the portable loops; says so where there are none.
+std::vector<const SiftKernels*> faster_kernels() {
+    std::vector<const SiftKernels*> kernels = available_kernels();
+    kernels.erase(kernels.begin());
+    if (kernels.empty()) WARN("the portable loops only: nothing to compare on this processor");
+    return kernels;
 }
 
 /// Bits of every mode and the residue.
@@ -37,10 +42,7 @@ std::vector<std::vector<std::uint64_t>> decompose(std::span<const double> signal
 }  // namespace
 
 TEST_CASE("every instruction set sifts out the same bits") {
-    if (avx2_kernels() == nullptr) {
-        WARN(kPortableOnly);
-        return;
-    }
+    const std::vector<const SiftKernels*> faster = faster_kernels();
     for (const EndRule ends : {EndRule::line, EndRule::mirror, EndRule::pinned}) {
         for (const SplineEnds spline : {SplineEnds::not_a_knot, SplineEnds::natural}) {
             SiftOptions options;
@@ -52,31 +54,32 @@ TEST_CASE("every instruction set sifts out the same bits") {
                 if (n % 3 == 0) {
                     for (double& value : signal) value = std::round(value);  // plateaus
                 }
-                INFO(n << " samples");
-                CHECK(decompose(signal, options, *avx2_kernels()) ==
-                      decompose(signal, options, portable_kernels()));
+                const auto portable = decompose(signal, options, portable_kernels());
+                for (const SiftKernels* const kernels : faster) {
+                    INFO(kernels->name << ", " << n << " samples");
+                    CHECK(decompose(signal, options, *kernels) == portable);
+                }
             }
         }
     }
 }
 
 TEST_CASE("every instruction set gives an ensemble the same bits") {
-    if (avx2_kernels() == nullptr) {
-        WARN(kPortableOnly);
-        return;
-    }
     const std::vector<double> signal = mixed_series(1201);
     EnsemblePlan plan;
     plan.signal = signal;
     plan.noise_level = 0.1;
     plan.members = 9;
     plan.mode_count = 9;
-    plan.kernels = avx2_kernels();
-    const EnsembleSums fast = *sum_ensemble(plan, 1, {});
     plan.kernels = &portable_kernels();
     const EnsembleSums portable = *sum_ensemble(plan, 1, {});
-    CHECK(bits(fast.values) == bits(portable.values));
-    CHECK(bits(fast.squares) == bits(portable.squares));
+    for (const SiftKernels* const kernels : faster_kernels()) {
+        INFO(kernels->name);
+        plan.kernels = kernels;
+        const EnsembleSums sums = *sum_ensemble(plan, 1, {});
+        CHECK(bits(sums.values) == bits(portable.values));
+        CHECK(bits(sums.squares) == bits(portable.squares));
+    }
 }
 
 TEST_CASE("results are the same bits in every build") {

@@ -1,0 +1,183 @@
+#pragma once
+/// @file
+/// The widest vector of doubles of the instruction set that the including file is compiled for, and
+/// what the compiler's vector types lack: moving lanes by flags.  Bit j of some flags is lane j's.
+///
+/// All names are internal to the file that includes this one: every set has its own.
+
+#include <cstddef>
+#include <cstdint>
+
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
+
+/// Before a loop whose elements do not depend on each other: g++ makes vectors of it.  clang makes
+/// them without a pragma, and compares the addresses at run time.
+#ifdef __clang__
+#define A351_INDEPENDENT
+#else
+#define A351_INDEPENDENT _Pragma("GCC ivdep")
+#endif
+
+namespace a351::corrector {
+namespace {
+
+#if defined(__AVX512F__)
+constexpr std::size_t kLanes = 8;
+#elif defined(__AVX2__)
+constexpr std::size_t kLanes = 4;
+#else
+constexpr std::size_t kLanes = 2;  // NEON, SSE2; plain doubles elsewhere
+#endif
+
+constexpr std::uint64_t kAllFlags = (1U << kLanes) - 1;
+
+typedef double Lanes __attribute__((vector_size(8 * kLanes)));
+typedef double LanesAnywhere __attribute__((vector_size(8 * kLanes), aligned(8), may_alias));
+typedef std::uint64_t Words __attribute__((vector_size(8 * kLanes)));
+
+inline Lanes load_lanes(const double* from) {
+    return *reinterpret_cast<const LanesAnywhere*>(from);
+}
+inline void store_lanes(double* to, Lanes value) { *reinterpret_cast<LanesAnywhere*>(to) = value; }
+inline Lanes all_lanes(double value) { return value - Lanes{}; }
+
+/// first, first + 1 and so on.
+inline Lanes counting_from(double first) {
+    Lanes out = {};
+    for (std::size_t j = 0; j < kLanes; ++j) out[j] = static_cast<double>(j);
+    return out + first;
+}
+
+/// The bits of all lanes together.
+inline std::uint64_t any_of(Words words) {
+    std::uint64_t all = 0;
+    for (std::size_t j = 0; j < kLanes; ++j) all |= words[j];
+    return all;
+}
+
+inline std::size_t count_flags(std::uint64_t flags) {
+    if constexpr (kLanes == 2) return (flags & 1) + (flags >> 1 & 1);
+    return static_cast<std::size_t>(__builtin_popcountll(flags));
+}
+
+/// Flags of the lanes where a > b.
+inline std::uint64_t flags_of_greater(Lanes a, Lanes b) {
+#if defined(__AVX512F__)
+    return _mm512_cmp_pd_mask(a, b, _CMP_GT_OQ);
+#elif defined(__AVX2__)
+    return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<Lanes>(a > b)));
+#elif defined(__SSE2__)
+    return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<Lanes>(a > b)));
+#else
+    const Words greater = reinterpret_cast<Words>(a > b);
+    return (greater[0] & 1) | (greater[1] & 2);
+#endif
+}
+
+#ifdef __AVX2__
+
+#ifdef __AVX512F__
+typedef std::uint8_t Index;  // 2 KiB of rows
+constexpr std::size_t kParts = 1;
+#else
+typedef std::uint32_t Index;
+constexpr std::size_t kParts = 2;  // no instruction moves doubles: halves of them are moved
+#endif
+
+/// For every set of flags the lanes, or halves of lanes, that become lanes 0, 1 and so on.
+struct LaneTable {
+    alignas(32) Index rows[kAllFlags + 1][8] = {};
+};
+
+/// Lane j: the number of flags before it.
+constexpr LaneTable make_behind_flags() {
+    LaneTable table;
+    for (std::uint64_t flags = 0; flags <= kAllFlags; ++flags) {
+        std::size_t before = 0;
+        for (std::size_t j = 0; j < kLanes; ++j) {
+            for (std::size_t part = 0; part < kParts; ++part) {
+                table.rows[flags][kParts * j + part] = static_cast<Index>(kParts * before + part);
+            }
+            before += flags >> j & 1;
+        }
+    }
+    return table;
+}
+constexpr LaneTable kBehindFlags = make_behind_flags();
+
+#ifdef __AVX512F__
+
+typedef __m512i Order;
+inline Order behind(std::uint64_t flags) {
+    const void* const row = kBehindFlags.rows[flags];
+    return _mm512_maskz_cvtepu8_epi64(kAllFlags, _mm_loadl_epi64(static_cast<const __m128i*>(row)));
+}
+// Masked with all flags, which costs nothing: g++ 12 takes the unmasked form for uninitialised.
+inline Lanes ordered(Lanes values, Order order) {
+    return _mm512_maskz_permutexvar_pd(kAllFlags, order, values);
+}
+inline Lanes flagged_first(Lanes values, std::uint64_t flags) {
+    return _mm512_maskz_compress_pd(static_cast<__mmask8>(flags), values);
+}
+
+#else
+
+typedef __m256i Order;
+inline Order row_of(const LaneTable& table, std::uint64_t flags) {
+    const void* const row = table.rows[flags];
+    return _mm256_load_si256(static_cast<const __m256i*>(row));
+}
+inline Order behind(std::uint64_t flags) { return row_of(kBehindFlags, flags); }
+inline Lanes ordered(Lanes values, Order order) {
+    return _mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(values), order));
+}
+
+/// The flagged lanes, moved to the front.
+constexpr LaneTable make_flagged_first() {
+    LaneTable table;
+    for (std::uint64_t flags = 0; flags <= kAllFlags; ++flags) {
+        std::size_t before = 0;
+        for (std::size_t j = 0; j < kLanes; ++j) {
+            for (std::size_t part = 0; part < kParts; ++part) {
+                if ((flags >> j & 1) != 0) {
+                    table.rows[flags][kParts * before + part] =
+                        static_cast<Index>(kParts * j + part);
+                }
+            }
+            before += flags >> j & 1;
+        }
+    }
+    return table;
+}
+constexpr LaneTable kFlaggedFirst = make_flagged_first();
+inline Lanes flagged_first(Lanes values, std::uint64_t flags) {
+    return ordered(values, row_of(kFlaggedFirst, flags));
+}
+
+#endif
+
+/// Lane j: from[number of flags before lane j].  Reads all of from[0 ... kLanes - 1].
+inline Lanes step_at_flags(const double* from, Order order) {
+    return ordered(load_lanes(from), order);
+}
+/// Writes the lanes with a flag to `to` and what follows; overwrites kLanes elements.
+inline void keep_flagged(double* to, Lanes values, std::uint64_t flags) {
+    store_lanes(to, flagged_first(values, flags));
+}
+
+#else
+
+typedef std::size_t Order;
+inline Order behind(std::uint64_t flags) { return flags & 1; }
+inline Lanes step_at_flags(const double* from, Order order) { return Lanes{from[0], from[order]}; }
+inline void keep_flagged(double* to, Lanes values, std::uint64_t flags) {
+    to[0] = values[0];
+    to[flags & 1] = values[1];
+}
+
+#endif
+
+}  // namespace
+}  // namespace a351::corrector
