@@ -1,8 +1,11 @@
 #define CATCH_CONFIG_RUNNER
 #include <sys/statvfs.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <string_view>
 #include "tests/support/catch.hpp"
+#include "tests/support/steady_host.hpp"
 
 namespace {
 
@@ -21,5 +24,10 @@ bool holds_scratch_files(const char* directory) {
 int main(int argc, char** argv) {
     const char* memory = "/dev/shm";
     if (holds_scratch_files(memory)) ::setenv("TMPDIR", memory, 0);
-    return Catch::Session().run(argc, argv);
+    const bool is_list = std::any_of(
+        argv, argv + argc, [](std::string_view word) { return word.starts_with("--list"); });
+    if (is_list) return Catch::Session().run(argc, argv);  // Its status is a number of tests.
+    HostWatch watch;
+    const int status = Catch::Session().run(argc, argv);
+    return judge(status, watch.longest_pause(), argv);
 }

@@ -7,7 +7,6 @@
 import contextlib
 import datetime
 import os
-import random
 import shutil
 import signal
 import socket
@@ -16,7 +15,7 @@ import sys
 import time
 
 import small_disk
-from programs import BIN, Scratch, compare_truth, daemon_config, daemon_status, demand, run, skip
+from programs import BIN, Scratch, compare_truth, daemon_config, daemon_status, demand, run, skip, unused_port
 from small_disk import RESERVE
 
 SPEED = 5  # strace stops every call of the daemon twice.
@@ -27,7 +26,7 @@ class Day:
 
     def __init__(self, scratch):
         self.scratch = scratch
-        self.port = random.randrange(20000, 32000)  # Below the ports that outgoing connections take.
+        self.port = unused_port()
         (scratch / "a351d.toml").write_text(daemon_config(self.port))
         plan = run(BIN / "a351-sim", "plan", "--scenario", "tsukuba", "--out", scratch)
         start = dict(part.split("=", 1) for part in plan.stdout.split())["start_utc"]

@@ -3,14 +3,13 @@
 import atexit
 import datetime
 import json
-import random
 import signal
 import socket
 import struct
 import subprocess
 import time
 
-from programs import BIN, compare_truth, daemon_config, demand, read_json, run
+from programs import BIN, compare_truth, daemon_config, demand, read_json, run, unused_port
 
 INTACT, DAMAGED, LOST, REPEATED, MISPLACED = range(5)
 
@@ -50,7 +49,7 @@ class Session:
         @param options  with which the daemon is started, of subprocess.Popen.
         """
         self.scratch = scratch
-        self.port = random.randrange(20000, 32000)  # Below the ports that outgoing connections take.
+        self.port = unused_port()
         (scratch / "a351d.toml").write_text(
             daemon_config(self.port).replace("[storage]", config + "\n[storage]"))
         (scratch / "faults.toml").write_text(faults)

@@ -3,7 +3,6 @@
 import atexit
 import datetime
 import json
-import random
 import shutil
 import signal
 import subprocess
@@ -11,7 +10,7 @@ import time
 import urllib.request
 
 from emulated_session import Session, wait_for
-from programs import BIN, IS_SANITIZED, Scratch, daemon_config, demand, rows, run
+from programs import BIN, IS_SANITIZED, Scratch, daemon_config, demand, rows, run, unused_port
 
 G_MGAL = 980665.0
 MOST_S = 40 if IS_SANITIZED else 10
@@ -102,7 +101,7 @@ with Scratch() as scratch:
     run(BIN / "a351-sim", "survey", "--scenario", "ideal", "--out", scratch / "data")
     shutil.rmtree(scratch / "data" / "journal")
     end = rows(scratch / "data" / "schedule.csv")[-1]["end_utc"]
-    port = random.randrange(20000, 32000)
+    port = unused_port()
     (scratch / "a351d.toml").write_text(daemon_config(port))
     daemon = subprocess.Popen([BIN / "a351d", "--config", "a351d.toml", "--clock", f"scaled:1@{end}"], cwd=scratch)
     atexit.register(daemon.kill)

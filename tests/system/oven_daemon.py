@@ -2,7 +2,6 @@
 wrong on its line has a counter of its own, ends without a restart, and costs the sensor's stream nothing."""
 
 import datetime
-import random
 import signal
 import socket
 import struct
@@ -10,7 +9,7 @@ import subprocess
 import sys
 import time
 
-from programs import BIN, TOP, Scratch, compare_truth, daemon_config, daemon_status, demand, read_json, run
+from programs import BIN, TOP, Scratch, compare_truth, daemon_config, daemon_status, demand, read_json, run, unused_port
 
 sys.path.insert(0, str(TOP / "tests" / "golden" / "logs"))
 import journal_page  # noqa: E402
@@ -47,7 +46,7 @@ def journal_polls(data):
 class Session:
     def __init__(self, scratch):
         self.scratch = scratch
-        self.port = random.randrange(20000, 32000)  # Below the ports that outgoing connections take.
+        self.port = unused_port()
         (scratch / "a351d.toml").write_text(
             daemon_config(self.port) + '[oven]\nenabled = true\nport = "oven"\nparity = "N"\npoll_s = 2\n')
         plan = run(BIN / "a351-sim", "plan", "--scenario", "tsukuba", "--out", scratch)

@@ -5,7 +5,9 @@ import http.client
 import json
 import os
 import pathlib
+import random
 import shutil
+import socket
 import subprocess
 import sys
 import tempfile
@@ -40,6 +42,25 @@ def run(*command, check=True, env=None, cwd=None):
         print(result.stdout[-4000:], result.stderr[-4000:], sep="\n")
         sys.exit(f"{command[0]} ended with {result.returncode}")
     return result
+
+
+taken_ports = []
+
+
+def unused_port():
+    """Returns a port on which nothing listens and which no other test takes while this process runs."""
+    while True:
+        port = random.randrange(20000, 32000)  # Below the ports that outgoing connections take.
+        mark = socket.socket(socket.AF_UNIX)  # Tests run side by side: a name in the kernel tells them of each other.
+        try:
+            mark.bind(f"\0a351-test-port-{port}")
+            with socket.socket() as probe:
+                probe.bind(("127.0.0.1", port))
+        except OSError:
+            mark.close()
+            continue
+        taken_ports.append(mark)
+        return port
 
 
 def daemon_config(port):

@@ -3,12 +3,11 @@
 import datetime
 import json
 import signal
-import socket
 import subprocess
 import sys
 import time
 
-from programs import BIN, IS_SANITIZED, ONE_SITE, TOOLS, TOP, Scratch, daemon_config, daemon_status, demand, run
+from programs import BIN, IS_SANITIZED, ONE_SITE, TOOLS, TOP, Scratch, daemon_config, daemon_status, demand, run, unused_port
 
 LOGS = TOP / "tests" / "golden" / "logs"
 sys.dont_write_bytecode = True
@@ -20,12 +19,6 @@ STREAM_COUNTERS = ["bytes", "frames", "bytes_skipped", "checksum_errors", "frami
                    "samples_missing", "duplicates", "anomalies", "error_flags", "sessions"]
 
 
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
 def rfc3339(seconds):
     return datetime.datetime.fromtimestamp(seconds, datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%S.%fZ")
 
@@ -34,7 +27,7 @@ class Daemon:
     """a351d in a directory of its own; `port` names the sensor's link."""
 
     def __init__(self, directory, clock=None, change=""):
-        self.http = free_port()
+        self.http = unused_port()
         (directory / "a351d.toml").write_text(
             daemon_config(self.http).replace("[storage]", change + "[storage]"))
         command = [BIN / "a351d", "--config", "a351d.toml"] + (["--clock", clock] if clock else [])

@@ -13,7 +13,7 @@ import subprocess
 import time
 
 from emulated_session import Session, wait_for
-from programs import IS_SANITIZED, ONE_SITE, Scratch, demand, skip
+from programs import IS_SANITIZED, ONE_SITE, Scratch, demand, skip, unused_port
 
 # Ten minutes before a midnight, and as long after it: two day files of each channel.
 SCENARIO = """base = "quiet"
@@ -36,12 +36,6 @@ def program(name, variable):
     return found
 
 
-def free_port():
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
-
-
 def day_files(root):
     root = pathlib.Path(root)
     return {str(file.relative_to(root)): file.read_bytes() for file in root.rglob("*.D.*")}
@@ -55,7 +49,7 @@ def is_listening(port):
 ringserver, slarchive = program("ringserver", "A351_RINGSERVER"), program("slarchive", "A351_SLARCHIVE")
 
 with Scratch() as scratch:
-    archive, fetched, port = scratch / "data" / "archive", scratch / "fetched", free_port()
+    archive, fetched, port = scratch / "data" / "archive", scratch / "fetched", unused_port()
     archive.mkdir(parents=True)
     # Served from memory, to this host alone.  Only names of day files end in a digit: not those of files to be.
     (scratch / "ring.conf").write_text(

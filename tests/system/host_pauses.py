@@ -1,0 +1,116 @@
+"""Made-up tests, scripts and a case of Catch2: what a pause of the host excuses, what it does not, and what is reported."""
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+
+from programs import SKIPPED, TOOLS, TOP, Scratch, demand, unused_port
+from stopped_host import stop
+
+RUNNER = [sys.executable, str(TOP / "tests" / "system" / "steady_host.py")]
+STOPPED_S = 1.0
+
+# Counts its runs, leaves a process in a session of its own that holds the port, and fails if it was delayed.
+DELICATE = """import os, socket, sys, time
+port, result_of_steady = int(sys.argv[1]), int(sys.argv[2])
+held = socket.create_server(("127.0.0.1", port))
+if os.fork() == 0:
+    os.setsid()
+    time.sleep(1000)
+held.close()
+open("runs", "a").write("run\\n")
+for _ in range(100):
+    before = time.monotonic()
+    time.sleep(0.01)
+    if time.monotonic() - before > 0.5:
+        sys.exit(1)
+sys.exit(result_of_steady)
+"""
+# Does not care.
+STURDY = """import time
+open("runs", "a").write("run\\n")
+time.sleep(1)
+"""
+HANGING = """import time
+open("runs", "a").write("run\\n")
+time.sleep(1000)
+"""
+
+
+def runs_in(scratch):
+    file = scratch / "runs"
+    return len(file.read_text().splitlines()) if file.exists() else 0
+
+
+def play(command, script="", stopped_runs=(), stop_run=lambda runner: stop(runner.pid, STOPPED_S), **environment):
+    """@param stopped_runs  numbers of the runs in which the host pauses.
+    @return status, number of runs, output
+    """
+    with Scratch() as scratch:
+        (scratch / "test.py").write_text(script)
+        runner = subprocess.Popen(command, cwd=scratch, env={**os.environ, **environment},
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        for number in stopped_runs:
+            while runs_in(scratch) < number and runner.poll() is None:
+                time.sleep(0.02)
+            time.sleep(0.2)
+            stop_run(runner)
+        said = runner.communicate(timeout=60)[0]
+        print(*(f"  {line}" for line in said.splitlines()), sep="\n")  # tests/run lists lines that begin otherwise.
+        return runner.returncode, runs_in(scratch), said
+
+
+def play_script(script, *arguments, options=(), **how):
+    return play([*RUNNER, *options, sys.executable, "test.py", *map(str, arguments)], script, **how)
+
+
+def stop_script_alone(runner):
+    children = open(f"/proc/{runner.pid}/task/{runner.pid}/children").read().split()
+    os.kill(int(children[0]), signal.SIGSTOP)
+    time.sleep(STOPPED_S)
+    os.kill(int(children[0]), signal.SIGCONT)
+
+
+status, runs, said = play_script(DELICATE, unused_port(), 0)
+demand("a test that succeeds on a steady host runs once, and nothing is said", (status, runs, said) == (0, 1, ""))
+
+status, runs, said = play_script(DELICATE, unused_port(), 3)
+demand("a test that fails on a steady host fails at once", (status, runs, said) == (3, 1, ""))
+
+status, runs, said = play_script(STURDY, stopped_runs=[1])
+demand("a test that bears a pause runs once, and the pause is named",
+       (status, runs) == (0, 1) and "paused for 1." in said and "all the same" in said)
+demand("once, although the script and its runner saw it", said.count(" UTC") == 1)
+
+status, runs, said = play_script(DELICATE, unused_port(), 0, stopped_runs=[1])
+demand("a test that failed in a pause is repeated, finds its port free and is green; the pause is named",
+       (status, runs) == (0, 2) and "paused for 1." in said and "is repeated once" in said)
+
+status, runs, said = play_script(DELICATE, unused_port(), 0, stopped_runs=[1], stop_run=stop_script_alone)
+demand("so is one that was stopped alone", (status, runs) == (0, 2) and "paused for 1." in said)
+
+status, runs, said = play_script(DELICATE, unused_port(), 3, stopped_runs=[1])
+demand("a repetition that fails on a steady host fails", (status, runs) == (3, 2) and "it counts" in said)
+
+status, runs, said = play_script(DELICATE, unused_port(), 0, stopped_runs=[1, 2])
+demand("two pauses are reported as what they are, and nothing is judged",
+       (status, runs) == (SKIPPED, 2) and said.count("paused for 1.") == 2 and "skipped: nothing was judged" in said)
+
+status, runs, said = play_script(HANGING, options=["--at-most", "1.5"])
+demand("a run that takes too long is killed and fails", (status, runs) == (128 + signal.SIGKILL, 1))
+
+status, runs, said = play_script(HANGING, stopped_runs=[1], options=["--at-most", "1.5"])
+demand("after a pause it is repeated, and fails", (status, runs) == (128 + signal.SIGKILL, 2) and "it counts" in said)
+
+CASE = [TOOLS / "core_test", "[host_pauses]"]
+for name, how, expected in (("succeeds on a steady host", {}, (0, 1)),
+                            ("fails on a steady host", {"A351_MADE_UP_FAILURE": "1"}, (1, 1)),
+                            ("failed in a pause", {"stopped_runs": [1]}, (0, 2)),
+                            ("failed in a pause and fails again", {"stopped_runs": [1], "A351_MADE_UP_FAILURE": "1"}, (1, 2)),
+                            ("failed in two pauses", {"stopped_runs": [1, 2]}, (1, 2))):
+    status, runs, said = play(CASE, **how)
+    demand(f"a case of Catch2 that {name} ends with {status} after {runs} runs, expected {expected}",
+           (status, runs) == expected and said.count("paused for 1.") == len(how.get("stopped_runs", ())))
