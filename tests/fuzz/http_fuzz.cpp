@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <span>
 #include <string>
 
 #include "daemon/live/live_record.hpp"
 #include "daemon/page/api.hpp"
-#include "daemon/page/assets.hpp"
 #include "daemon/page/guard.hpp"
 #include "protocol/wire/device_profile.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
@@ -49,12 +47,6 @@ Request request_of(std::string_view input) {
 }
 
 }  // namespace
-
-/// Stands for the page's files, which are made elsewhere in the build.
-std::span<const a351::daemon::Asset> a351::daemon::compiled_assets() noexcept {
-    static constexpr Asset kIndex[] = {{"index.html", "<meta content=\"@TOKEN@\">"}};
-    return kIndex;
-}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const Request request = request_of(fuzz::text_of(data, size));
