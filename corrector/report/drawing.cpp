@@ -65,14 +65,16 @@ std::string last_line(std::string text) {
 std::string trouble_of(const ProgramRun& run) {
     if (!run.is_found) return "gnuplot is not installed (not in PATH)";
     if (run.is_timed_out) {
-        return "gnuplot took longer than " + std::to_string(kTimeLimit.count()) + " s";
+        std::string words = "gnuplot took longer than ";  // A sum of the three makes g++ 14 warn.
+        words += std::to_string(kTimeLimit.count()) + " s";
+        return words;
     }
     const std::string words = last_line(run.errors);
     return "gnuplot ended with status " + std::to_string(run.status) +
            (words.empty() ? std::string() : ": " + words);
 }
 
-/// The pdf library writes the time of the run; the text has this form and length.
+/// Replaces the time of the run, which the PDF library writes in this form and length.
 void remove_creation_date(std::string& pdf) {
     constexpr std::string_view kKey = "/CreationDate (D:";
     constexpr std::string_view kNever = "19700101000000";

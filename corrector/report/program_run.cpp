@@ -10,7 +10,7 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
+#include <string_view>
 #include <system_error>
 
 #include "protocol/text/text_file.hpp"
@@ -58,12 +58,16 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
     return list;
 }
 
-std::vector<std::string> environment_with_fixed_locale() {
-    std::vector<std::string> variables;
+/// Returns our environment with a fixed locale and time zone and with cairo's PDF files left
+/// uncompressed.
+std::vector<std::string> environment_of_child() {
+    std::vector<std::string> variables{"LC_ALL=C.UTF-8", "TZ=UTC0", "CAIRO_DEBUG_PDF=1"};
     for (char** variable = environ; *variable != nullptr; ++variable) {
-        if (std::strncmp(*variable, "LC_ALL=", 7) != 0) variables.emplace_back(*variable);
+        const std::string_view given = *variable;
+        if (!given.starts_with("LC_ALL=") && !given.starts_with("TZ=")) {
+            variables.emplace_back(given);
+        }
     }
-    variables.emplace_back("LC_ALL=C.UTF-8");
     return variables;
 }
 
@@ -92,7 +96,7 @@ ProgramRun run_program(const std::string& program, const std::vector<std::string
     const std::filesystem::path errors = std::filesystem::absolute(directory) / "stderr.txt";
     std::vector<std::string> words{program};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<std::string> variables = environment_with_fixed_locale();
+    std::vector<std::string> variables = environment_of_child();
     const FileActions actions(directory, errors);
     pid_t child = 0;
     const int error = ::posix_spawnp(&child, program.c_str(), actions.get(), nullptr,

@@ -17,7 +17,9 @@ struct ProgramRun {
 };
 
 /// Runs a program of PATH without a shell and waits for it.  Standard input and output are
-/// /dev/null, the locale is C.UTF-8, the rest of the environment ours.
+/// /dev/null, the locale is C.UTF-8, the time zone UTC, the rest of the environment ours.
+/// CAIRO_DEBUG_PDF is set: cairo 1.18 (Debian 13) then leaves the objects of a PDF file uncompressed,
+/// the date of the run among them, so that it can be removed; cairo 1.16 (Debian 12) does so anyway.
 /// @param arguments  without the program's own name.
 /// @param directory  in which it runs; its standard error passes through a file `stderr.txt` there.
 /// @throws std::system_error  the machine refuses.

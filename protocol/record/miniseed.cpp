@@ -205,9 +205,10 @@ bool is_layout_ours(std::span<const std::byte> bytes) {
            get<std::uint8_t>(bytes, kBlockette1000At + 6) == kLog2RecordSize &&
            is_blockette(bytes, kBlockette1001At, 1001, has_rate ? kBlockette100At : 0) &&
            get<std::uint8_t>(bytes, kBlockette1001At + 4) <= 100 &&
-           (!has_rate || (is_blockette(bytes, kBlockette100At, 100, 0) &&
-                          is_declared_rate(double{get_float(bytes, kBlockette100At + 4)},
-                                           nominal_rate_hz(bytes))));
+           (!has_rate ||
+            (is_blockette(bytes, kBlockette100At, 100, 0) &&
+             is_declared_rate(static_cast<double>(get_float(bytes, kBlockette100At + 4)),
+                              nominal_rate_hz(bytes))));
 }
 
 /// Steim coding carries the first and the last sample beside the differences.  libmseed only warns
