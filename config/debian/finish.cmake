@@ -1,7 +1,11 @@
 # Brings the staged files of each package into the form that Debian's policy asks for; run by cpack.
 set(source ${CMAKE_CURRENT_LIST_DIR})
 find_program(GZIP gzip REQUIRED)
-find_program(STRIP strip REQUIRED)
+
+# For dpkg-shlibdeps, which cpack runs: it reads the programs of a cross build with the tools of their architecture.
+if(CPACK_DEBIAN_PACKAGE_ARCHITECTURE)
+  set(ENV{DEB_HOST_ARCH} ${CPACK_DEBIAN_PACKAGE_ARCHITECTURE})
+endif()
 
 function(compress file)
   execute_process(COMMAND ${GZIP} -9nf ${file} COMMAND_ERROR_IS_FATAL ANY)
@@ -10,7 +14,7 @@ endfunction()
 foreach(package IN LISTS CPACK_COMPONENTS_ALL)
   set(root ${CPACK_TEMPORARY_DIRECTORY}/${package})
   file(GLOB programs ${root}/usr/bin/*)
-  execute_process(COMMAND ${STRIP} --remove-section=.comment --remove-section=.note ${programs} COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${CPACK_A351_STRIP} --remove-section=.comment --remove-section=.note ${programs} COMMAND_ERROR_IS_FATAL ANY)
   file(GLOB_RECURSE pages ${root}/usr/share/man/*.[1-8])
   foreach(page IN LISTS pages)
     compress(${page})
@@ -22,14 +26,19 @@ foreach(package IN LISTS CPACK_COMPONENTS_ALL)
   configure_file(${source}/../../CHANGELOG.md ${doc}/changelog COPYONLY)
   compress(${doc}/changelog.Debian)
   compress(${doc}/changelog)
-  file(CHMOD_RECURSE ${doc}
-    FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ
-    DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 endforeach()
 
-# Where Debian 12 keeps units and rules.
-set(root ${CPACK_TEMPORARY_DIRECTORY}/a351)
-foreach(folder IN ITEMS systemd udev)
+# Debian 12 keeps units and rules below /lib; Debian 13, whose dpkg is 1.22, below /usr/lib.
+execute_process(COMMAND dpkg-query -W -f "\${Version}" dpkg OUTPUT_VARIABLE dpkg_version COMMAND_ERROR_IS_FATAL ANY)
+if(dpkg_version VERSION_LESS 1.22)
+  set(root ${CPACK_TEMPORARY_DIRECTORY}/a351)
   file(MAKE_DIRECTORY ${root}/lib)
-  file(RENAME ${root}/usr/lib/${folder} ${root}/lib/${folder})
-endforeach()
+  foreach(folder IN ITEMS systemd udev)
+    file(RENAME ${root}/usr/lib/${folder} ${root}/lib/${folder})
+  endforeach()
+endif()
+
+# The same rights whatever the umask; the time of the last change, not of the build.
+execute_process(COMMAND chmod -R u=rwX,go=rX ${CPACK_TEMPORARY_DIRECTORY} COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND find ${CPACK_TEMPORARY_DIRECTORY} -exec touch --no-dereference --date=@$ENV{SOURCE_DATE_EPOCH} {} +
+                COMMAND_ERROR_IS_FATAL ANY)

@@ -1,7 +1,9 @@
-"""A fresh Debian 12 in a directory: commands in it, and its systemd booted.  Wants root, debootstrap and a mirror."""
+"""A fresh Debian in a directory: commands in it, and its systemd booted.  Wants root, debootstrap and a mirror."""
 
 import os
 import pathlib
+import platform
+import re
 import shutil
 import subprocess
 import time
@@ -35,18 +37,39 @@ exec setpriv --bounding-set=-sys_time,-sys_module,-sys_rawio,-syslog \
 """
 
 
-def make_root(root):
-    run("debootstrap", "--variant=minbase", "bookworm", root)
+SUITES = {"bookworm": "Debian 12", "trixie": "Debian 13"}
+
+
+def is_of_a_package(file):
+    return run("dpkg-query", "-S", file, check=False).returncode == 0
+
+
+def make_root(root, suite, architecture=None):
+    """@param architecture  Debian's name, by default this machine's; another one wants qemu-user-static and its binfmt."""
+    run("debootstrap", "--variant=minbase", *([f"--arch={architecture}"] if architecture else []), suite, root)
     # It asks the mirrors that this host asks, in its way.
-    for name in ("resolv.conf", "hosts", "apt/sources.list", "apt/sources.list.d/debian.sources", "apt/apt.conf.d",
-                 "ssl/certs"):
-        source, target = pathlib.Path("/etc") / name, root / "etc" / name
-        if source.is_dir():
-            shutil.copytree(source, target, dirs_exist_ok=True, symlinks=True)
-        elif source.is_file():
-            target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(source, target)
-    shutil.copytree("/usr/local/share/ca-certificates", root / "usr/local/share/ca-certificates", dirs_exist_ok=True)
+    for name in ("resolv.conf", "hosts", "ssl/certs"):
+        copy("/etc" / pathlib.Path(name), root / "etc" / name)
+    copy(pathlib.Path("/usr/local/share/ca-certificates"), root / "usr/local/share/ca-certificates")
+    for file in pathlib.Path("/etc/apt/apt.conf.d").iterdir():
+        if not is_of_a_package(file):  # The others would be in the way of the packages in the root.
+            copy(file, root / "etc/apt/apt.conf.d" / file.name)
+    own_suite = platform.freedesktop_os_release().get("VERSION_CODENAME")
+    sources = [file for file in map(pathlib.Path, ("/etc/apt/sources.list", "/etc/apt/sources.list.d/debian.sources"))
+               if file.is_file()]
+    if own_suite in SUITES and sources:
+        (root / "etc/apt/sources.list").write_text("")
+        for file in sources:
+            text = re.sub(rf"\b{own_suite}\b", suite, file.read_text()).replace("-keyring.pgp", "-keyring.gpg")
+            (root / file.relative_to("/")).write_text(text)
+
+
+def copy(source, target):
+    if source.is_dir():
+        shutil.copytree(source, target, dirs_exist_ok=True, symlinks=True)
+    elif source.is_file():
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(source, target)
 
 
 def output(result, command):
