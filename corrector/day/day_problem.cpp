@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "corrector/day/search_grid.hpp"
 #include "corrector/linear_algebra/cholesky.hpp"
 #include "corrector/linear_algebra/normal_matrix.hpp"
 #include "corrector/signal/median.hpp"
@@ -223,8 +224,8 @@ DayProblem::Point DayProblem::most_likely(const std::optional<Point>& nearby) co
         nlopt_create(nearby ? NLOPT_LN_BOBYQA : NLOPT_LN_SBPLX, kCount), &nlopt_destroy);
     const auto cost_of = [](unsigned, const double* u, double*, void* problem) {
         Point point;
-        std::copy_n(u, kCount, point.begin());
-        return static_cast<const DayProblem*>(problem)->cost(point);
+        std::transform(u, u + kCount, point.begin(), search_point);
+        return search_cost(static_cast<const DayProblem*>(problem)->cost(point));
     };
     nlopt_set_min_objective(search.get(), cost_of, const_cast<DayProblem*>(this));
     nlopt_set_lower_bounds1(search.get(), -kFarthest);
@@ -235,6 +236,7 @@ DayProblem::Point DayProblem::most_likely(const std::optional<Point>& nearby) co
     Point u = nearby.value_or(Point{});
     double least = 0.0;
     nlopt_optimize(search.get(), u.data(), &least);
+    for (double& value : u) value = search_point(value);
     return u;
 }
 

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "corrector/day/day_columns.hpp"
+#include "corrector/day/search_grid.hpp"
 #include "corrector/fixed_point/fourier.hpp"
 #include "corrector/fixed_point/regression.hpp"
 #include "corrector/linear_algebra/cholesky.hpp"
@@ -106,8 +107,8 @@ public:
             nlopt_create(is_nearby ? NLOPT_LN_BOBYQA : NLOPT_LN_SBPLX, kLags), &nlopt_destroy);
         const auto cost_of = [](unsigned, const double* point, double*, void* problem) {
             Lags at;
-            std::copy_n(point, kLags, at.begin());
-            return static_cast<const Problem*>(problem)->cost(at);
+            std::transform(point, point + kLags, at.begin(), search_point);
+            return search_cost(static_cast<const Problem*>(problem)->cost(at));
         };
         constexpr double kFarthest = 5.0;  // standard deviations of the priors
         nlopt_set_min_objective(search.get(), cost_of, const_cast<Problem*>(this));
@@ -118,6 +119,7 @@ public:
         nlopt_set_maxeval(search.get(), 120);
         double least = 0.0;
         nlopt_optimize(search.get(), u.data(), &least);
+        for (double& value : u) value = search_point(value);
         return u;
     }
 
@@ -320,7 +322,7 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
     fit.static_slope = fit[TwoPathTerm::level].value + fit[TwoPathTerm::slow].value;
     fit.static_slope_error = std::sqrt(fit.covariance(level, level) + fit.covariance(slow, slow) +
                                        2.0 * fit.covariance(level, slow));
-    const double prior = std::hypot(units(level), units(slow));
+    const double prior = std::sqrt(units(level) * units(level) + units(slow) * units(slow));
     fit.is_static_slope_determined = fit.static_slope_error < kDeterminedDeviation * prior;
 
     const TimeSeries<DegC> whole({}, Hertz(1.0 / step_s), temperature_degc);

@@ -133,7 +133,8 @@ MilliGal row_uncertainty(const DayFit& fit, const std::vector<DayStation>& stati
     for (const DayStation& station : stations)
         if (!station.gravity && station.unknown == stations[row].unknown) count += 1.0;
     const double own = fit.noise.placement_mgal * std::sqrt(1.0 - 1.0 / count);
-    return MilliGal(std::hypot(unknown_of(fit, stations, row).standard_error, own));
+    const double error = unknown_of(fit, stations, row).standard_error;
+    return MilliGal(std::sqrt(error * error + own * own));
 }
 
 /// What is said of the row when its reference is not known.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace a351 {
 
@@ -16,7 +17,8 @@ public:
 
 private:
     static std::string in_one_line(std::string text) {
-        const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
+        // A char is signed on amd64 and unsigned on arm64.
+        const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
         std::replace_if(text.begin(), text.end(), is_control, ' ');
         return text;
     }

@@ -20,7 +20,7 @@ FlickerNoise::FlickerNoise(RandomStream stream, double rms, double shortest_peri
     const int intervals = std::max(1, static_cast<int>(std::ceil(octaves)));
     const double part_rms = rms / std::sqrt(intervals + 1.0);
     for (int i = 0; i <= intervals; ++i) {
-        const double period_s = shortest_period_s * std::exp2(octaves * i / intervals);
+        const double period_s = shortest_period_s * std::pow(2.0, octaves * i / intervals);
         const double tau_s = period_s / (2.0 * std::numbers::pi);
         Part part;
         part.keep = std::exp(-step_s / tau_s);
