@@ -1,44 +1,73 @@
-"""How far the files of two runs differ: not at all, or in numbers, by so many units in the last place."""
+"""How far the files of two runs differ: not at all, or in the numbers of named columns and keys."""
 
+import csv
+import io
+import json
 import math
 import pathlib
-import re
-import struct
-
-# A number by itself: not the digits of a name, of a date or of a checksum.
-NUMBER = re.compile(rb"(?<![\w.:+-])[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?(?![\w.:])")
 
 
-def ordered(value):
-    """A double as an integer that counts the doubles from zero to it."""
-    bits, = struct.unpack("<q", struct.pack("<d", value))
-    return bits if bits >= 0 else -(bits & 0x7FFF_FFFF_FFFF_FFFF)
+def relative(first, second):
+    """Returns |a - b| / max(|a|, |b|), or infinity if one of both is no number."""
+    try:
+        a, b = float(first), float(second)
+    except (TypeError, ValueError):
+        return math.inf
+    return abs(a - b) / max(abs(a), abs(b)) if a != b else 0.0
 
 
-def ulps(first, second):
-    """Doubles from one to the other; of a difference from zero they are many."""
-    return abs(ordered(first) - ordered(second))
+def leaves(value, key=""):
+    """Yields every value of a JSON document with the innermost key above it."""
+    if isinstance(value, dict):
+        for name, inner in value.items():
+            yield "key", name
+            yield from leaves(inner, name)
+    elif isinstance(value, list):
+        yield "length", len(value)
+        for inner in value:
+            yield from leaves(inner, key)
+    else:
+        yield key, value
+
+
+def cells(text):
+    """Yields every cell of a CSV table with its column."""
+    header, *rows = csv.reader(io.StringIO(text, newline=""))
+    yield "header", ",".join(header)
+    for row in rows:
+        yield "length", len(row)
+        yield from zip(header, row)
+
+
+READERS = {".json": lambda text: leaves(json.loads(text)), ".csv": cells}
+
+
+def difference(first, second):
+    """Returns the relative() difference of each column or key that differs; "" is any other difference of the files."""
+    one, other = first.read_bytes(), second.read_bytes()
+    if one == other:
+        return {}
+    if first.suffix not in READERS:
+        return {"": math.inf}
+    one, other = (list(READERS[first.suffix](content.decode())) for content in (one, other))
+    if [key for key, _ in one] != [key for key, _ in other]:
+        return {"": math.inf}
+    found = {}
+    for (key, a), (_, b) in zip(one, other):
+        if a != b:
+            found[key] = max(found.get(key, 0.0), relative(a, b))
+    return found or {"": math.inf}
 
 
 def files_of(folder):
     return {path.relative_to(folder).as_posix(): path for path in pathlib.Path(folder).rglob("*") if path.is_file()}
 
 
-def difference(first, second):
-    """Returns 0 for equal files, else the largest ulps() of their numbers, or infinity if anything else differs."""
-    one, other = first.read_bytes(), second.read_bytes()
-    if one == other:
-        return 0
-    if NUMBER.sub(b"#", one) != NUMBER.sub(b"#", other):
-        return math.inf
-    return max(ulps(float(a), float(b)) for a, b in zip(NUMBER.findall(one), NUMBER.findall(other)))
-
-
 def differences(first, second):
-    """Returns the files that differ, each with its difference(), and the number of all files."""
+    """Returns the difference() of each file that differs, and the number of all files."""
     one, other = files_of(first), files_of(second)
-    found = {name: math.inf for name in one.keys() ^ other.keys()}
+    found = {name: {"": math.inf} for name in one.keys() ^ other.keys()}
     for name in one.keys() & other.keys():
-        if (apart := difference(one[name], other[name])) > 0:
+        if apart := difference(one[name], other[name]):
             found[name] = apart
     return dict(sorted(found.items())), len(one.keys() | other.keys())
