@@ -15,9 +15,12 @@
 #include "corrector/command/option_values.hpp"
 #include "corrector/command/output_option.hpp"
 #include "corrector/command/progress_bar.hpp"
-#include "corrector/survey/aligned_text.hpp"
-#include "corrector/survey/tilt_series.hpp"
+#include "corrector/job/survey_readings.hpp"
+#include "corrector/model/tilt_series.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/aligned_text.hpp"
+#include "protocol/text/input_file.hpp"
+#include "protocol/text/write_together.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -39,7 +42,7 @@ SurveyFile series_file(const std::filesystem::path& path) {
     return survey;
 }
 
-std::vector<std::string> of_archive(const std::vector<InputFile>& inputs,
+std::vector<std::string> of_archive(const std::vector<text::InputFile>& inputs,
                                     const std::vector<std::string>& sha256) {
     std::vector<std::string> chosen;
     for (std::size_t i = 0; i < inputs.size(); ++i)
@@ -48,16 +51,17 @@ std::vector<std::string> of_archive(const std::vector<InputFile>& inputs,
 }
 
 std::string series_text(const TiltSeries& series, const std::string& name) {
-    std::string text = name + ": " + std::to_string(series.set_ups) +
-                       " set-ups, temperature within " + fixed(series.temperature_range_degc, 3) +
-                       " degC, set-ups scatter by " + fixed(series.placement_mgal, 2) + " mGal\n";
+    std::string text =
+        name + ": " + std::to_string(series.set_ups) + " set-ups, temperature within " +
+        text::fixed(series.temperature_range_degc, 3) + " degC, set-ups scatter by " +
+        text::fixed(series.placement_mgal, 2) + " mGal\n";
     for (const std::size_t axis : {0U, 1U}) {
         const auto k = static_cast<Eigen::Index>(axis);
         text += std::string("  ") + (axis == 0 ? "x" : "y") + " tilted from " +
-                fixed(series.least_tilt_deg.at(axis), 2) + " to " +
-                fixed(series.greatest_tilt_deg.at(axis), 2) + " deg: bias " +
-                fixed(series.bias.values(k), 1) + " +- " +
-                fixed(std::sqrt(series.bias.covariance(k, k)), 1) + " mGal\n";
+                text::fixed(series.least_tilt_deg.at(axis), 2) + " to " +
+                text::fixed(series.greatest_tilt_deg.at(axis), 2) + " deg: bias " +
+                text::fixed(series.bias.values(k), 1) + " +- " +
+                text::fixed(std::sqrt(series.bias.covariance(k, k)), 1) + " mGal\n";
     }
     return text;
 }
@@ -82,7 +86,7 @@ void calibrate_from_tilt(Calibration& calibration, const std::vector<std::string
     for (const std::string& file : files) {
         const SurveyFile survey = series_file(file);
         ProgressBar bar(std::cerr, ::isatty(STDERR_FILENO) == 1, survey.name);
-        const OccupationRows read = average_occupations(
+        const OccupationRows read = read_survey(
             survey, [&bar](std::size_t done, std::size_t total) { bar.show(done, total); });
         for (const std::string& warning : read.warnings)
             std::cerr << "a351-correct: " << survey.name << ": " << warning << '\n';
@@ -126,7 +130,7 @@ void calibrate(const CalibrateOptions& options) {
             to_rfc3339(*calibration.valid_to) + ": not after " +
             to_rfc3339(calibration.valid_from) + "; allowed: a later instant, by --valid-to");
     const std::filesystem::path out = std::filesystem::absolute(options.out);
-    write_together(out.parent_path(), {{out.filename().string(), to_toml(calibration)}});
+    text::write_together(out.parent_path(), {{out.filename().string(), to_toml(calibration)}});
     std::cout << "unit " << calibration.serial_number << ": written to " << options.out << '\n';
 }
 

@@ -4,11 +4,11 @@
 
 #include "corrector/command/calibration_origin.hpp"
 #include "corrector/command/record_input.hpp"
-#include "corrector/fixed_point/joined_record.hpp"
-#include "corrector/fixed_point/record_calibration.hpp"
-#include "corrector/survey/aligned_text.hpp"
+#include "corrector/long_record/joined_record.hpp"
+#include "corrector/long_record/record_calibration.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -61,16 +61,16 @@ std::string unit_of(const LongRecord& record, const std::string& file) {
 }
 
 std::string slope_line(const PooledThermal& pooled) {
-    return "  static slope, both paths: " + fixed(pooled.static_slope, 1) + " +- " +
-           fixed(pooled.static_slope_error, 1) + " mGal/degC" +
+    return "  static slope, both paths: " + text::fixed(pooled.static_slope, 1) + " +- " +
+           text::fixed(pooled.static_slope_error, 1) + " mGal/degC" +
            (pooled.is_static_slope_determined ? "" : "; left open") + '\n';
 }
 
 std::string thermal_text(const PooledThermal& pooled) {
     std::string text;
     for (const FittedParameter& parameter : pooled.parameters) {
-        text += "  " + parameter.name + ": " + fixed(parameter.value, 1) + " +- " +
-                fixed(parameter.standard_error, 1) + " " + parameter.unit +
+        text += "  " + parameter.name + ": " + text::fixed(parameter.value, 1) + " +- " +
+                text::fixed(parameter.standard_error, 1) + " " + parameter.unit +
                 (parameter.is_determined ? "" : "; left open, needed: " + parameter.needed) + '\n';
     }
     text += slope_line(pooled);
@@ -85,8 +85,8 @@ std::string refusal(const PooledThermal& pooled, const std::string& file) {
     std::string message = file + ": the response to temperature is not determined";
     for (const FittedParameter& parameter : pooled.parameters)
         if (!parameter.needed.empty())
-            message += "; " + parameter.name + ": " + fixed(parameter.value, 1) + " +- " +
-                       fixed(parameter.standard_error, 1) + " " + parameter.unit +
+            message += "; " + parameter.name + ": " + text::fixed(parameter.value, 1) + " +- " +
+                       text::fixed(parameter.standard_error, 1) + " " + parameter.unit +
                        ", needed: " + parameter.needed;
     return message;
 }
@@ -113,12 +113,12 @@ std::string calibrate_from_records(Calibration& calibration,
                                        hours_of(segment, record.step_s), within_mgal);
             segment = without_begin(std::move(segment), record.step_s);
         }
-        const std::string name =
-            fixed(hours_of(segment, record.step_s), 1) + " h from " + to_rfc3339(segment.start);
+        const std::string name = text::fixed(hours_of(segment, record.step_s), 1) + " h from " +
+                                 to_rfc3339(segment.start);
         const std::string lack =
             segment.size() < SegmentOptions{}.shortest
                 ? "too short for the response to temperature; needed: 3 h that begin " +
-                      fixed(kSettled_h, 0) + " h after power-on or later"
+                      text::fixed(kSettled_h, 0) + " h after power-on or later"
                 : lacks_response(segment.temperature_degc, segment.acceleration_mgal,
                                  record.step_s);
         if (!lack.empty()) {
@@ -127,7 +127,7 @@ std::string calibrate_from_records(Calibration& calibration,
             continue;
         }
         fits.push_back(fitted(segment, record.step_s));
-        text += name + ", residual " + fixed(fits.back().residual_rms_mgal, 2) + " mGal" +
+        text += name + ", residual " + text::fixed(fits.back().residual_rms_mgal, 2) + " mGal" +
                 (fits.back().unexplained.empty()
                      ? ""
                      : ", which still follows the temperature: the model is not enough") +
@@ -137,7 +137,7 @@ std::string calibrate_from_records(Calibration& calibration,
     const PooledThermal pooled = pool_thermal(fits);
     if (!pooled.response) throw InputError(refusal(pooled, file));
     if (options.within_mgal && !warm_up.guidance)
-        throw InputError("--within = " + fixed(within_mgal, 3) + ": " + warm_up.words);
+        throw InputError("--within = " + text::fixed(within_mgal, 3) + ": " + warm_up.words);
     calibration.thermal = pooled.response;
     calibration.warm_up = warm_up.guidance;
     return text + thermal_text(pooled) + "  " + warm_up.words + '\n';

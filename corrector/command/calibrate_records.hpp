@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "corrector/calibration/calibration.hpp"
+#include "protocol/unit/calibration.hpp"
 
 namespace a351::corrector {
 

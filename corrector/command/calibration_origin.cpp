@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "corrector/calibration/sha256.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/input_file.hpp"
 
 namespace a351::corrector {
 
@@ -13,7 +13,7 @@ void list_data(Calibration& calibration, const CalibrationData& data) {
 }
 
 std::vector<std::string> note_origin(Calibration& calibration, const std::string& serial_number,
-                                     UtcTime start, const std::vector<InputFile>& inputs,
+                                     UtcTime start, const std::vector<text::InputFile>& inputs,
                                      const std::string& file) {
     if (serial_number.empty())
         throw InputError(file +
@@ -27,8 +27,8 @@ std::vector<std::string> note_origin(Calibration& calibration, const std::string
     calibration.valid_from =
         calibration.data.empty() ? start : std::min(calibration.valid_from, start);
     std::vector<std::string> sha256;
-    for (const InputFile& input : inputs) {
-        sha256.push_back(sha256_of_file(input.path));
+    for (const text::InputFile& input : inputs) {
+        sha256.push_back(text::sha256_of_file(input.path));
         list_data(calibration, {input.name, sha256.back()});
     }
     return sha256;

@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "corrector/calibration/calibration.hpp"
-#include "corrector/survey/result_files.hpp"
+#include "corrector/result/result_files.hpp"
+#include "protocol/text/input_file.hpp"
+#include "protocol/unit/calibration.hpp"
 
 namespace a351::corrector {
 
@@ -16,7 +17,7 @@ void list_data(Calibration& calibration, const CalibrationData& data);
 /// @return  SHA-256 of every input.
 /// @throws InputError  no serial number, or another than that of what came before.
 std::vector<std::string> note_origin(Calibration& calibration, const std::string& serial_number,
-                                     UtcTime start, const std::vector<InputFile>& inputs,
+                                     UtcTime start, const std::vector<text::InputFile>& inputs,
                                      const std::string& file);
 
 }  // namespace a351::corrector

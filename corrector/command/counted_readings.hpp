@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "corrector/survey/survey_row.hpp"
+#include "corrector/reading/survey_row.hpp"
 
 namespace a351::corrector {
 

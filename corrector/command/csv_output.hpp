@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "corrector/survey/new_file.hpp"
+#include "protocol/text/new_file.hpp"
 
 namespace a351::corrector {
 
@@ -21,7 +21,7 @@ public:
     void finish();
 
 private:
-    std::optional<NewFile> file_;
+    std::optional<text::NewFile> file_;
 };
 
 /// A whole table.

@@ -15,8 +15,8 @@
 #include "corrector/command/output_option.hpp"
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/command/sample_column.hpp"
-#include "corrector/signal/decimator.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/signal/decimator.hpp"
 #include "protocol/text/csv.hpp"
 
 namespace a351::corrector {

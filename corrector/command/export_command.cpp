@@ -7,8 +7,8 @@
 #include "corrector/command/option_values.hpp"
 #include "corrector/command/output_option.hpp"
 #include "corrector/export/export.hpp"
-#include "corrector/survey/new_file.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/new_file.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -26,7 +26,7 @@ void run(Texts texts) {
     if (options.from >= options.to)
         throw InputError("--to = " + texts.to + ": not after --from; allowed: a later instant");
     require_file_option("--out", texts.out);
-    NewFile file(texts.out);
+    text::NewFile file(texts.out);
     const ExportReport report =
         export_channel(options, [&](std::string_view bytes) { file.write(bytes); });
     file.close();

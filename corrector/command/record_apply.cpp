@@ -2,18 +2,19 @@
 
 #include <algorithm>
 
-#include "corrector/calibration/sha256.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/input_file.hpp"
 
 namespace a351::corrector {
 namespace {
 
 /// Whether a file of the record, other than metadata, is among those measured from.
 bool is_in_sample(const LongRecord& record, const Calibration& calibration) {
-    return std::ranges::any_of(record.inputs, [&](const InputFile& input) {
+    return std::ranges::any_of(record.inputs, [&](const text::InputFile& input) {
         return input.role != "metadata" &&
                std::ranges::any_of(calibration.data, [&](const CalibrationData& data) {
-                   return data.name == input.name && data.sha256 == sha256_of_file(input.path);
+                   return data.name == input.name &&
+                          data.sha256 == text::sha256_of_file(input.path);
                });
     });
 }
@@ -43,7 +44,7 @@ void apply_to(RecordResult& result, const std::string& file) {
     const UtcTime end = calibration.valid_to.value_or(UtcTime::max());
     if (result.segment().start < calibration.valid_from || result.segment().end > end)
         applied.remarks.emplace_back("the record is not within the calibration's validity");
-    result.record.inputs.push_back(describe_input("calibration", file));
+    result.record.inputs.push_back(text::describe_input("calibration", file));
     result.applied = std::move(applied);
 }
 

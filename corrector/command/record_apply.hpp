@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "corrector/fixed_point/record_result.hpp"
+#include "corrector/long_record/record_result.hpp"
 
 namespace a351::corrector {
 

@@ -15,10 +15,11 @@
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/command/record_apply.hpp"
 #include "corrector/command/record_input.hpp"
-#include "corrector/fixed_point/joined_record.hpp"
-#include "corrector/fixed_point/record_result.hpp"
+#include "corrector/long_record/joined_record.hpp"
+#include "corrector/long_record/record_result.hpp"
 #include "corrector/report/long_record_page.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/write_together.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -84,12 +85,12 @@ void analyse(const RecordCommandOptions& options) {
     settings["noise_ratio"] = EemdOptions{}.noise_ratio;
     settings["seed"] = options.seed;
     settings["apply"] = options.apply;
-    std::vector<NamedText> files = record_files(result, settings);
+    std::vector<text::NamedText> files = record_files(result, settings);
     Report page = make_long_record_page(result, settings, options.figures);
     std::move(page.files.begin(), page.files.end(), std::back_inserter(files));
     for (const std::string& warning : page.warnings)
         std::cerr << "a351-correct: " << warning << '\n';
-    write_together(options.out, files);
+    text::write_together(options.out, files);
     std::cout << record_text(result) << "\nwritten to " << options.out << '\n';
 }
 

@@ -7,9 +7,9 @@
 #include <iostream>
 
 #include "corrector/command/progress_bar.hpp"
-#include "corrector/fixed_point/csv_record.hpp"
-#include "corrector/survey/aligned_text.hpp"
+#include "corrector/long_record/csv_record.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -59,9 +59,10 @@ RecordSegments divide_or_refuse(const LongRecord& record, const SegmentOptions& 
     std::string message = name + ": nothing to analyse";
     for (const RefusedPart& part : parts.refused)
         message += "; from " + to_rfc3339(part.start) + " " + part.reason;
-    throw InputError(message + "; allowed: " +
-                     fixed(static_cast<double>(options.shortest) * record.step_s / 3600.0, 1) +
-                     " h or more in one piece");
+    throw InputError(
+        message + "; allowed: " +
+        text::fixed(static_cast<double>(options.shortest) * record.step_s / 3600.0, 1) +
+        " h or more in one piece");
 }
 
 }  // namespace a351::corrector

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "corrector/fixed_point/archive_record.hpp"
-#include "corrector/fixed_point/record_segments.hpp"
+#include "corrector/long_record/archive_record.hpp"
+#include "corrector/long_record/record_segments.hpp"
 
 namespace a351::corrector {
 

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <memory>
 
-#include "protocol/record/retime.hpp"
+#include "protocol/archive/retime.hpp"
 
 namespace a351::corrector {
 namespace {

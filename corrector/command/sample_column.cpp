@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "corrector/signal/smoother.hpp"
+#include "corrector/reading/smoother.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 

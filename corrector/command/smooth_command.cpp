@@ -11,7 +11,7 @@
 #include "corrector/command/option_values.hpp"
 #include "corrector/command/output_option.hpp"
 #include "corrector/command/sample_column.hpp"
-#include "corrector/signal/smoother.hpp"
+#include "corrector/reading/smoother.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 

@@ -15,17 +15,18 @@
 #include "corrector/command/option_values.hpp"
 #include "corrector/command/output_option.hpp"
 #include "corrector/command/progress_bar.hpp"
+#include "corrector/job/survey_file.hpp"
+#include "corrector/job/survey_readings.hpp"
+#include "corrector/model/calibration_use.hpp"
+#include "corrector/model/trend_comparison.hpp"
 #include "corrector/report/joint_page.hpp"
 #include "corrector/report/report.hpp"
-#include "corrector/survey/calibration_use.hpp"
-#include "corrector/survey/export_files.hpp"
-#include "corrector/survey/joint_table.hpp"
-#include "corrector/survey/occupation_rows.hpp"
-#include "corrector/survey/result_files.hpp"
-#include "corrector/survey/survey_file.hpp"
-#include "corrector/survey/table_text.hpp"
-#include "corrector/survey/trend_comparison.hpp"
+#include "corrector/result/export_files.hpp"
+#include "corrector/result/joint_table.hpp"
+#include "corrector/result/result_files.hpp"
+#include "corrector/result/table_text.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/write_together.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -93,7 +94,7 @@ struct Day {
     std::string name;
     SurveyCorrection result;
     std::string amendments;
-    std::vector<NamedText> files;
+    std::vector<text::NamedText> files;
 };
 
 /// The name as one part of a path.
@@ -119,15 +120,15 @@ SurveyCorrection corrected(const SurveyFile& survey, OccupationRows& read) {
 
 Day correct_day(const SurveyFile& survey, const std::vector<std::string>& picture_formats) {
     ProgressBar bar(std::cerr, ::isatty(STDERR_FILENO) == 1, survey.name);
-    OccupationRows read = average_occupations(
-        survey, [&bar](std::size_t done, std::size_t total) { bar.show(done, total); });
+    OccupationRows read =
+        read_survey(survey, [&bar](std::size_t done, std::size_t total) { bar.show(done, total); });
     Day day;
     day.name = survey.name;
     day.result = corrected(survey, read);
     day.amendments = amendments_text(read.amendments);
     const nlohmann::ordered_json settings = settings_of(survey, day.result, read);
     day.files = result_files(day.result, settings, read.inputs);
-    for (NamedText& file : export_files(day.result, read.sites)) {
+    for (text::NamedText& file : export_files(day.result, read.sites)) {
         day.files.push_back(std::move(file));
     }
     std::vector<std::string> told = read.warnings;
@@ -175,7 +176,7 @@ void correct_days(const SurveyCommandOptions& options) {
 
     std::vector<SurveyCorrection> results;
     for (const Day& day : days) {
-        write_together(is_joint ? out / folder_name(day.name) : out, day.files);
+        text::write_together(is_joint ? out / folder_name(day.name) : out, day.files);
         std::cout << "survey " << day.name << '\n'
                   << survey_text(day.result) << day.amendments << trend_comparison_text(day.result)
                   << '\n';
@@ -186,8 +187,8 @@ void correct_days(const SurveyCommandOptions& options) {
         auto result = days.begin();
         for (JointDay& day : joint_days)
             if (day.trouble.empty()) day.result = &(result++)->result;
-        write_together(out,
-                       {{"joint.csv", joint_csv(joint)}, {"joint.html", joint_html(joint_days)}});
+        text::write_together(
+            out, {{"joint.csv", joint_csv(joint)}, {"joint.html", joint_html(joint_days)}});
         std::cout << (troubles.empty() ? "all days\n" : "all days but those not corrected\n")
                   << joint_text(joint) << '\n';
     }

@@ -11,10 +11,12 @@
 #include "corrector/command/option_values.hpp"
 #include "corrector/command/output_option.hpp"
 #include "corrector/report/report.hpp"
-#include "corrector/survey/export_files.hpp"
-#include "corrector/survey/result_files.hpp"
-#include "corrector/survey/table_text.hpp"
-#include "corrector/survey/tide_choice.hpp"
+#include "corrector/result/export_files.hpp"
+#include "corrector/result/result_files.hpp"
+#include "corrector/result/table_text.hpp"
+#include "corrector/tide/tide_choice.hpp"
+#include "protocol/text/input_file.hpp"
+#include "protocol/text/write_together.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -63,11 +65,11 @@ void correct_table(TableOptions options) {
     std::vector<std::string> warnings = position_warnings(rows, sites);
     settings["warnings"] = warnings;
     settings["seed"] = options.survey.seed;
-    std::vector<InputFile> inputs{describe_input("sites", options.sites),
-                                  describe_input("observations", options.observations)};
-    if (!tide.series.empty()) inputs.push_back(describe_input("tide", tide.series));
-    std::vector<NamedText> files = result_files(result, settings, inputs);
-    for (NamedText& file : export_files(result, sites)) files.push_back(std::move(file));
+    std::vector<text::InputFile> inputs{text::describe_input("sites", options.sites),
+                                        text::describe_input("observations", options.observations)};
+    if (!tide.series.empty()) inputs.push_back(text::describe_input("tide", tide.series));
+    std::vector<text::NamedText> files = result_files(result, settings, inputs);
+    for (text::NamedText& file : export_files(result, sites)) files.push_back(std::move(file));
     std::vector<std::string> told = warnings;
     told.insert(told.end(), result.remarks.begin(), result.remarks.end());
     Report report = make_report(result, settings,
@@ -79,7 +81,7 @@ void correct_table(TableOptions options) {
                                  told,
                                  options.figures});
     std::move(report.files.begin(), report.files.end(), std::back_inserter(files));
-    write_together(options.out, files);
+    text::write_together(options.out, files);
     warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
     for (const std::string& warning : warnings) std::cerr << "a351-correct: " << warning << '\n';
     std::cout << survey_text(result) << "written to " << options.out << '\n';

@@ -6,10 +6,10 @@
 #include "corrector/command/csv_output.hpp"
 #include "corrector/command/option_values.hpp"
 #include "corrector/command/output_option.hpp"
-#include "corrector/survey/aligned_text.hpp"
-#include "corrector/survey/tide_choice.hpp"
 #include "corrector/tide/earth_tide.hpp"
+#include "corrector/tide/tide_choice.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -56,7 +56,7 @@ void write_series(const TideOptions& options) {
     std::string csv = "time,tide_mgal\n";
     for (UtcTime time = from; time <= to; time += step) {
         csv += to_rfc3339(time, decimals) + ',' +
-               fixed(earth_tide(model, time, station, factors).value(), 6) + '\n';
+               text::fixed(earth_tide(model, time, station, factors).value(), 6) + '\n';
     }
     write_or_print(options.output, std::move(csv));
 }

@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "corrector/export/utc_grid.hpp"
+#include "protocol/archive/miniseed.hpp"
 #include "protocol/core/input_error.hpp"
-#include "protocol/record/miniseed.hpp"
-#include "protocol/record/station_xml.hpp"
+#include "protocol/station/station_xml.hpp"
 #include "protocol/text/csv.hpp"
 
 namespace a351::corrector {

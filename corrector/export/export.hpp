@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "protocol/archive/archive_reader.hpp"
 #include "protocol/core/utc_time.hpp"
-#include "protocol/record/archive_reader.hpp"
 
 namespace a351::corrector {
 

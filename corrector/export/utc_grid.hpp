@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "protocol/archive/archive_reader.hpp"
 #include "protocol/core/utc_time.hpp"
-#include "protocol/record/archive_reader.hpp"
 
 namespace a351::corrector {
 

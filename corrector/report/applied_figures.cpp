@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corrector/fixed_point/regression.hpp"
+#include "corrector/long_record/regression.hpp"
 #include "protocol/core/units.hpp"
 
 namespace a351::corrector {

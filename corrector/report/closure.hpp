@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "corrector/survey/survey_correction.hpp"
+#include "corrector/model/survey_correction.hpp"
 
 namespace a351::corrector {
 

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "corrector/report/figure.hpp"
-#include "corrector/survey/result_files.hpp"
+#include "corrector/result/result_files.hpp"
+#include "protocol/text/write_together.hpp"
 
 namespace a351::corrector {
 
@@ -14,8 +15,8 @@ namespace a351::corrector {
 [[nodiscard]] const std::vector<std::string>& picture_formats();
 
 struct Drawing {
-    std::vector<NamedText> pictures;    ///< NAME.FORMAT, in the order of figures, then formats.
-    std::vector<std::string> troubles;  ///< Why pictures are missing; one line each.
+    std::vector<text::NamedText> pictures;  ///< NAME.FORMAT, in the order of figures, then formats.
+    std::vector<std::string> troubles;      ///< Why pictures are missing; one line each.
 };
 
 /// Draws all figures in a folder of its own for temporary files.  One process draws all of a

@@ -2,14 +2,14 @@
 
 #include <cmath>
 
-#include "corrector/survey/aligned_text.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 
 std::string script_head(const std::string& name, int width_px, int height_px) {
     constexpr double kPixelsPerInch = 96.0;
-    const std::string inches =
-        fixed(width_px / kPixelsPerInch, 3) + "in," + fixed(height_px / kPixelsPerInch, 3) + "in";
+    const std::string inches = text::fixed(width_px / kPixelsPerInch, 3) + "in," +
+                               text::fixed(height_px / kPixelsPerInch, 3) + "in";
     const std::string pixels = std::to_string(width_px) + "," + std::to_string(height_px);
     // PNG at three times the size.  The scales make letters and marks of all formats look alike.
     const std::string tripled = std::to_string(3 * width_px) + "," + std::to_string(3 * height_px);
@@ -48,7 +48,7 @@ double round_step(double limit) {
 }
 
 std::string datum(double value, int decimals) {
-    return (std::isfinite(value) ? fixed(value, decimals) : "NaN") + ' ';
+    return (std::isfinite(value) ? text::fixed(value, decimals) : "NaN") + ' ';
 }
 
 std::optional<int> DataBlocks::add(const std::string& title, const std::string& lines) {

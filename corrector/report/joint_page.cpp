@@ -5,8 +5,8 @@
 
 #include "corrector/report/escaping.hpp"
 #include "corrector/report/html.hpp"
-#include "corrector/survey/aligned_text.hpp"
-#include "corrector/survey/joint_table.hpp"
+#include "corrector/result/joint_table.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -51,8 +51,8 @@ std::string days_table(const std::vector<JointDay>& days) {
         cells[3] = result.model;
         cells[4] =
             std::to_string(result.score.row_count) + " of " + std::to_string(result.rows.size());
-        cells[5] = fixed_or(result.score.rms_mgal, 3, "-");
-        cells[6] = fixed_or(result.score.loso_mgal, 3, "-");
+        cells[5] = text::fixed_or(result.score.rms_mgal, 3, "-");
+        cells[6] = text::fixed_or(result.score.loso_mgal, 3, "-");
     }
     return html_table("nnnlrrr",
                       {"Day", "First reading UTC", "Last reading UTC", "Model", "In the fit",
@@ -85,13 +85,13 @@ std::string stations_table(const std::vector<JointDay>& days,
     for (const JointStation& station : join_days(results)) {
         HtmlCells& cells = rows.emplace_back(HtmlCells{
             station.site, std::to_string(station.day_count), std::to_string(station.row_count),
-            fixed(station.gravity.value(), 3), fixed_or(station.u_gravity, 2, "-"),
-            fixed_or(station.reference, 3, "-"), fixed_or(station.residual, 3, "-")});
+            text::fixed(station.gravity.value(), 3), text::fixed_or(station.u_gravity, 2, "-"),
+            text::fixed_or(station.reference, 3, "-"), text::fixed_or(station.residual, 3, "-")});
         for (const SurveyCorrection& result : results) {
             const StationValue* const value = find_station(result, station.site);
             cells.push_back(value == nullptr
                                 ? "-"
-                                : fixed((value->gravity - station.gravity).value(), 3) +
+                                : text::fixed((value->gravity - station.gravity).value(), 3) +
                                       (value->is_flagged_only ? " *" : ""));
         }
     }
@@ -101,11 +101,11 @@ std::string stations_table(const std::vector<JointDay>& days,
 std::string scatter_sentence(const std::vector<SurveyCorrection>& results) {
     const auto scatter = scatter_of_days(results);
     if (!scatter) return "No station was seen on two days: nothing compares them.";
-    std::string text = "Stations seen on several days differ by " + fixed(scatter->rms_mgal, 2) +
-                       " mGal rms from day to day (" + std::to_string(scatter->dof) +
-                       " degrees of freedom)";
+    std::string text = "Stations seen on several days differ by " +
+                       text::fixed(scatter->rms_mgal, 2) + " mGal rms from day to day (" +
+                       std::to_string(scatter->dof) + " degrees of freedom)";
     if (scatter->expected_mgal)
-        text += "; their u let expect " + fixed(*scatter->expected_mgal, 2) +
+        text += "; their u let expect " + text::fixed(*scatter->expected_mgal, 2) +
                 ", less where a day's fit holds their references";
     return text + '.';
 }

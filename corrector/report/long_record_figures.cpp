@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corrector/survey/aligned_text.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -50,7 +50,7 @@ std::string line_lines(const std::vector<double>& x, const LineFit& fit, double 
 }
 
 std::string formula(const LineFit& fit) {
-    return fixed(fit.slope, 2) + " mGal/°C, R² = " + fixed(fit.r2, 3);
+    return text::fixed(fit.slope, 2) + " mGal/°C, R² = " + text::fixed(fit.r2, 3);
 }
 
 /// To whole mGal, so that the axis is read easily.
@@ -59,7 +59,7 @@ double reference_of(const RecordResult& result) {
 }
 
 std::string above(double reference) {
-    return "set ylabel 'Acceleration - " + fixed(reference, 0) + " (mGal)'\n";
+    return "set ylabel 'Acceleration - " + text::fixed(reference, 0) + " (mGal)'\n";
 }
 
 std::string hours_axis(UtcTime start) {
@@ -184,10 +184,10 @@ Figure trend_figure(const RecordResult& result) {
     const std::string line = "using 1:2 with lines lc rgb ",
                       thick = "using 1:2 with lines lw 2.5 lc rgb ";
     return {kName,
-            "Acceleration, sign turned and moved " + fixed(result.options.shift_s, 0) +
+            "Acceleration, sign turned and moved " + text::fixed(result.options.shift_s, 0) +
                 " s earlier, and temperature, each with the residue of its decomposition.",
-            script_head(kName, 900, 480) + kTwoPanels + "set xrange [" + fixed(moved_h, 3) + ":" +
-                fixed(step_h * static_cast<double>(segment.size()), 3) +
+            script_head(kName, 900, 480) + kTwoPanels + "set xrange [" + text::fixed(moved_h, 3) +
+                ":" + text::fixed(step_h * static_cast<double>(segment.size()), 3) +
                 "]\nset ylabel '- Acceleration (mGal)'\n" +
                 plot_command({block_clause(kName, a, line + kBlue + " notitle"),
                               block_clause(kName, a_slow, thick + "'black' title 'residue'")}) +
@@ -234,7 +234,7 @@ Figure overlay_figure(const RecordResult& result, const ModePair& pair) {
                             curve_lines(part(pair.temperature), first_h, step_h, 0.0, 1.0));
     return {kName,
             "Modes of the cycle: acceleration, sign turned and moved " +
-                fixed(result.options.shift_s, 0) + " s earlier, and temperature" +
+                text::fixed(result.options.shift_s, 0) + " s earlier, and temperature" +
                 (count < pair.turned.size() ? "; the middle of the record." : "."),
             script_head(kName, 900, 360) + hours_axis(result.segment().start) +
                 "set ylabel '- Acceleration (mGal)'\nset y2label 'Temperature (°C)'\n"

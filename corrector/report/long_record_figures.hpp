@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "corrector/fixed_point/record_result.hpp"
+#include "corrector/long_record/record_result.hpp"
 #include "corrector/report/figure.hpp"
 
 namespace a351::corrector {

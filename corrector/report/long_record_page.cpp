@@ -2,14 +2,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corrector/fixed_point/applied_tables.hpp"
+#include "corrector/long_record/applied_tables.hpp"
 #include "corrector/report/applied_figures.hpp"
 #include "corrector/report/escaping.hpp"
 #include "corrector/report/html.hpp"
 #include "corrector/report/long_record_figures.hpp"
 #include "corrector/report/page_parts.hpp"
 #include "corrector/report/result_tables.hpp"
-#include "corrector/survey/aligned_text.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -30,8 +30,8 @@ std::string head_html(const RecordResult& result) {
                           (segment.serial_number.empty()
                                ? std::string()
                                : "sensor " + segment.serial_number + ", ") +
-                          fixed(hours, 1) + " h from " + to_rfc3339(segment.start) +
-                          ", a sample every " + fixed(result.record.step_s, 0) + " s" +
+                          text::fixed(hours, 1) + " h from " + to_rfc3339(segment.start) +
+                          ", a sample every " + text::fixed(result.record.step_s, 0) + " s" +
                           (result.record.is_tide_removed ? ", earth tide removed." : ".")) +
            html_paragraph(result.analysis.reading) +
            html_paragraph("Two-path fit: " + two_paths_reading(result) + ".") +

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "corrector/report/escaping.hpp"
-#include "corrector/survey/aligned_text.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -135,11 +135,11 @@ std::string bar(const Frame& frame) {
     const double width_km = frame.longitude.length() * across * kKilometresPerDegree;
     const double length_km = round_step(width_km / 4.0);
     const double share = length_km / width_km;
-    const std::string title =
-        length_km < 1.0 ? fixed(length_km * 1000.0, 0) + " m" : fixed(length_km, 0) + " km";
-    return "set arrow from graph 0.04,0.04 to graph " + fixed(0.04 + share, 5) +
+    const std::string title = length_km < 1.0 ? text::fixed(length_km * 1000.0, 0) + " m"
+                                              : text::fixed(length_km, 0) + " km";
+    return "set arrow from graph 0.04,0.04 to graph " + text::fixed(0.04 + share, 5) +
            ",0.04 heads size graph 0.008,90 lw 1.5 front\nset label '" + title + "' at graph " +
-           fixed(0.04 + share / 2, 5) + ",0.065 center front\n";
+           text::fixed(0.04 + share / 2, 5) + ",0.065 center front\n";
 }
 
 /// Heights of stations that have a reference, or of those that have none.
@@ -187,19 +187,19 @@ std::optional<Figure> map_figure(const SurveyCorrection& result,
     std::string labels;
     for (const text::Site* site : stations) {
         const std::string label =
-            short_label(site->name) + ", " + fixed(site->altitude.value(), 0) + " m";
+            short_label(site->name) + ", " + text::fixed(site->altitude.value(), 0) + " m";
         const LabelPlace place = placer.place(*site, label.size());
         const double x = frame.x_px(site->longitude.value()) + place.x_px;
         const double y = frame.y_px(site->latitude.value()) + place.y_px;
         labels += "set label " + gnuplot_string(label) + " at graph " +
-                  fixed(x / kPlotWidth_px, 5) + "," + fixed(y / kPlotHeight_px, 5) +
+                  text::fixed(x / kPlotWidth_px, 5) + "," + text::fixed(y / kPlotHeight_px, 5) +
                   (place.is_left ? " right" : " left") + " font ',11' front\n";
     }
     const double step_deg = round_step(frame.longitude.length() / 4.0);
     const int decimals = static_cast<int>(std::clamp(-std::floor(std::log10(step_deg)), 0.0, 6.0));
     const std::string range = [&] {
         const auto text = [](const Range& r) {
-            return "[" + fixed(r.least, 7) + ":" + fixed(r.greatest, 7) + "]\n";
+            return "[" + text::fixed(r.least, 7) + ":" + text::fixed(r.greatest, 7) + "]\n";
         };
         return "set xrange " + text(frame.longitude) + "set yrange " + text(frame.latitude);
     }();
@@ -207,11 +207,11 @@ std::optional<Figure> map_figure(const SurveyCorrection& result,
                   "Stations with their heights; one scale in both directions." +
                       (absent.empty() ? absent : absent + '.'),
                   script_head(kMapName, kMapWidth_px, kMapHeight_px) + "set lmargin at screen " +
-                      fixed(kLeft, 2) + "\nset rmargin at screen " + fixed(kRight, 2) +
-                      "\nset bmargin at screen " + fixed(kBottom, 2) + "\nset tmargin at screen " +
-                      fixed(kTop, 2) + '\n' + range + "set xtics " + fixed(step_deg, 7) +
-                      "\nset ytics " + fixed(step_deg, 7) + "\nset format '%." +
-                      std::to_string(decimals) +
+                      text::fixed(kLeft, 2) + "\nset rmargin at screen " + text::fixed(kRight, 2) +
+                      "\nset bmargin at screen " + text::fixed(kBottom, 2) +
+                      "\nset tmargin at screen " + text::fixed(kTop, 2) + '\n' + range +
+                      "set xtics " + text::fixed(step_deg, 7) + "\nset ytics " +
+                      text::fixed(step_deg, 7) + "\nset format '%." + std::to_string(decimals) +
                       "f'\nset xlabel 'Longitude (° east)'\nset ylabel 'Latitude (° north)'\n"
                       "set key inside bottom right\n" +
                       bar(frame) + labels + plot_command(clauses) + script_tail(),

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "corrector/model/survey_correction.hpp"
 #include "corrector/report/figure.hpp"
-#include "corrector/survey/survey_correction.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::corrector {

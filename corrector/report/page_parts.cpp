@@ -2,12 +2,13 @@
 
 #include "corrector/report/escaping.hpp"
 #include "corrector/report/inline_svg.hpp"
+#include "protocol/text/write_together.hpp"
 
 namespace a351::corrector {
 namespace {
 
 const std::string* find_picture(const Drawing& drawing, const std::string& file) {
-    for (const NamedText& picture : drawing.pictures) {
+    for (const text::NamedText& picture : drawing.pictures) {
         if (picture.first == file) return &picture.second;
     }
     return nullptr;
@@ -42,14 +43,14 @@ std::string section(const std::string& title, const std::string& html) {
     return "<section>\n<h2>" + html_text(title) + "</h2>\n" + html + "</section>\n";
 }
 
-void add_figure_files(std::vector<NamedText>& files, const std::vector<Figure>& figures,
+void add_figure_files(std::vector<text::NamedText>& files, const std::vector<Figure>& figures,
                       Drawing& drawing) {
     for (const Figure& figure : figures) {
         files.emplace_back("figures/" + figure.name + ".gp", figure.script);
         if (!figure.data.empty())
             files.emplace_back("figures/" + figure.name + ".dat", figure.data);
     }
-    for (NamedText& picture : drawing.pictures)
+    for (text::NamedText& picture : drawing.pictures)
         files.emplace_back("figures/" + picture.first, std::move(picture.second));
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "corrector/report/drawing.hpp"
+#include "protocol/text/write_together.hpp"
 
 namespace a351::corrector {
 
@@ -19,7 +20,7 @@ namespace a351::corrector {
 [[nodiscard]] std::string section(const std::string& title, const std::string& html);
 
 /// figures/NAME.gp and .dat, then the pictures, which are moved from.
-void add_figure_files(std::vector<NamedText>& files, const std::vector<Figure>& figures,
+void add_figure_files(std::vector<text::NamedText>& files, const std::vector<Figure>& figures,
                       Drawing& drawing);
 
 }  // namespace a351::corrector

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string_view>
 
+#include "corrector/model/outlier_tests.hpp"
 #include "corrector/report/closure.hpp"
 #include "corrector/report/reading_name.hpp"
-#include "corrector/survey/aligned_text.hpp"
-#include "corrector/survey/outlier_tests.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -74,8 +74,8 @@ void add_temperature(ReadingGrade& reading, const CorrectedRow& row, bool correc
     const std::string text = "temperature not steady: " + doubt;
     if (corrects_rate) {
         add(reading, Grade::care,
-            text + "; it rests on a rate correction of " + fixed(row.rate_correction.value(), 1) +
-                " mGal");
+            text + "; it rests on a rate correction of " +
+                text::fixed(row.rate_correction.value(), 1) + " mGal");
     } else {
         add(reading, Grade::repeat, text + ", which the model does not correct");
     }
@@ -88,16 +88,16 @@ void add_residual(ReadingGrade& reading, const CorrectedRow& row, bool is_left_o
                                      : row.residual->value() / row.u_corrected->value();
     if (std::abs(ratio) <= kCareRatio) return;
     add(reading, std::abs(ratio) > kRepeatRatio ? Grade::repeat : Grade::care,
-        "off its reference by " + fixed(ratio * row.u_corrected->value(), 1) + " mGal" +
+        "off its reference by " + text::fixed(ratio * row.u_corrected->value(), 1) + " mGal" +
             (is_left_out ? " when its station is left out" : "") + ", " +
-            fixed(std::abs(ratio), 1) + " times its uncertainty");
+            text::fixed(std::abs(ratio), 1) + " times its uncertainty");
 }
 
 void add_trends(ReadingGrade& reading, const SurveyRow& row) {
     const auto difference = row.detail("smoother_minus_eemd_mgal");
     if (!difference || std::abs(*difference) <= kTrendDifference_mgal) return;
     add(reading, Grade::care,
-        "its two trends (smoother, EEMD) differ by " + fixed(*difference, 2) + " mGal");
+        "its two trends (smoother, EEMD) differ by " + text::fixed(*difference, 2) + " mGal");
 }
 
 /// What readings of one station scatter by after all corrections.
@@ -130,9 +130,9 @@ void add_repeats(std::vector<ReadingGrade>& readings, const SurveyCorrection& re
         const double ratio = std::abs(pair.after_all.value()) / expected_mgal;
         if (ratio <= kCareRatio) continue;
         const auto text = [&](std::size_t other) {
-            return fixed(std::abs(pair.after_all.value()), 1) + " mGal from " +
-                   reading_name(result.rows, other) + ", " + fixed(ratio, 1) + " times what " +
-                   scatter->name + " lets expect";
+            return text::fixed(std::abs(pair.after_all.value()), 1) + " mGal from " +
+                   reading_name(result.rows, other) + ", " + text::fixed(ratio, 1) +
+                   " times what " + scatter->name + " lets expect";
         };
         add(readings[pair.earlier], Grade::care, text(pair.later));
         add(readings[pair.later], Grade::care, text(pair.earlier));

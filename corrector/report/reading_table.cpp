@@ -4,8 +4,8 @@
 
 #include "corrector/report/html.hpp"
 #include "corrector/report/reading_name.hpp"
-#include "corrector/survey/aligned_text.hpp"
-#include "corrector/survey/table_text.hpp"
+#include "corrector/result/table_text.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -28,26 +28,27 @@ std::string averaged_between(const CorrectedRow& row) {
 }
 
 std::string averaged_s(const CorrectedRow& row) {
-    if (const auto seconds = row.row.detail("averaged_s")) return fixed(*seconds, 0);
+    if (const auto seconds = row.row.detail("averaged_s")) return text::fixed(*seconds, 0);
     if (!row.row.start || !row.row.end) return "-";
-    return fixed(seconds_between(*row.row.start, *row.row.end), 0);
+    return text::fixed(seconds_between(*row.row.start, *row.row.end), 0);
 }
 
 Column number(const std::string& title, MilliGal CorrectedRow::*value) {
     return {title, 'r',
-            [value](const CorrectedRow& row) { return fixed((row.*value).value(), 3); }};
+            [value](const CorrectedRow& row) { return text::fixed((row.*value).value(), 3); }};
 }
 
 Column number(const std::string& title, std::optional<MilliGal> CorrectedRow::*value,
               int decimals) {
     return {title, 'r', [value, decimals](const CorrectedRow& row) {
-                return fixed_or(row.*value, decimals, "-");
+                return text::fixed_or(row.*value, decimals, "-");
             }};
 }
 
 Column detail(const std::string& title, const std::string& name) {
-    return {title, 'r',
-            [name](const CorrectedRow& row) { return fixed_or(row.row.detail(name), 3, "-"); }};
+    return {title, 'r', [name](const CorrectedRow& row) {
+                return text::fixed_or(row.row.detail(name), 3, "-");
+            }};
 }
 
 std::vector<Column> columns_of(const SurveyCorrection& result) {
@@ -64,20 +65,21 @@ std::vector<Column> columns_of(const SurveyCorrection& result) {
                            return std::string(row.is_used ? "yes" : "no");
                        }});
     columns.push_back({"Acceleration", 'r', [](const CorrectedRow& row) {
-                           return fixed(row.row.acceleration.value(), 3);
+                           return text::fixed(row.row.acceleration.value(), 3);
                        }});
     columns.push_back({"T °C", 'r', [](const CorrectedRow& row) {
-                           return fixed(row.row.temperature.value(), 3);
+                           return text::fixed(row.row.temperature.value(), 3);
                        }});
     if (is_day) {
         columns.push_back(detail("°C/h", "fast_rate_degc_per_h"));
     } else {
         columns.push_back({"°C/h", 'r', [](const CorrectedRow& row) {
-                               return fixed(row.row.rate_degc_per_h, 3);
+                               return text::fixed(row.row.rate_degc_per_h, 3);
                            }});
     }
-    columns.push_back(
-        {"Tide", 'r', [](const CorrectedRow& row) { return fixed(row.row.tide.value(), 3); }});
+    columns.push_back({"Tide", 'r', [](const CorrectedRow& row) {
+                           return text::fixed(row.row.tide.value(), 3);
+                       }});
     columns.push_back(number("T corr.", &CorrectedRow::temperature_correction));
     columns.push_back(number("Rate corr.", &CorrectedRow::rate_correction));
     columns.push_back(number("Drift corr.", &CorrectedRow::drift_correction));
@@ -87,13 +89,13 @@ std::vector<Column> columns_of(const SurveyCorrection& result) {
     }
     columns.push_back(number("Corrected", &CorrectedRow::corrected));
     columns.push_back({"Reference", 'r', [](const CorrectedRow& row) {
-                           return fixed_or(row.row.reference, 3, "-");
+                           return text::fixed_or(row.row.reference, 3, "-");
                        }});
     columns.push_back(number("Residual", &CorrectedRow::residual, 3));
     if (is_day) columns.push_back(detail("Left out", "left_out_mgal"));
     columns.push_back(number("u", &CorrectedRow::u_corrected, 2));
     columns.push_back({"t", 'r', [](const CorrectedRow& row) {
-                           return fixed_or(row.studentised_residual, 2, "-");
+                           return text::fixed_or(row.studentised_residual, 2, "-");
                        }});
     columns.push_back({"Flags", 'l', [&result](const CorrectedRow& row) {
                            return flags_of(row, result.options);

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "corrector/survey/survey_correction.hpp"
+#include "corrector/model/survey_correction.hpp"
 
 namespace a351::corrector {
 

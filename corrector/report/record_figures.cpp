@@ -6,7 +6,7 @@
 #include "corrector/eemd/extrema.hpp"
 #include "corrector/report/escaping.hpp"
 #include "corrector/report/reading_name.hpp"
-#include "corrector/survey/aligned_text.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -84,9 +84,9 @@ double half_range(double spread_of_98) { return std::max(1.2 * spread_of_98, 1e-
 std::string averaged_text(const SurveyCorrection& result, const SurveyRow& row, double mean_mgal) {
     const auto averaged_s = row.detail("averaged_s");
     if (result.model != "day" || !averaged_s)
-        return "mean over the interval " + fixed(mean_mgal, 3) + " mGal.";
-    return "the model day averages " + fixed(*averaged_s, 0) + " s of it to " +
-           fixed(row.acceleration.value(), 3) +
+        return "mean over the interval " + text::fixed(mean_mgal, 3) + " mGal.";
+    return "the model day averages " + text::fixed(*averaged_s, 0) + " s of it to " +
+           text::fixed(row.acceleration.value(), 3) +
            " mGal; trend and interval are what the other models take.";
 }
 
@@ -116,7 +116,7 @@ Figure reading_figure(const SurveyCorrection& result, const ReadingRecord& recor
                       " title 'interval'");
     std::string lines;
     for (const UtcTime limit : {value.interval_start, value.interval_end}) {
-        const std::string x = fixed(minutes_between(value.series.start(), limit), 4);
+        const std::string x = text::fixed(minutes_between(value.series.start(), limit), 4);
         lines.append("set arrow from first ").append(x).append(",graph 0 to first ").append(x);
         lines.append(",graph 1 nohead dt 2 lw 1 lc rgb ").append(kVermilion).append("\n");
     }
@@ -125,14 +125,15 @@ Figure reading_figure(const SurveyCorrection& result, const ReadingRecord& recor
         name,
         reading + ", from " + to_rfc3339(value.series.start()) + ": " +
             averaged_text(result, result.rows[record.row].row, mean_mgal),
-        script_head(name, 480, 300) + "mean = " + fixed(mean_mgal, 3) + '\n' + "set title " +
+        script_head(name, 480, 300) + "mean = " + text::fixed(mean_mgal, 3) + '\n' + "set title " +
             gnuplot_string(reading) + "\nset xlabel 'Minutes'\nset ylabel " +
-            gnuplot_string("Acceleration - " + fixed(mean_mgal, 1) + " (mGal)") + "\nset yrange [" +
-            fixed(-half_mgal, 3) + ":" + fixed(half_mgal, 3) + "]\nset ytics " +
-            fixed(round_step(half_mgal / 1.3), 4) + "\nset xrange [0:" +
-            fixed(minutes_between(value.series.start(),
-                                  value.series.time_of(static_cast<double>(value.series.size()))),
-                  3) +
+            gnuplot_string("Acceleration - " + text::fixed(mean_mgal, 1) + " (mGal)") +
+            "\nset yrange [" + text::fixed(-half_mgal, 3) + ":" + text::fixed(half_mgal, 3) +
+            "]\nset ytics " + text::fixed(round_step(half_mgal / 1.3), 4) + "\nset xrange [0:" +
+            text::fixed(
+                minutes_between(value.series.start(),
+                                value.series.time_of(static_cast<double>(value.series.size()))),
+                3) +
             "]\nset key tmargin center horizontal samplen 1.5 font ',11'\n" + lines +
             plot_command(clauses) + script_tail(),
         data.text(), true};
@@ -152,7 +153,7 @@ struct Panels {
 std::string inner_tics(double half) {
     const double step = round_step(half / 1.3);
     const double last = step * std::floor(0.85 * half / step);
-    return fixed(-last, 5) + ',' + fixed(step, 5) + ',' + fixed(last, 5);
+    return text::fixed(-last, 5) + ',' + text::fixed(step, 5) + ',' + text::fixed(last, 5);
 }
 
 std::string panels_script(const SurveyCorrection& result, const std::vector<ReadingRecord>& records,
@@ -169,27 +170,28 @@ std::string panels_script(const SurveyCorrection& result, const std::vector<Read
     }
     const int height_px = 70 + 120 * static_cast<int>(lines);
     // Margins in pixels for the labels, as shares of the height.
-    const std::string bottom = fixed(52.0 / height_px, 4);
-    const std::string top = fixed(1.0 - 12.0 / height_px, 4);
-    const std::string gap = fixed(10.0 / height_px, 4);
+    const std::string bottom = text::fixed(52.0 / height_px, 4);
+    const std::string top = text::fixed(1.0 - 12.0 / height_px, 4);
+    const std::string gap = text::fixed(10.0 / height_px, 4);
     std::string script =
         script_head(panels.name, 960, height_px) + "set multiplot layout " + std::to_string(lines) +
         "," + std::to_string(kColumns) + " margins screen 0.07,0.99," + bottom + "," + top +
-        " spacing screen 0.012," + gap + "\nset xrange [0:" + fixed(longest_min, 2) +
-        "]\nset yrange [" + fixed(-panels.half, 5) + ":" + fixed(panels.half, 5) + "]\nset xtics " +
-        fixed(round_step(longest_min / 2.5), 4) + "\nset ytics " + inner_tics(panels.half) +
-        "\nunset key\nset label 1 'Minutes' at screen 0.53," + fixed(14.0 / height_px, 4) +
-        " center\nset label 2 '" + panels.y_label + "' at screen 0.014,0.53 center rotate by 90\n";
+        " spacing screen 0.012," + gap + "\nset xrange [0:" + text::fixed(longest_min, 2) +
+        "]\nset yrange [" + text::fixed(-panels.half, 5) + ":" + text::fixed(panels.half, 5) +
+        "]\nset xtics " + text::fixed(round_step(longest_min / 2.5), 4) + "\nset ytics " +
+        inner_tics(panels.half) + "\nunset key\nset label 1 'Minutes' at screen 0.53," +
+        text::fixed(14.0 / height_px, 4) + " center\nset label 2 '" + panels.y_label +
+        "' at screen 0.014,0.53 center rotate by 90\n";
     for (std::size_t k = 0; k < n; ++k) {
         const bool is_lowest = k + kColumns >= n;
         script += std::string("set format x '") + (is_lowest ? "%g" : "") + "'\nset format y '" +
                   (k % kColumns == 0 ? "%g" : "") + "'\nset label 3 " +
                   gnuplot_string(short_label(reading_name(result.rows, records[k].row))) +
                   " at graph 0.04,0.9 font ',11' front\nset label 4 " +
-                  gnuplot_string("mean " + fixed(panels.means[k], panels.label_decimals)) +
+                  gnuplot_string("mean " + text::fixed(panels.means[k], panels.label_decimals)) +
                   " at graph 0.96,0.09 right font ',10' front\nplot '" +
                   figure_name(records[k].row) + ".dat' index 0 using 1:($" + panels.column + "-" +
-                  fixed(panels.means[k], 5) + ") with lines " + panels.style + '\n';
+                  text::fixed(panels.means[k], 5) + ") with lines " + panels.style + '\n';
         if (k == 0) script += "unset label 1\nunset label 2\n";
     }
     return script + "unset multiplot\n" + script_tail();

@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "corrector/model/survey_correction.hpp"
+#include "corrector/reading/representative_value.hpp"
 #include "corrector/report/figure.hpp"
-#include "corrector/signal/representative_value.hpp"
-#include "corrector/survey/survey_correction.hpp"
 
 namespace a351::corrector {
 

@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "corrector/signal/representative_value.hpp"
-#include "corrector/survey/result_files.hpp"
-#include "corrector/survey/survey_correction.hpp"
-#include "corrector/survey/temperature_course.hpp"
+#include "corrector/model/survey_correction.hpp"
+#include "corrector/reading/representative_value.hpp"
+#include "corrector/reading/temperature_course.hpp"
+#include "corrector/result/result_files.hpp"
+#include "protocol/text/input_file.hpp"
 #include "protocol/text/sites.hpp"
+#include "protocol/text/write_together.hpp"
 
 namespace a351::corrector {
 
@@ -20,14 +22,14 @@ struct ReportSources {
     std::vector<text::Site> sites;
     std::vector<RepresentativeValue> records;           ///< Behind the rows.
     std::vector<MinuteTemperature> temperature_course;  ///< Of the sensor.
-    std::vector<InputFile> inputs;
+    std::vector<text::InputFile> inputs;
     std::vector<std::string> warnings;         ///< What was passed over, and why.
     std::vector<std::string> picture_formats;  ///< Besides SVG, of picture_formats().
 };
 
 struct Report {
     /// report.html and figures/NAME.gp, .dat, .svg (and as asked for).
-    std::vector<NamedText> files;
+    std::vector<text::NamedText> files;
     std::vector<std::string> warnings;  ///< Figures that are missing, and why.
 };
 

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "corrector/report/long_record_figures.hpp"
-#include "corrector/survey/aligned_text.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {

@@ -6,18 +6,21 @@
 #include "corrector/report/closure.hpp"
 #include "corrector/report/html.hpp"
 #include "corrector/report/reading_name.hpp"
-#include "corrector/survey/aligned_text.hpp"
-#include "corrector/survey/table_text.hpp"
+#include "corrector/result/table_text.hpp"
+#include "protocol/text/aligned_text.hpp"
+#include "protocol/text/input_file.hpp"
 
 namespace a351::corrector {
 namespace {
 
 template <class Value>
 std::string cell(const std::optional<Value>& value, int decimals) {
-    return fixed_or(value, decimals, "-");
+    return text::fixed_or(value, decimals, "-");
 }
 
-std::string number(MilliGal value, int decimals = 3) { return fixed(value.value(), decimals); }
+std::string number(MilliGal value, int decimals = 3) {
+    return text::fixed(value.value(), decimals);
+}
 
 std::string hexadecimal(std::uint32_t value) {
     constexpr std::string_view kDigits = "0123456789abcdef";
@@ -67,7 +70,7 @@ std::string closures_html(const SurveyCorrection& result) {
     rows.reserve(closures.size());
     for (const Closure& pair : closures) {
         rows.push_back({reading_name(result.rows, pair.earlier),
-                        reading_name(result.rows, pair.later), fixed(pair.hours, 2),
+                        reading_name(result.rows, pair.later), text::fixed(pair.hours, 2),
                         number(pair.before), number(pair.after_tide),
                         number(pair.after_temperature), number(pair.after_rate),
                         number(pair.after_all), cell(pair.drift_mgal_per_h, 3)});
@@ -104,18 +107,18 @@ std::string models_html(const SurveyCorrection& result) {
         html += html_paragraph(
             "Chosen: among the models within one standard error of the least "
             "leave-one-station-out error, up to " +
-            fixed(result.choice->limit_mgal, 3) + " mGal, the one with the fewest terms.");
+            text::fixed(result.choice->limit_mgal, 3) + " mGal, the one with the fewest terms.");
     }
     std::vector<HtmlCells> coefficients;
     for (const Coefficient& c : result.coefficients) {
-        coefficients.push_back({c.name, fixed(c.value, 4), cell(c.standard_error, 4)});
+        coefficients.push_back({c.name, text::fixed(c.value, 4), cell(c.standard_error, 4)});
     }
     return html + "<h3>Coefficients of " + result.model + "</h3>\n" +
            html_table("lrr", {"Coefficient", "Value", "Standard error"}, coefficients);
 }
 
 std::string provenance_html(const nlohmann::ordered_json& settings,
-                            const std::vector<InputFile>& inputs,
+                            const std::vector<text::InputFile>& inputs,
                             const std::vector<std::string>& warnings) {
     std::string html = "<h3>Warnings</h3>\n";
     html += warnings.empty() ? html_paragraph("None.") : html_list(warnings);
@@ -131,7 +134,7 @@ std::string provenance_html(const nlohmann::ordered_json& settings,
     html += "<h3>Settings</h3>\n" + html_table("ll", {"Setting", "Value"}, rows);
     std::vector<HtmlCells> files;
     files.reserve(inputs.size());
-    for (const InputFile& input : inputs) {
+    for (const text::InputFile& input : inputs) {
         files.push_back(
             {input.role, input.name, std::to_string(input.byte_count), hexadecimal(input.crc32)});
     }

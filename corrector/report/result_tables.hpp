@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "corrector/survey/result_files.hpp"
-#include "corrector/survey/survey_correction.hpp"
+#include "corrector/model/survey_correction.hpp"
+#include "corrector/result/result_files.hpp"
+#include "protocol/text/input_file.hpp"
 
 namespace a351::corrector {
 
@@ -21,7 +22,7 @@ namespace a351::corrector {
 
 /// Warnings, settings and inputs with their checksums.
 [[nodiscard]] std::string provenance_html(const nlohmann::ordered_json& settings,
-                                          const std::vector<InputFile>& inputs,
+                                          const std::vector<text::InputFile>& inputs,
                                           const std::vector<std::string>& warnings);
 
 }  // namespace a351::corrector

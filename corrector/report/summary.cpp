@@ -6,7 +6,7 @@
 
 #include "corrector/report/html.hpp"
 #include "corrector/report/reading_name.hpp"
-#include "corrector/survey/aligned_text.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -52,9 +52,9 @@ std::string reading_table(const SurveyCorrection& result, const std::vector<Read
         for (std::size_t i = 0; i < grades.size(); ++i) {
             if (grades[i].grade != grade || grades[i].reasons.empty()) continue;
             rows.push_back({reading_name(result.rows, i), grade_text(grade),
-                            fixed_or(error_of(result.rows[i], is_day), 2, "-"),
-                            fixed_or(result.rows[i].u_corrected, 2, "-"),
-                            joined(grades[i].reasons, "; ")});
+                            text::fixed_or(error_of(result.rows[i], is_day), 2, "-"),
+                            text::fixed_or(result.rows[i].u_corrected, 2, "-"),
+                            text::joined(grades[i].reasons, "; ")});
         }
     }
     if (rows.empty()) return {};
@@ -69,10 +69,10 @@ std::string accuracy_table(const SurveyCorrection& result) {
     std::vector<HtmlCells> rows;
     const auto add = [&rows](const std::string& quantity, const std::optional<double>& value,
                              const std::string& error, const std::string& kind) {
-        if (value) rows.push_back({quantity, fixed(*value, 3), error, kind});
+        if (value) rows.push_back({quantity, text::fixed(*value, 3), error, kind});
     };
-    add("RMS of the residuals", score.rms_mgal, fixed_or(standard_error_of_rms(score), 2, "-"),
-        "in sample");
+    add("RMS of the residuals", score.rms_mgal,
+        text::fixed_or(standard_error_of_rms(score), 2, "-"), "in sample");
     add("s, with the degrees of freedom (" + std::to_string(score.dof) + ") for divisor",
         score.s_mgal, "", "in sample");
     add("RMS error of a reading left out", score.loo_mgal, "", "cross-validated (leave-one-out)");
@@ -126,7 +126,7 @@ std::vector<std::string> actions(const SurveyCorrection& result,
     }
     std::vector<std::string> list;
     const auto add = [&list](const std::string& what, const std::vector<std::string>& names) {
-        if (!names.empty()) list.push_back(what + ": " + joined(names) + ".");
+        if (!names.empty()) list.push_back(what + ": " + text::joined(names) + ".");
     };
     for (const auto& [reason, names] : left_out_by_reason(result))
         add("Repeat, without a value (" + reason + ")", names);
@@ -165,8 +165,8 @@ std::vector<std::string> limits_of(const SurveyCorrection& result) {
                          "blunder there.");
     }
     if (!unchecked.empty()) {
-        limits.push_back(
-            "One reading and no reference, so nothing checks them: " + joined(unchecked) + ".");
+        limits.push_back("One reading and no reference, so nothing checks them: " +
+                         text::joined(unchecked) + ".");
     }
     return limits;
 }
@@ -182,7 +182,7 @@ std::string honest_sentence(const ModelScore& score) {
     const std::string quote =
         " For a new station the figure to quote is " +
         (score.loso_mgal
-             ? fixed(*score.loso_mgal, 2) + " mGal (cross-validated, leave-one-station-out)."
+             ? text::fixed(*score.loso_mgal, 2) + " mGal (cross-validated, leave-one-station-out)."
              : std::string("the leave-one-station-out error, which this model and "
                            "these readings do not have."));
     if (!error) {
@@ -191,8 +191,8 @@ std::string honest_sentence(const ModelScore& score) {
                "accuracy." +
                quote;
     }
-    return n + ": the scatter of " + fixed(*score.rms_mgal, 2) +
-           " mGal (in sample) has itself a standard error of about " + fixed(*error, 2) +
+    return n + ": the scatter of " + text::fixed(*score.rms_mgal, 2) +
+           " mGal (in sample) has itself a standard error of about " + text::fixed(*error, 2) +
            " mGal, RMS / sqrt(2 dof) with " + std::to_string(score.dof) +
            " degrees of freedom. Differences between models smaller than that are not findings." +
            quote;

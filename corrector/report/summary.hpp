@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "corrector/model/survey_correction.hpp"
 #include "corrector/report/reading_grade.hpp"
-#include "corrector/survey/survey_correction.hpp"
 
 namespace a351::corrector {
 

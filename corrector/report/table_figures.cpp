@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <functional>
 
+#include "corrector/model/linear_fit.hpp"
 #include "corrector/report/escaping.hpp"
 #include "corrector/report/reading_name.hpp"
 #include "corrector/report/time_axis.hpp"
-#include "corrector/survey/aligned_text.hpp"
-#include "corrector/survey/linear_fit.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -81,8 +81,9 @@ std::string line_lines(const Line& line) {
 
 std::string line_title(const Line& line) {
     const double intercept = line.fit.coefficients(0);
-    return "y = " + fixed(line.fit.coefficients(1), 4) + " x " + (intercept < 0.0 ? "- " : "+ ") +
-           fixed(std::abs(intercept), 1) + ", R² = " + fixed(line.fit.r_squared, 4);
+    return "y = " + text::fixed(line.fit.coefficients(1), 4) + " x " +
+           (intercept < 0.0 ? "- " : "+ ") + text::fixed(std::abs(intercept), 1) +
+           ", R² = " + text::fixed(line.fit.r_squared, 4);
 }
 
 struct Scatter {
@@ -187,7 +188,8 @@ std::optional<Figure> corrected_figure(const SurveyCorrection& result) {
     const auto line = line_through(result, scatter.point_of);
     clauses.push_back(
         "x with lines lw 1.2 lc rgb " + kGrey + " title 'y = x" +
-        (line ? " (R² of the readings in the fit " + fixed(line->fit.r_squared, 4) + ")" : "") +
+        (line ? " (R² of the readings in the fit " + text::fixed(line->fit.r_squared, 4) + ")"
+              : "") +
         "'");
     return Figure{scatter.name,
                   "Corrected gravity over reference gravity, with the line y = x. In sample: the "

@@ -5,8 +5,8 @@
 
 #include <vector>
 
+#include "corrector/model/survey_correction.hpp"
 #include "corrector/report/figure.hpp"
-#include "corrector/survey/survey_correction.hpp"
 
 namespace a351::corrector {
 

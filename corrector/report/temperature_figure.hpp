@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "corrector/model/survey_correction.hpp"
+#include "corrector/reading/temperature_course.hpp"
 #include "corrector/report/figure.hpp"
-#include "corrector/survey/survey_correction.hpp"
-#include "corrector/survey/temperature_course.hpp"
 
 namespace a351::corrector {
 

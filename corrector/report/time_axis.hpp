@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "corrector/survey/survey_correction.hpp"
+#include "corrector/model/survey_correction.hpp"
 
 namespace a351::corrector {
 

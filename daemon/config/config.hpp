@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "corrector/calibration/calibration.hpp"
 #include "daemon/config/listen_address.hpp"
 #include "daemon/source/oven_link.hpp"
 #include "daemon/source/port.hpp"
 #include "daemon/verdict/verdict_options.hpp"
 #include "protocol/core/units.hpp"
-#include "protocol/record/journal.hpp"
+#include "protocol/journal/journal.hpp"
 #include "protocol/text/sites.hpp"
+#include "protocol/unit/calibration.hpp"
 #include "protocol/wire/device_profile.hpp"
 #include "protocol/wire/handshake.hpp"
 

@@ -4,8 +4,8 @@
 
 #include "daemon/config/config.hpp"
 #include "daemon/source/host_clock.hpp"
-#include "protocol/record/journal.hpp"
-#include "protocol/record/station_xml.hpp"
+#include "protocol/journal/journal.hpp"
+#include "protocol/station/station_xml.hpp"
 
 namespace a351::daemon {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "corrector/calibration/calibration.hpp"
 #include "daemon/verdict/verdict_options.hpp"
+#include "protocol/unit/calibration.hpp"
 
 namespace a351::daemon {
 

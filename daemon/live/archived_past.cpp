@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "protocol/record/archive_reader.hpp"
-#include "protocol/record/channel_code.hpp"
+#include "protocol/archive/archive_reader.hpp"
+#include "protocol/archive/channel_code.hpp"
 
 namespace a351::daemon {
 namespace {

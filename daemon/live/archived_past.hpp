@@ -4,7 +4,7 @@
 
 #include "daemon/live/live_record.hpp"
 #include "protocol/core/utc_time.hpp"
-#include "protocol/record/journal.hpp"
+#include "protocol/journal/journal.hpp"
 
 namespace a351::daemon {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "corrector/signal/median.hpp"
 #include "protocol/oven/controller_values.hpp"
+#include "protocol/signal/median.hpp"
 
 namespace a351::daemon {
 namespace {

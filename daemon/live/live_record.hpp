@@ -17,7 +17,7 @@
 #include "daemon/live/recent_samples.hpp"
 #include "daemon/verdict/running_value.hpp"
 #include "daemon/verdict/verdict.hpp"
-#include "protocol/record/journal.hpp"
+#include "protocol/journal/journal.hpp"
 #include "protocol/wire/device_profile.hpp"
 
 namespace a351::daemon {

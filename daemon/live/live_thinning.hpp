@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "corrector/signal/decimator.hpp"
 #include "daemon/live/recent_samples.hpp"
 #include "daemon/verdict/live_sample.hpp"
+#include "protocol/signal/decimator.hpp"
 #include "protocol/wire/device_profile.hpp"
 
 namespace a351::daemon {

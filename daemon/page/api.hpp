@@ -27,7 +27,7 @@
 #include "daemon/page/status.hpp"
 #include "daemon/survey/occupations.hpp"
 #include "protocol/core/utc_time.hpp"
-#include "protocol/record/event_log.hpp"
+#include "protocol/events/event_log.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::daemon {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "daemon/verdict/verdict.hpp"
+#include "protocol/archive/archiver.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "protocol/oven/controller_values.hpp"
-#include "protocol/record/archiver.hpp"
 #include "protocol/timing/sample_clock.hpp"
 
 namespace a351::daemon {

@@ -6,7 +6,7 @@
 
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/port.hpp"
-#include "protocol/record/stream_end.hpp"
+#include "protocol/journal/stream_end.hpp"
 
 namespace a351::daemon {
 

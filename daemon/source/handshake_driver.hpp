@@ -7,7 +7,7 @@
 
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/port.hpp"
-#include "protocol/record/journal.hpp"
+#include "protocol/journal/journal.hpp"
 #include "protocol/wire/handshake.hpp"
 
 namespace a351::daemon {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/record/journal.hpp"
+#include "protocol/journal/journal.hpp"
 
 namespace a351::daemon {
 

@@ -18,9 +18,9 @@
 
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/modbus_line.hpp"
+#include "protocol/journal/journal.hpp"
 #include "protocol/oven/controller_values.hpp"
 #include "protocol/oven/registers.hpp"
-#include "protocol/record/journal.hpp"
 
 namespace a351::daemon {
 

@@ -13,7 +13,7 @@
 #include <span>
 
 #include "protocol/core/utc_time.hpp"
-#include "protocol/record/journal.hpp"
+#include "protocol/journal/journal.hpp"
 
 namespace a351::daemon {
 

@@ -20,8 +20,8 @@
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/port.hpp"
 #include "daemon/source/read_queue.hpp"
-#include "protocol/record/journal.hpp"
-#include "protocol/record/stream_end.hpp"
+#include "protocol/journal/journal.hpp"
+#include "protocol/journal/stream_end.hpp"
 #include "protocol/wire/device_profile.hpp"
 #include "protocol/wire/handshake.hpp"
 

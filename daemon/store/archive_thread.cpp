@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "protocol/record/channel_code.hpp"
-#include "protocol/record/sds.hpp"
+#include "protocol/archive/channel_code.hpp"
+#include "protocol/archive/sds.hpp"
 
 namespace a351::daemon {
 namespace {

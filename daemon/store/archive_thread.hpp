@@ -24,10 +24,10 @@
 #include "daemon/store/progress.hpp"
 #include "daemon/store/space_reserve.hpp"
 #include "daemon/survey/recorder.hpp"
-#include "protocol/record/archive_writer.hpp"
-#include "protocol/record/archiver.hpp"
-#include "protocol/record/file_layer.hpp"
-#include "protocol/record/recovery.hpp"
+#include "protocol/archive/archive_writer.hpp"
+#include "protocol/archive/archiver.hpp"
+#include "protocol/archive/recovery.hpp"
+#include "protocol/files/file_layer.hpp"
 
 namespace a351::daemon {
 

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <optional>
 
-#include "protocol/record/journal.hpp"
+#include "protocol/journal/journal.hpp"
 
 namespace a351::daemon {
 

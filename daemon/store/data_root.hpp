@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "protocol/record/file_layer.hpp"
-#include "protocol/record/station_xml.hpp"
+#include "protocol/files/file_layer.hpp"
+#include "protocol/station/station_xml.hpp"
 
 namespace a351::daemon {
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "protocol/record/journal_compression.hpp"
-#include "protocol/record/journal_reader.hpp"
+#include "protocol/journal/journal_compression.hpp"
+#include "protocol/journal/journal_reader.hpp"
 
 namespace a351::daemon {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-#include "protocol/record/file_layer.hpp"
+#include "protocol/files/file_layer.hpp"
 
 namespace a351::daemon {
 

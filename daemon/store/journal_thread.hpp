@@ -26,9 +26,9 @@
 #include "daemon/store/disk_time.hpp"
 #include "daemon/store/progress.hpp"
 #include "daemon/store/space_reserve.hpp"
-#include "protocol/record/event_log.hpp"
-#include "protocol/record/file_layer.hpp"
-#include "protocol/record/journal_writer.hpp"
+#include "protocol/events/event_log.hpp"
+#include "protocol/files/file_layer.hpp"
+#include "protocol/journal/journal_writer.hpp"
 
 namespace a351::daemon {
 

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <string>
 
-#include "protocol/record/file_layer.hpp"
+#include "protocol/files/file_layer.hpp"
 
 namespace a351::daemon {
 

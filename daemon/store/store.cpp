@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "daemon/store/assess.hpp"
-#include "protocol/record/time_gate.hpp"
+#include "protocol/archive/time_gate.hpp"
 
 namespace a351::daemon {
 namespace {

@@ -22,11 +22,11 @@
 #include "daemon/store/progress.hpp"
 #include "daemon/store/space_reserve.hpp"
 #include "daemon/survey/recorder.hpp"
-#include "protocol/record/file_layer.hpp"
-#include "protocol/record/journal.hpp"
-#include "protocol/record/recovery.hpp"
-#include "protocol/record/station_xml.hpp"
-#include "protocol/record/stream_end.hpp"
+#include "protocol/archive/recovery.hpp"
+#include "protocol/files/file_layer.hpp"
+#include "protocol/journal/journal.hpp"
+#include "protocol/journal/stream_end.hpp"
+#include "protocol/station/station_xml.hpp"
 #include "protocol/wire/device_profile.hpp"
 
 namespace a351::daemon {

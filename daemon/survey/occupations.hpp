@@ -8,7 +8,7 @@
 #include "daemon/survey/recorder.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
-#include "protocol/record/event_log.hpp"
+#include "protocol/events/event_log.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::daemon {

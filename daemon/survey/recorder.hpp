@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "protocol/core/utc_time.hpp"
-#include "protocol/record/event_log.hpp"
-#include "protocol/record/journal.hpp"
+#include "protocol/events/event_log.hpp"
+#include "protocol/journal/journal.hpp"
 
 namespace a351::daemon {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "corrector/signal/median.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/signal/median.hpp"
 
 namespace a351::daemon {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::text {
 namespace {
@@ -24,12 +25,6 @@ void split(std::string_view line, std::vector<std::string_view>& cells) {
         if (comma == std::string_view::npos) return;
         line.remove_prefix(comma + 1);
     }
-}
-
-std::string joined(const std::vector<std::string>& names) {
-    std::string list;
-    for (const std::string& name : names) list += (list.empty() ? "" : ",") + name;
-    return list;
 }
 
 }  // namespace
@@ -96,7 +91,7 @@ std::size_t column_index(const std::vector<std::string>& columns, std::string_vi
     const auto found = std::find(columns.begin(), columns.end(), column);
     if (found == columns.end()) {
         throw InputError(origin.string() + ":1: column " + std::string(column) +
-                         " is missing; there are: " + joined(columns));
+                         " is missing; there are: " + joined(columns, ","));
     }
     return static_cast<std::size_t>(found - columns.begin());
 }

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "protocol/record/file_layer.hpp"
+#include "protocol/files/file_layer.hpp"
 #include "protocol/text/strict_toml.hpp"
 #include "sim/device/register_file.hpp"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <fstream>
 
+#include "protocol/archive/miniseed.hpp"
 #include "protocol/core/input_error.hpp"
-#include "protocol/record/file_bytes.hpp"
-#include "protocol/record/miniseed.hpp"
+#include "protocol/files/file_bytes.hpp"
 
 namespace a351::sim {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
 /// miniSEED files of a data root's archive as a source of samples.
-/// protocol/record/archive-format.md.
+/// protocol/archive/archive-format.md.
 
 #include <array>
 #include <filesystem>

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
 /// Journal segments as a recording: the received bytes as they came, damage included.
-/// protocol/record/journal-format.md.
+/// protocol/journal/journal-format.md.
 
 #include <cstdint>
 #include <filesystem>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/record/journal_reader.hpp"
+#include "protocol/journal/journal_reader.hpp"
 #include "sim/replay/recording.hpp"
 
 namespace a351::sim {

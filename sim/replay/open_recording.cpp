@@ -4,8 +4,8 @@
 #include <fstream>
 
 #include "protocol/core/input_error.hpp"
-#include "protocol/record/journal_codec.hpp"
-#include "protocol/record/journal_reader.hpp"
+#include "protocol/journal/journal_codec.hpp"
+#include "protocol/journal/journal_reader.hpp"
 #include "sim/replay/archive_recording.hpp"
 #include "sim/replay/journal_recording.hpp"
 

@@ -7,12 +7,12 @@
 #include <system_error>
 #include <utility>
 
+#include "protocol/archive/archive_writer.hpp"
+#include "protocol/archive/archiver.hpp"
 #include "protocol/core/input_error.hpp"
-#include "protocol/record/archive_writer.hpp"
-#include "protocol/record/archiver.hpp"
-#include "protocol/record/event_log.hpp"
-#include "protocol/record/journal_writer.hpp"
-#include "protocol/record/station_xml.hpp"
+#include "protocol/events/event_log.hpp"
+#include "protocol/journal/journal_writer.hpp"
+#include "protocol/station/station_xml.hpp"
 #include "protocol/wire/commands.hpp"
 #include "sim/device/device_stream.hpp"
 #include "sim/line/transport.hpp"

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "corrector/fixed_point/record_result.hpp"
+#include "corrector/long_record/record_result.hpp"
 #include "tests/support/plant_statistics.hpp"
 #include "tests/support/published_ranges.hpp"
 #include "tests/support/two_path_truth.hpp"

@@ -8,7 +8,7 @@
 #include "corrector/eemd/eemd.hpp"
 #include "corrector/eemd/ensemble.hpp"
 #include "corrector/eemd/noise.hpp"
-#include "corrector/signal/decimation.hpp"
+#include "protocol/signal/decimation.hpp"
 
 namespace {
 

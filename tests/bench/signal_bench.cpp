@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "corrector/signal/decimator.hpp"
-#include "corrector/signal/smoother.hpp"
+#include "corrector/reading/smoother.hpp"
+#include "protocol/signal/decimator.hpp"
 
 namespace {
 

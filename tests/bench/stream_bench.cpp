@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "protocol/record/archiver.hpp"
+#include "protocol/archive/archiver.hpp"
 #include "protocol/wire/burst_decoder.hpp"
 
 namespace {

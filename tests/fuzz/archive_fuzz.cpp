@@ -7,9 +7,9 @@
 #include <cmath>
 #include <span>
 
-#include "protocol/record/archive_reader.hpp"
-#include "protocol/record/miniseed.hpp"
-#include "protocol/record/sds.hpp"
+#include "protocol/archive/archive_reader.hpp"
+#include "protocol/archive/miniseed.hpp"
+#include "protocol/archive/sds.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
 
 namespace {

@@ -5,8 +5,8 @@
 #include <sstream>
 #include <vector>
 
-#include "corrector/survey/occupation_list.hpp"
-#include "corrector/survey/tide_series.hpp"
+#include "corrector/reading/occupation_list.hpp"
+#include "corrector/tide/tide_series.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/csv_reader.hpp"

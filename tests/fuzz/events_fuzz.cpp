@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "protocol/record/event_log.hpp"
+#include "protocol/events/event_log.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
 
 using namespace a351;

@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "protocol/archive/archiver.hpp"
+#include "protocol/archive/retiming.hpp"
 #include "protocol/core/input_error.hpp"
-#include "protocol/record/archiver.hpp"
-#include "protocol/record/journal_codec.hpp"
-#include "protocol/record/journal_reader.hpp"
-#include "protocol/record/retiming.hpp"
+#include "protocol/journal/journal_codec.hpp"
+#include "protocol/journal/journal_reader.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
 
 namespace {

@@ -1,10 +1,10 @@
 /// @file
 /// Configuration, calibration, scenario and fault script: taken, or refused by an InputError of one line.
 
-#include "corrector/calibration/calibration.hpp"
 #include "daemon/config/config.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/utc_time.hpp"
+#include "protocol/unit/calibration.hpp"
 #include "protocol/wire/device_profile.hpp"
 #include "sim/line/fault_script.hpp"
 #include "sim/scenario/scenario.hpp"

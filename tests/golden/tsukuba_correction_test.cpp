@@ -5,8 +5,8 @@
 #include <cmath>
 #include "tests/support/catch.hpp"
 
-#include "corrector/survey/linear_fit.hpp"
-#include "corrector/survey/paper_correction.hpp"
+#include "corrector/model/linear_fit.hpp"
+#include "corrector/model/paper_correction.hpp"
 #include "tests/golden/tsukuba_table.hpp"
 
 using namespace a351;

@@ -4,7 +4,7 @@
 #include <map>
 #include "tests/support/catch.hpp"
 
-#include "corrector/survey/survey_correction.hpp"
+#include "corrector/model/survey_correction.hpp"
 #include "tests/golden/tsukuba_table.hpp"
 
 using namespace a351;

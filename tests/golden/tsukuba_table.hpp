@@ -4,7 +4,8 @@
 #include <vector>
 #include "tests/support/catch.hpp"
 
-#include "corrector/survey/survey_row.hpp"
+#include "corrector/reading/survey_row.hpp"
+#include "corrector/tide/tide_choice.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/sites.hpp"
 

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <iostream>
 
-#include "protocol/record/archive_reader.hpp"
-#include "protocol/record/sds.hpp"
+#include "protocol/archive/archive_reader.hpp"
+#include "protocol/archive/sds.hpp"
 
 int main(int argc, char** argv) {
     using namespace a351;

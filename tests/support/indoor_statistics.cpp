@@ -2,7 +2,7 @@
 #include <span>
 
 #include "corrector/eemd/eemd.hpp"
-#include "corrector/signal/band_pass.hpp"
+#include "corrector/reading/band_pass.hpp"
 #include "sim/scenario/survey_plan.hpp"
 #include "sim/signal/slow_signal.hpp"
 #include "tests/support/plant_statistics.hpp"

@@ -4,8 +4,8 @@
 
 #include <iostream>
 
-#include "protocol/record/archiver.hpp"
-#include "protocol/record/journal_reader.hpp"
+#include "protocol/archive/archiver.hpp"
+#include "protocol/journal/journal_reader.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "protocol/record/station_xml.hpp"
+#include "protocol/station/station_xml.hpp"
 
 int main(int argc, char** argv) {
     using namespace a351;

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "corrector/fixed_point/two_path_fit.hpp"
+#include "corrector/long_record/two_path_fit.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace a351::sim {

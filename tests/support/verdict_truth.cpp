@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "corrector/signal/decimator.hpp"
+#include "protocol/signal/decimator.hpp"
 #include "sim/signal/disturbance.hpp"
 #include "sim/signal/signal_source.hpp"
 #include "sim/signal/slow_signal.hpp"

@@ -11,7 +11,7 @@ GOLDEN = TOP / "tests" / "golden"
 
 
 def journal(file):
-    """protocol/record/journal-format.md: (type, payload) of each good chunk; checksums are left to the careful."""
+    """protocol/journal/journal-format.md: (type, payload) of each good chunk; checksums are left to the careful."""
     data, at, sequence = file.read_bytes(), 12, 0
     if data[:12] != b"A351JRNL\1\0\0\0":
         return
@@ -49,7 +49,7 @@ CUTS = {(1, None): (4, 8), (2, 1): (1, 30), (2, 2): (2, 15), (2, 3): (3, 10), (3
 
 
 def record(data):
-    """protocol/record/archive-format.md: channel, start in ns, rate, samples of a record of 512 bytes."""
+    """protocol/archive/archive-format.md: channel, start in ns, rate, samples of a record of 512 bytes."""
     year, day, hour, minute, second, ten_thousandths = struct.unpack_from(">HHBBBxH", data, 20)
     count, factor, multiplier = struct.unpack_from(">Hhh", data, 30)
     begin, = struct.unpack_from(">H", data, 44)
@@ -78,7 +78,7 @@ def record(data):
 
 
 def occupations(folder):
-    """protocol/record/event-format.md: [site, number, set-up, start, end, note], one row per set-up, in order of time."""
+    """protocol/events/event-format.md: [site, number, set-up, start, end, note], one row per set-up, in order of time."""
     finished, running = [], None
 
     def lay_down(utc):

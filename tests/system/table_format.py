@@ -6,7 +6,7 @@ import re
 from programs import BIN, TOP, Scratch, demand, rows, run
 
 GOLDEN = TOP / "tests" / "golden" / "tsukuba"
-PAGE, RECORD_PAGE = (TOP / "corrector" / name for name in ("survey/table-format.md", "fixed_point/long_record.md"))
+PAGE, RECORD_PAGE = (TOP / "corrector" / name for name in ("result/table-format.md", "long_record/long_record.md"))
 # Not told one by one there: options of the run, parts of a calibration and of a network.
 ASIDE = {"settings", "calibration", "network"}
 # Of five or more numbers of six decimals each.

@@ -5,7 +5,7 @@
 #include "protocol/text/text_file.hpp"
 #include "tests/unit/daemon/forgetful_files.hpp"
 #include "tests/unit/daemon/stepped_rig.hpp"
-#include "tests/unit/record/failing_files.hpp"
+#include "tests/unit/files/failing_files.hpp"
 
 using namespace a351;
 using namespace a351::daemon;

@@ -4,7 +4,7 @@
 #include <iterator>
 #include "tests/support/catch.hpp"
 
-#include "tests/unit/daemon/temporary_directory.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 using namespace a351;
 using namespace a351::daemon;
@@ -64,7 +64,7 @@ TEST_CASE("a token of any characters stays within its attribute", "[daemon][page
 }
 
 TEST_CASE("a directory replaces files of known names and opens no others", "[daemon][page]") {
-    const TemporaryDirectory directory;
+    const test::TemporaryDirectory directory;
     std::ofstream(directory.path() / "page.js") << "changed";
     std::ofstream(directory.path() / "secret.js") << "secret";
     const Assets assets(directory.path(), "");

@@ -7,7 +7,7 @@
 #include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
-#include "tests/unit/daemon/temporary_directory.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 using namespace a351;
 using namespace a351::daemon;
@@ -19,7 +19,7 @@ const std::string kSensor = "[sensor]\nport = \"/dev/ttyUSB0\"\n";
 const std::string kStorage = "[storage]\nroot = \"data\"\n";
 
 struct Fixture {
-    TemporaryDirectory directory;
+    test::TemporaryDirectory directory;
     std::filesystem::path file = directory.path() / "a351d.toml";
 
     Config read(const std::string& text) const {

@@ -2,7 +2,7 @@
 #include <cstring>
 
 #include "tests/unit/daemon/stepped_rig.hpp"
-#include "tests/unit/record/failing_files.hpp"
+#include "tests/unit/files/failing_files.hpp"
 
 using namespace a351;
 using namespace a351::daemon;

@@ -10,8 +10,8 @@
 #include <set>
 #include <vector>
 
-#include "protocol/record/file_bytes.hpp"
-#include "tests/unit/record/forwarding_files.hpp"
+#include "protocol/files/file_bytes.hpp"
+#include "tests/unit/files/forwarding_files.hpp"
 
 namespace a351::test {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include "tests/support/catch.hpp"
 
-#include "protocol/record/journal_reader.hpp"
-#include "protocol/record/journal_writer.hpp"
+#include "protocol/journal/journal_reader.hpp"
+#include "protocol/journal/journal_writer.hpp"
 #include "tests/unit/daemon/store_rig.hpp"
-#include "tests/unit/record/failing_files.hpp"
+#include "tests/unit/files/failing_files.hpp"
 
 using namespace a351;
 using namespace a351::daemon;
@@ -18,7 +18,7 @@ constexpr JournalKeeper::Options kEager{.keep_days = 10, .compress_after = 0s, .
 
 /// One segment a day, each a session of its own unless said otherwise; the last has a MARK.
 struct Journal {
-    TemporaryDirectory directory;
+    test::TemporaryDirectory directory;
     std::filesystem::path path = directory.path() / "journal";
 
     struct Day {

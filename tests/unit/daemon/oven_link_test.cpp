@@ -10,9 +10,9 @@
 #include "tests/support/catch.hpp"
 
 #include "daemon/source/port.hpp"
+#include "tests/support/temporary_directory.hpp"
 #include "tests/unit/daemon/fake_controller.hpp"
 #include "tests/unit/daemon/fake_sensor.hpp"
-#include "tests/unit/daemon/temporary_directory.hpp"
 
 using namespace a351;
 using namespace a351::daemon;
@@ -206,7 +206,7 @@ TEST_CASE("a link that is stopped asks no second question", "[daemon][oven_link]
 
 TEST_CASE("a controller that comes back under another name is found through its link",
           "[daemon][oven_link]") {
-    const TemporaryDirectory directory;
+    const test::TemporaryDirectory directory;
     const auto port = directory.path() / "oven";
     OvenRig rig(port);
     rig.link.start();

@@ -8,8 +8,8 @@
 #include <vector>
 #include "tests/support/catch.hpp"
 
+#include "tests/support/temporary_directory.hpp"
 #include "tests/unit/daemon/pty.hpp"
-#include "tests/unit/daemon/temporary_directory.hpp"
 
 using namespace a351;
 using namespace a351::daemon;
@@ -105,7 +105,7 @@ TEST_CASE("silence is no end, a closed far side is", "[daemon][port]") {
 TEST_CASE("a port is found through links, and what is not there or no port is told apart",
           "[daemon][port]") {
     Pty pty;
-    const TemporaryDirectory directory;
+    const test::TemporaryDirectory directory;
     const auto link = directory.path() / "sensor";
     std::filesystem::create_symlink(pty.path(), directory.path() / "hop");
     std::filesystem::create_symlink("hop", link);

@@ -5,8 +5,8 @@
 #include "tests/support/catch.hpp"
 
 #include "protocol/wire/burst_decoder.hpp"
+#include "tests/support/temporary_directory.hpp"
 #include "tests/unit/daemon/fake_sensor.hpp"
-#include "tests/unit/daemon/temporary_directory.hpp"
 
 using namespace a351;
 using namespace a351::daemon;
@@ -170,7 +170,7 @@ TEST_CASE("a sensor that answers but never sends begins no session", "[daemon][s
 }
 
 TEST_CASE("a port that goes is searched for until it is back", "[daemon][sensor_link]") {
-    const TemporaryDirectory directory;
+    const test::TemporaryDirectory directory;
     const auto name = directory.path() / "sensor";
     ReadQueue queue;
     const HostClock clock(ClockScale{10.0, host_realtime(), host_realtime()});

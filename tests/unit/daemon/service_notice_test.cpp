@@ -10,7 +10,7 @@
 #include <string>
 #include "tests/support/catch.hpp"
 
-#include "tests/unit/daemon/temporary_directory.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 using namespace a351;
 using namespace a351::daemon;
@@ -49,7 +49,7 @@ private:
 
 TEST_CASE("the service manager hears of a start, of life, of a change of state and of the end",
           "[daemon][service]") {
-    const TemporaryDirectory directory;
+    const test::TemporaryDirectory directory;
     const bool is_abstract = GENERATE(false, true);
     const std::string name = is_abstract ? "@a351-test-" + std::to_string(getpid())
                                          : directory.path().string() + "/notify";
@@ -73,7 +73,7 @@ TEST_CASE("the service manager hears of a start, of life, of a change of state a
 TEST_CASE("a service manager that is not there, or does not listen, holds nothing up",
           "[daemon][service]") {
     ServiceNotice("").ready();
-    const TemporaryDirectory directory;
+    const test::TemporaryDirectory directory;
     const std::string name = directory.path().string() + "/notify";
     ServiceNotice notice(name);
     notice.ready();

@@ -4,7 +4,7 @@
 #include <map>
 #include <system_error>
 
-#include "tests/unit/record/forwarding_files.hpp"
+#include "tests/unit/files/forwarding_files.hpp"
 
 namespace a351::test {
 

@@ -40,7 +40,7 @@ bool has_reason(const Status& status, const std::string& part) {
 }  // namespace
 
 TEST_CASE("the blocks of the reserve are really there", "[daemon][reserve]") {
-    const TemporaryDirectory directory;
+    const test::TemporaryDirectory directory;
     const auto file = directory.path() / "reserve";
     SpaceReserve reserve(record::posix_files(), file, 8 << 20);
     if (reserve.status().state == State::unavailable) WARN(reserve.status().trouble);
@@ -59,7 +59,7 @@ TEST_CASE("the blocks of the reserve are really there", "[daemon][reserve]") {
 }
 
 TEST_CASE("a reserve is made with more than twice its size free", "[daemon][reserve]") {
-    const TemporaryDirectory directory;
+    const test::TemporaryDirectory directory;
     test::SmallDisk disk(1000);
     disk.fill_up_to(200);
     SpaceReserve reserve(disk, directory.path() / "reserve", 100);
@@ -76,7 +76,7 @@ TEST_CASE("a reserve is made with more than twice its size free", "[daemon][rese
 }
 
 TEST_CASE("a reserve that is there needs no further space at start", "[daemon][reserve]") {
-    const TemporaryDirectory directory;
+    const test::TemporaryDirectory directory;
     test::SmallDisk disk(1000);
     { const SpaceReserve reserve(disk, directory.path() / "reserve", 100); }
     disk.fill_up_to(0);
@@ -88,7 +88,7 @@ TEST_CASE("a reserve that is there needs no further space at start", "[daemon][r
 
 TEST_CASE("a file system that cannot promise space is said, and holds up nothing",
           "[daemon][reserve]") {
-    const TemporaryDirectory directory;
+    const test::TemporaryDirectory directory;
     test::SmallDisk disk(1000);
     disk.error_of_allocate = EOPNOTSUPP;
     SpaceReserve reserve(disk, directory.path() / "reserve", 100);

@@ -10,15 +10,15 @@
 #include "tests/support/catch.hpp"
 
 #include "daemon/store/store.hpp"
-#include "protocol/record/archive_reader.hpp"
-#include "protocol/record/file_bytes.hpp"
-#include "protocol/record/journal_reader.hpp"
-#include "protocol/record/miniseed.hpp"
-#include "protocol/record/sds.hpp"
+#include "protocol/archive/archive_reader.hpp"
+#include "protocol/archive/miniseed.hpp"
+#include "protocol/archive/sds.hpp"
+#include "protocol/files/file_bytes.hpp"
+#include "protocol/journal/journal_reader.hpp"
 #include "protocol/wire/burst_frame.hpp"
+#include "tests/support/temporary_directory.hpp"
 #include "tests/unit/daemon/fake_sensor.hpp"
-#include "tests/unit/daemon/temporary_directory.hpp"
-#include "tests/unit/record/forwarding_files.hpp"
+#include "tests/unit/files/forwarding_files.hpp"
 
 namespace a351::daemon {
 
@@ -87,7 +87,7 @@ inline Status status_of(Store& store) {
 }
 
 struct Rig {
-    TemporaryDirectory directory;
+    test::TemporaryDirectory directory;
     std::filesystem::path root = directory.path() / "data";
     TroubledFiles files;
     HostClock clock;

@@ -3,10 +3,10 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "corrector/linear_algebra/cholesky.hpp"
-#include "corrector/linear_algebra/normal_matrix.hpp"
-#include "corrector/linear_algebra/pivoted_qr.hpp"
-#include "corrector/linear_algebra/symmetric_eigen.hpp"
+#include "protocol/linear_algebra/cholesky.hpp"
+#include "protocol/linear_algebra/normal_matrix.hpp"
+#include "protocol/linear_algebra/pivoted_qr.hpp"
+#include "protocol/linear_algebra/symmetric_eigen.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace a351::corrector;

@@ -4,9 +4,9 @@
 #include <string>
 #include "tests/support/catch.hpp"
 
-#include "protocol/record/archive_writer.hpp"
-#include "protocol/record/miniseed.hpp"
-#include "tests/unit/daemon/temporary_directory.hpp"
+#include "protocol/archive/archive_writer.hpp"
+#include "protocol/archive/miniseed.hpp"
+#include "tests/support/temporary_directory.hpp"
 #include "tests/unit/live/live_samples.hpp"
 
 namespace a351::daemon {
@@ -39,7 +39,7 @@ void write_archive(const std::filesystem::path& archive, const record::StationCo
 }
 
 TEST_CASE("the archive's past is taken sample by sample, gaps stay gaps", "[live][past]") {
-    const TemporaryDirectory directory;
+    const test::TemporaryDirectory directory;
     const record::StationCodes codes;
     write_archive(directory.path(), codes, 20, 24);
     LiveRecord record(kProfile, 50, {});
@@ -61,7 +61,7 @@ TEST_CASE("the archive's past is taken sample by sample, gaps stay gaps", "[live
 }
 
 TEST_CASE("only a day is recalled, and no archive is no past", "[live][past]") {
-    const TemporaryDirectory directory;
+    const test::TemporaryDirectory directory;
     const record::StationCodes codes;
     write_archive(directory.path(), codes, 0, 0);
     LiveRecord late(kProfile, 50, {});

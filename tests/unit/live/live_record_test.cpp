@@ -4,7 +4,7 @@
 #include <numbers>
 #include "tests/support/catch.hpp"
 
-#include "corrector/signal/decimation.hpp"
+#include "protocol/signal/decimation.hpp"
 #include "tests/unit/live/live_samples.hpp"
 
 namespace a351::daemon {

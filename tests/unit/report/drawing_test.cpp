@@ -21,7 +21,7 @@ Figure figure(const std::string& name, const std::string& commands) {
 }
 
 bool has_gnuplot() {
-    const ScratchFolder folder;
+    const test::TemporaryDirectory folder;
     if (run_program("gnuplot", {"--version"}, folder.path(), 20s).is_good()) return true;
     WARN("gnuplot is not installed: nothing is drawn");
     return false;
@@ -30,7 +30,7 @@ bool has_gnuplot() {
 }  // namespace
 
 TEST_CASE("a program runs where it is told, without a shell", "[report][program]") {
-    const ScratchFolder folder;
+    const test::TemporaryDirectory folder;
     const ProgramRun run =
         run_program("sh", {"-c", "pwd >&2; echo \"$1 $LC_ALL\" >&2; exit 3", "sh", "a`b` $c"},
                     folder.path(), 60s);
@@ -42,7 +42,7 @@ TEST_CASE("a program runs where it is told, without a shell", "[report][program]
 
 TEST_CASE("a program that is not there, is killed or takes too long is told apart",
           "[report][program]") {
-    const ScratchFolder folder;
+    const test::TemporaryDirectory folder;
     CHECK_FALSE(run_program("a351-no-such-program", {}, folder.path(), 60s).is_found);
     {
         const PathVariable path(folder.write("no-folder", ""));
@@ -84,7 +84,7 @@ TEST_CASE("a bad figure costs no other, and its trouble is told", "[report][draw
 
 TEST_CASE("a name from outside is drawn as it is and runs nothing", "[report][drawing]") {
     if (!has_gnuplot()) return;
-    const ScratchFolder folder;
+    const test::TemporaryDirectory folder;
     const std::string trap = (folder.path() / "trap").string();
     const std::string name = "It's `touch " + trap + "` @a {/x} ^2 \\n %s";
     const Drawing drawing =
@@ -101,7 +101,7 @@ TEST_CASE("a name from outside is drawn as it is and runs nothing", "[report][dr
 
 TEST_CASE("without gnuplot, or with one that fails, there is one reason", "[report][drawing]") {
     const std::vector<Figure> figures{figure("one", "plot 'one.dat'\n")};
-    const ScratchFolder folder;
+    const test::TemporaryDirectory folder;
     const PathVariable path(folder.path());
     CHECK(draw(figures, {}).troubles ==
           std::vector<std::string>{"gnuplot is not installed (not in PATH)"});

@@ -7,7 +7,7 @@
 #include "corrector/report/table_figures.hpp"
 #include "corrector/report/temperature_figure.hpp"
 #include "tests/golden/tsukuba_table.hpp"
-#include "tests/unit/survey/survey_rows.hpp"
+#include "tests/unit/model/survey_rows.hpp"
 
 using namespace a351;
 using namespace a351::corrector;

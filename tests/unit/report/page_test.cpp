@@ -5,8 +5,8 @@
 
 #include "corrector/report/html.hpp"
 #include "corrector/report/report.hpp"
+#include "tests/unit/model/survey_rows.hpp"
 #include "tests/unit/report/path_variable.hpp"
-#include "tests/unit/survey/survey_rows.hpp"
 
 using namespace a351;
 using namespace a351::corrector;
@@ -86,7 +86,7 @@ TEST_CASE("the same survey gives the same report", "[report][page]") {
 
 TEST_CASE("without gnuplot text, scripts and data are there and the report says what is not",
           "[report][page]") {
-    const ScratchFolder folder;
+    const test::TemporaryDirectory folder;
     const PathVariable path(folder.path());
     const Report made = report();
     const std::string reason = "figures are missing: gnuplot is not installed (not in PATH)";
@@ -101,7 +101,7 @@ TEST_CASE("without gnuplot text, scripts and data are there and the report says 
 }
 
 TEST_CASE("a gnuplot that fails is told once", "[report][page]") {
-    const ScratchFolder folder;
+    const test::TemporaryDirectory folder;
     write_gnuplot(folder, "echo 'no <terminal>' >&2; exit 2");
     const PathVariable path(folder.path());
     const Report made = report();

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "tests/unit/survey/scratch_folder.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace a351 {
 
@@ -24,7 +24,7 @@ private:
 };
 
 /// Writes a shell script as the program `gnuplot` of this folder.
-inline void write_gnuplot(const ScratchFolder& folder, const std::string& script) {
+inline void write_gnuplot(const test::TemporaryDirectory& folder, const std::string& script) {
     const auto file = folder.write("gnuplot", "#!/bin/sh\n" + script + "\n");
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);
 }

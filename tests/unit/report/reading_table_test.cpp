@@ -4,8 +4,8 @@
 #include <pugixml.hpp>
 #include "tests/support/catch.hpp"
 
-#include "tests/unit/day/made_up_day.hpp"
-#include "tests/unit/survey/survey_rows.hpp"
+#include "tests/unit/model/survey_rows.hpp"
+#include "tests/unit/whole_day/made_up_day.hpp"
 
 using namespace a351;
 using namespace a351::corrector;

@@ -2,7 +2,7 @@
 
 #include "tests/support/catch.hpp"
 
-#include "tests/unit/survey/survey_rows.hpp"
+#include "tests/unit/model/survey_rows.hpp"
 
 using namespace a351;
 using namespace a351::corrector;

@@ -1,4 +1,4 @@
-#include "corrector/signal/decimation.hpp"
+#include "protocol/signal/decimation.hpp"
 
 #include <algorithm>
 #include <array>

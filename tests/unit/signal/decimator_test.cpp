@@ -1,4 +1,4 @@
-#include "corrector/signal/decimator.hpp"
+#include "protocol/signal/decimator.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -1,10 +1,10 @@
-#include "corrector/signal/norm.hpp"
+#include "protocol/signal/norm.hpp"
 
 #include <cmath>
 #include <limits>
 #include "tests/support/catch.hpp"
 
-#include "tests/unit/signal/record.hpp"
+#include "tests/unit/reading/record.hpp"
 
 namespace a351::corrector {
 namespace {

@@ -5,13 +5,13 @@
 #include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
-#include "tests/unit/survey/scratch_folder.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 using namespace a351;
 using namespace a351::text;
 
 TEST_CASE("blocks of a file are its content, none longer than a fixed size", "[text_file]") {
-    const ScratchFolder folder;
+    const test::TemporaryDirectory folder;
     for (const std::size_t size : {0U, 1U, 65536U, 65537U, 1'000'000U}) {
         std::string content(size, '\0');
         for (std::size_t i = 0; i < size; ++i) content[i] = static_cast<char>(i * 7919 >> 3);
@@ -29,7 +29,7 @@ TEST_CASE("blocks of a file are its content, none longer than a fixed size", "[t
 }
 
 TEST_CASE("a FIFO is refused, not waited for", "[text_file]") {
-    const ScratchFolder folder;
+    const test::TemporaryDirectory folder;
     const auto fifo = folder.path() / "fifo";
     REQUIRE(::mkfifo(fifo.c_str(), S_IRUSR | S_IWUSR) == 0);
     CHECK_THROWS_WITH(read_text_file(fifo), ContainsSubstring("fifo: is no regular file; allowed"));

@@ -3,13 +3,13 @@
 #include <utility>
 #include "tests/support/catch.hpp"
 
+#include "protocol/archive/miniseed.hpp"
 #include "protocol/core/input_error.hpp"
-#include "protocol/record/miniseed.hpp"
 #include "protocol/wire/burst_decoder.hpp"
 #include "sim/replay/archive_source.hpp"
 #include "sim/replay/open_recording.hpp"
-#include "tests/unit/record/file_bytes.hpp"
-#include "tests/unit/record/temporary_directory.hpp"
+#include "tests/support/file_bytes.hpp"
+#include "tests/support/temporary_directory.hpp"
 #include "tests/unit/sim/replay/replay_host.hpp"
 
 namespace a351::sim {

@@ -2,8 +2,8 @@
 #include <map>
 #include "tests/support/catch.hpp"
 
-#include "protocol/record/archiver.hpp"
-#include "protocol/record/journal_reader.hpp"
+#include "protocol/archive/archiver.hpp"
+#include "protocol/journal/journal_reader.hpp"
 #include "sim/replay/open_recording.hpp"
 #include "tests/unit/sim/replay/replay_host.hpp"
 

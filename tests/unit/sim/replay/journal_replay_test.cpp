@@ -1,10 +1,10 @@
 #include <string>
 #include "tests/support/catch.hpp"
 
-#include "protocol/record/journal_codec.hpp"
+#include "protocol/journal/journal_codec.hpp"
 #include "sim/replay/journal_recording.hpp"
-#include "tests/unit/record/file_bytes.hpp"
-#include "tests/unit/record/temporary_directory.hpp"
+#include "tests/support/file_bytes.hpp"
+#include "tests/support/temporary_directory.hpp"
 #include "tests/unit/sim/replay/replay_host.hpp"
 
 namespace a351::sim {

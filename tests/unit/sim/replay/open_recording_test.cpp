@@ -1,11 +1,11 @@
 #include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
-#include "protocol/record/journal_codec.hpp"
+#include "protocol/journal/journal_codec.hpp"
 #include "sim/replay/open_recording.hpp"
-#include "tests/unit/record/file_bytes.hpp"
-#include "tests/unit/record/journal_samples.hpp"
-#include "tests/unit/record/temporary_directory.hpp"
+#include "tests/support/file_bytes.hpp"
+#include "tests/support/temporary_directory.hpp"
+#include "tests/unit/journal/journal_samples.hpp"
 
 namespace a351::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 #include "tests/support/catch.hpp"
 
-#include "corrector/signal/band_pass.hpp"
+#include "corrector/reading/band_pass.hpp"
 #include "protocol/text/csv.hpp"
 #include "tests/support/plant_statistics.hpp"
 

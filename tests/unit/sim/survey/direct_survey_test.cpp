@@ -7,10 +7,10 @@
 #include <csignal>
 #include "tests/support/catch.hpp"
 
-#include "protocol/record/archive_reader.hpp"
-#include "protocol/record/event_log.hpp"
-#include "protocol/record/journal_reader.hpp"
-#include "protocol/record/station_xml.hpp"
+#include "protocol/archive/archive_reader.hpp"
+#include "protocol/events/event_log.hpp"
+#include "protocol/journal/journal_reader.hpp"
+#include "protocol/station/station_xml.hpp"
 #include "protocol/text/csv.hpp"
 #include "sim/scenario/survey_plan.hpp"
 #include "sim/truth/truth_file.hpp"

@@ -1,0 +1,115 @@
+#include "corrector/job/survey_file.hpp"
+
+#include <limits>
+
+#include "corrector/reading/representative_value.hpp"
+#include "protocol/text/strict_toml.hpp"
+
+namespace a351::corrector {
+namespace {
+
+/// Gravimetric factors between which an Earth could be.
+constexpr double kLeastFactor = 0.5;
+constexpr double kGreatestFactor = 2.0;
+
+std::filesystem::path path_or(text::TomlTable& table, std::string_view key,
+                              const std::filesystem::path& fallback) {
+    const std::filesystem::path path = table.path_or_empty(key);
+    return path.empty() ? fallback : path;
+}
+
+void require_site(const text::TomlTable& table, std::string_view key,
+                  const std::vector<text::Site>& sites, const std::string& name) {
+    if (text::find_site(sites, name) != nullptr) return;
+    std::string names;
+    for (const text::Site& site : sites) names += (names.empty() ? "" : ", ") + site.name;
+    table.refuse(key, "no such site", names);
+}
+
+}  // namespace
+
+SurveyFile read_survey_file(const std::filesystem::path& file) {
+    text::TomlTable document = text::read_toml(file);
+    text::TomlTable table = document.table("survey");
+    const std::filesystem::path beside = file.parent_path();
+
+    SurveyFile survey;
+    survey.path = file;
+    survey.name = table.string_or("name", file.stem().string());
+    if (survey.name.empty()) table.refuse("name", "empty", "a name");
+    survey.root = path_or(table, "root", beside / "data");
+    survey.sites = path_or(table, "sites", beside / "sites.csv");
+    survey.occupations = table.path_or_empty("occupations");
+    survey.from = table.instant("from_utc");
+    survey.to = table.instant("to_utc");
+    survey.amendments = table.path_or_empty("amendments");
+    survey.survey.base = table.string_or("base", "");
+    survey.survey.datum = table.strings("datum");
+    survey.survey.model = table.choice_or("model", "auto", model_names());
+    survey.survey.use_flags = table.choice_or("flags", "use", {"use", "ignore"}) == "use";
+    if (!set_tide_source(survey.tide, table.string_or("tide", "direct"), beside)) {
+        table.refuse("tide", "neither a source nor a file", kTideSources);
+    }
+    survey.tide.factors.delta2 =
+        table.number_or("delta2", survey.tide.factors.delta2, kLeastFactor, kGreatestFactor);
+    survey.tide.factors.delta3 =
+        table.number_or("delta3", survey.tide.factors.delta3, kLeastFactor, kGreatestFactor);
+    const std::string curve = table.choice_or("curve", "", {"", "paper", "slow"});
+    if (!curve.empty()) survey.curve = curve == "paper" ? TrendCurve::paper : TrendCurve::slow;
+    survey.trend = table.choice_or("trend", "eemd", {"eemd", "smoother"}) == "eemd"
+                       ? TrendMethod::eemd
+                       : TrendMethod::smoother;
+    survey.cutoff_s =
+        table.number_or("cutoff_s", survey.cutoff_s, kShortestCutoff_s, kLongestCutoff_s);
+    survey.norm = table.choice_or("norm", "decimate-first", {"decimate-first", "as-published"}) ==
+                          "decimate-first"
+                      ? NormOrder::decimate_first
+                      : NormOrder::as_published;
+    survey.seed = static_cast<std::uint64_t>(
+        table.integer_or("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
+    if (const auto calibration = table.path_or_empty("calibration"); !calibration.empty()) {
+        if (!std::filesystem::exists(calibration))
+            table.refuse("calibration", "no such file: " + calibration.string(),
+                         "a file of a351-correct calibrate, or empty");
+        use_calibration(survey, calibration);
+    }
+    survey.survey.priors.reading_sd_mgal = table.number_or(
+        "reading_sd_mgal", survey.survey.priors.reading_sd_mgal, kLeastSd_mgal, kGreatestSd_mgal);
+    survey.survey.network.datum_sd_mgal = table.number_or(
+        "datum_sd_mgal", survey.survey.network.datum_sd_mgal, kLeastSd_mgal, kGreatestSd_mgal);
+    survey.survey.network.drift_degree = static_cast<int>(
+        table.integer_or("drift_degree", survey.survey.network.drift_degree, 0, 2));
+    std::vector<std::string> linear_models;
+    linear_models.reserve(kLinearModels.size());
+    for (const LinearModel& model : kLinearModels) linear_models.emplace_back(model.name);
+    survey.survey.robust_terms =
+        table.choice_or("robust_terms", survey.survey.robust_terms, linear_models);
+    survey.survey.seed = survey.seed;
+    table.require_all_read();
+    read_priors(survey.survey.priors, document.table("prior"));
+    document.require_all_read();
+
+    if (!std::filesystem::is_directory(survey.root)) {
+        table.refuse("root", "no such directory: " + survey.root.string(), "a data root");
+    }
+    const std::vector<text::Site> sites = text::read_sites(survey.sites);
+    if (!survey.survey.base.empty()) require_site(table, "base", sites, survey.survey.base);
+    for (const std::string& name : survey.survey.datum) require_site(table, "datum", sites, name);
+    return survey;
+}
+
+void use_calibration(SurveyFile& survey, const std::filesystem::path& file) {
+    survey.calibration = file;
+    survey.survey.calibration = read_calibration(file);
+}
+
+TrendMethod trend_method_of(const SurveyFile& survey) noexcept {
+    return survey.survey.model == "paper" ? TrendMethod::eemd : survey.trend;
+}
+
+TrendCurve trend_curve_of(const SurveyFile& survey) {
+    if (survey.survey.model == "paper") return TrendCurve::paper;
+    return survey.curve.value_or(RepresentativeOptions().curve);
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,94 @@
+#include "corrector/long_record/applied_tables.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "protocol/text/aligned_text.hpp"
+#include "protocol/text/csv.hpp"
+
+namespace a351::corrector {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string> cells(std::string name, const ThreeWays& ways) {
+    return {std::move(name), text::fixed(ways.before, 3), text::fixed(ways.parametric, 3),
+            text::fixed(ways.by_modes, 3)};
+}
+
+Json ways_json(const ThreeWays& ways) {
+    return {{"before", ways.before}, {"parametric", ways.parametric}, {"by_modes", ways.by_modes}};
+}
+
+}  // namespace
+
+TextTable applied_bands_table(const AppliedCalibration& applied) {
+    TextTable rows{{"rms in mGal at periods of", "before", "parametric", "by modes"}};
+    for (const BandScatter& band : applied.bands) {
+        const std::string from = text::fixed(band.shortest_s, 0);
+        rows.push_back(cells(std::isfinite(band.longest_s)
+                                 ? from + " to " + text::fixed(band.longest_s, 0) + " s"
+                                 : from + " s and more",
+                             band.rms_mgal));
+    }
+    return rows;
+}
+
+TextTable allan_table(const AppliedCalibration& applied) {
+    TextTable rows{{"Allan deviation in mGal of", "before", "parametric", "by modes"}};
+    for (const AllanPoint& point : applied.allan)
+        rows.push_back(
+            cells("averages of " + text::fixed(point.averaging_s, 0) + " s", point.deviation_mgal));
+    return rows;
+}
+
+std::vector<std::string> applied_sentences(const AppliedCalibration& applied) {
+    std::vector<std::string> lines{applied.origin,
+                                   "parametric: the two paths on the smoothed temperature; by "
+                                   "modes: modes of the temperature of " +
+                                       text::fixed(applied.averaged_below_s, 0) +
+                                       " s and more by the response at their period, shorter modes "
+                                       "of the acceleration averaged "
+                                       "away, which is no correction of them"};
+    lines.insert(lines.end(), applied.remarks.begin(), applied.remarks.end());
+    return lines;
+}
+
+std::string applied_text(const RecordResult& result) {
+    if (!result.applied) return {};
+    std::string text = text::aligned(applied_bands_table(*result.applied)) +
+                       text::aligned(allan_table(*result.applied));
+    for (const std::string& line : applied_sentences(*result.applied)) text += line + '\n';
+    return text + '\n';
+}
+
+std::string applied_cells(const RecordResult& result, UtcTime time) {
+    if (!result.applied) return {};
+    const RecordSegment& segment = result.segment();
+    const double place = seconds_between(segment.start, time) / result.record.step_s;
+    if (place < -0.5 || time > segment.end) return ",,";
+    const auto i = static_cast<std::size_t>(std::llround(std::max(0.0, place)));
+    if (i >= segment.size()) return ",,";
+    return ',' + text::shortest(result.applied->parametric_mgal[i]) + ',' +
+           text::shortest(result.applied->by_modes_mgal[i]);
+}
+
+Json applied_json(const RecordResult& result) {
+    if (!result.applied) return nullptr;
+    Json json{{"calibration", result.applied->origin},
+              {"averaged_below_s", result.applied->averaged_below_s},
+              {"bands", Json::array()},
+              {"allan", Json::array()},
+              {"remarks", result.applied->remarks}};
+    for (const BandScatter& band : result.applied->bands)
+        json["bands"].push_back(
+            {{"shortest_s", band.shortest_s},
+             {"longest_s", std::isfinite(band.longest_s) ? Json(band.longest_s) : Json(nullptr)},
+             {"rms_mgal", ways_json(band.rms_mgal)}});
+    for (const AllanPoint& point : result.applied->allan)
+        json["allan"].push_back({{"averaging_s", point.averaging_s},
+                                 {"deviation_mgal", ways_json(point.deviation_mgal)}});
+    return json;
+}
+
+}  // namespace a351::corrector

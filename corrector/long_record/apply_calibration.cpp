@@ -1,0 +1,212 @@
+#include "corrector/long_record/apply_calibration.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "corrector/long_record/fourier.hpp"
+#include "corrector/long_record/regression.hpp"
+#include "corrector/whole_day/day_columns.hpp"
+#include "protocol/core/units.hpp"
+#include "protocol/linear_algebra/cholesky.hpp"
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+// 15 samples of 20 s: white noise falls to 0.39 of it, a cycle of 15 min keeps 99 %.
+constexpr std::size_t kHalfWindow = 7;
+constexpr double kShortestPeriod_s = 39.0;  // two steps, with a margin for the clock
+constexpr double kSigns = 2.0;              // of its error, for a part to be applied
+
+struct Response {
+    double level = 0.0, slow = 0.0, rate = 0.0;  ///< 0: not applied
+    double fast_lag_s = 0.0, slow_lag_s = 0.0;
+
+    /// mGal/degC at a period.
+    [[nodiscard]] std::complex<double> at(double period_s) const {
+        const std::complex<double> turn(0.0, 2.0 * M_PI / period_s);
+        return level + slow / (1.0 + turn * slow_lag_s) +
+               rate * kSecondsPerHour * turn / (1.0 + turn * fast_lag_s);
+    }
+};
+
+Response response_of(const ThermalResponse& thermal, std::vector<std::string>& remarks) {
+    using Vector = Eigen::Matrix<double, 5, 1>;
+    using Matrix = Eigen::Matrix<double, 5, 5>;
+    const Matrix information = Cholesky(thermal.covariance).inverse();
+    Matrix together = information;
+    Vector weighted = information * thermal.values;
+    for (Eigen::Index k = 0; k < 5; ++k) {
+        const TwoPathPrior prior = two_path_prior(kThermalTerms.at(static_cast<std::size_t>(k)));
+        together(k, k) += 1.0 / (prior.deviation * prior.deviation);
+        weighted(k) += prior.mean / (prior.deviation * prior.deviation);
+    }
+    const Matrix covariance = Cholesky(together).inverse();
+    const Vector values = covariance * weighted;
+
+    Response response;
+    response.fast_lag_s = std::exp(values(3));
+    response.slow_lag_s = std::exp(values(4));
+    const double slope = values(0) + values(1);
+    const double slope_error =
+        std::sqrt(covariance(0, 0) + covariance(1, 1) + 2.0 * covariance(0, 1));
+    const double rate_error = std::sqrt(covariance(2, 2));
+    const auto left_out = [&remarks](const std::string& name, double value, double error,
+                                     const std::string& unit) {
+        remarks.push_back("the calibration leaves the " + name + " open (" + text::fixed(value, 1) +
+                          " +- " + text::fixed(error, 1) + " " + unit + "): it was not applied");
+    };
+    if (std::abs(slope) >= kSigns * slope_error) {
+        response.level = values(0);
+        response.slow = values(1);
+    } else {
+        left_out("static slope", slope, slope_error, "mGal/degC");
+    }
+    if (std::abs(values(2)) >= kSigns * rate_error)
+        response.rate = values(2);
+    else
+        left_out("fast path", values(2), rate_error, "mGal/(degC/h)");
+    return response;
+}
+
+/// By a local parabola over as much of the window as lies inside on both sides.
+/// Source: A. Savitzky and M. J. E. Golay, Anal. Chem. 36, 1627-1639, 1964.
+std::vector<double> smoothed(const std::vector<double>& values) {
+    std::vector<double> result(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const std::size_t half = std::min({kHalfWindow, i, values.size() - 1 - i});
+        const double h = static_cast<double>(half);
+        double sum = 0.0, weights = 0.0;
+        for (std::size_t j = 0; j <= 2 * half; ++j) {
+            const double place = static_cast<double>(j) - h;
+            const double weight =
+                half == 0 ? 1.0 : 3.0 * h * h + 3.0 * h - 1.0 - 5.0 * place * place;
+            sum += weight * values[i - half + j];
+            weights += weight;
+        }
+        result[i] = sum / weights;
+    }
+    return result;
+}
+
+std::vector<double> by_two_paths(const RecordSegment& segment, const Response& response,
+                                 double step_s) {
+    const std::vector<double> temperature = smoothed(segment.temperature_degc);
+    const TimeSeries<DegC> series({}, Hertz(1.0 / step_s), temperature);
+    const std::vector<double> fast = lagged(series, response.fast_lag_s),
+                              slow = lagged(series, response.slow_lag_s);
+    const double mean = mean_of(temperature);
+    std::vector<double> corrected = segment.acceleration_mgal;
+    for (std::size_t i = 0; i < corrected.size(); ++i)
+        corrected[i] -=
+            response.level * (temperature[i] - mean) + response.slow * (slow[i] - mean) +
+            response.rate * kSecondsPerHour * (temperature[i] - fast[i]) / response.fast_lag_s;
+    return corrected;
+}
+
+bool is_short(const Component& mode, double step_s, double averaged_below_s) {
+    return mode.mean_period_samples * step_s < averaged_below_s;
+}
+
+std::vector<double> mode_by_mode(const RecordSegment& segment, const RecordAnalysis& analysis,
+                                 const Response& response, double averaged_below_s) {
+    const double step_s = analysis.step_s;
+    std::vector<double> corrected = segment.acceleration_mgal;
+    for (const Component& mode : analysis.acceleration.modes) {
+        if (!is_short(mode, step_s, averaged_below_s)) continue;
+        for (std::size_t i = 0; i < corrected.size(); ++i) corrected[i] -= mode.values[i];
+    }
+    const double slope = response.level + response.slow;
+    const auto subtract_slow = [&](const Component& component) {
+        const double mean = mean_of(component.values);
+        for (std::size_t i = 0; i < corrected.size(); ++i)
+            corrected[i] -= slope * (component.values[i] - mean);
+    };
+    for (const Component& mode : analysis.temperature.modes) {
+        if (is_short(mode, step_s, averaged_below_s)) continue;
+        if (!std::isfinite(mode.mean_period_samples)) {
+            subtract_slow(mode);
+            continue;
+        }
+        const Spectrum turned = analytic_signal(mode.values);
+        const std::complex<double> gain = response.at(mode.mean_period_samples * step_s);
+        for (std::size_t i = 0; i < corrected.size(); ++i)
+            corrected[i] -= (gain * turned[i]).real();
+    }
+    subtract_slow(analysis.temperature.residue);
+    return corrected;
+}
+
+/// Mean squares by band.
+std::vector<double> band_squares(const std::vector<double>& values, double step_s,
+                                 const std::vector<double>& edges_s) {
+    const std::vector<double> centred = without_line(values);
+    const std::size_t length = fast_length(centred.size());
+    const Spectrum spectrum = half_spectrum(centred, length);
+    std::vector<double> squares(edges_s.size() - 1, 0.0);
+    for (std::size_t k = 1; k < spectrum.size(); ++k) {
+        const double period_s = static_cast<double>(length) * step_s / static_cast<double>(k);
+        const auto above = std::upper_bound(edges_s.begin(), edges_s.end(), period_s);
+        if (above == edges_s.begin() || above == edges_s.end()) continue;
+        squares[static_cast<std::size_t>(above - edges_s.begin()) - 1] +=
+            2.0 * std::norm(spectrum[k]) /
+            (static_cast<double>(length) * static_cast<double>(centred.size()));
+    }
+    return squares;
+}
+
+}  // namespace
+
+double allan_deviation(const std::vector<double>& values, std::size_t samples) {
+    std::vector<double> sums(values.size() + 1, 0.0);
+    const double mean = mean_of(values);
+    for (std::size_t i = 0; i < values.size(); ++i) sums[i + 1] = sums[i] + values[i] - mean;
+    const std::size_t count = values.size() - 2 * samples + 1;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double change = (sums[i + 2 * samples] - 2.0 * sums[i + samples] + sums[i]) /
+                              static_cast<double>(samples);
+        squares += change * change;
+    }
+    return std::sqrt(0.5 * squares / static_cast<double>(count));
+}
+
+AppliedCalibration apply_calibration(const ThermalResponse& thermal, const RecordSegment& segment,
+                                     const RecordAnalysis& analysis, double averaged_below_s) {
+    AppliedCalibration applied;
+    const Response response = response_of(thermal, applied.remarks);
+    applied.averaged_below_s = averaged_below_s;
+    applied.parametric_mgal = by_two_paths(segment, response, analysis.step_s);
+    applied.by_modes_mgal = mode_by_mode(segment, analysis, response, averaged_below_s);
+
+    const std::array<const std::vector<double>*, 3> series{
+        &segment.acceleration_mgal, &applied.parametric_mgal, &applied.by_modes_mgal};
+    const std::vector<double> edges_s{kShortestPeriod_s,
+                                      240.0,
+                                      600.0,
+                                      1500.0,
+                                      3600.0,
+                                      10800.0,
+                                      std::numeric_limits<double>::infinity()};
+    std::array<std::vector<double>, 3> squares;
+    for (std::size_t k = 0; k < series.size(); ++k)
+        squares.at(k) = band_squares(*series.at(k), analysis.step_s, edges_s);
+    for (std::size_t band = 0; band + 1 < edges_s.size(); ++band) {
+        applied.bands.push_back({edges_s[band],
+                                 edges_s[band + 1],
+                                 {std::sqrt(squares[0][band]), std::sqrt(squares[1][band]),
+                                  std::sqrt(squares[2][band])}});
+    }
+    for (std::size_t samples = 1; samples <= segment.size() / 4; samples *= 2) {
+        applied.allan.push_back(
+            {static_cast<double>(samples) * analysis.step_s,
+             {allan_deviation(*series[0], samples), allan_deviation(*series[1], samples),
+              allan_deviation(*series[2], samples)}});
+    }
+    return applied;
+}
+
+}  // namespace a351::corrector

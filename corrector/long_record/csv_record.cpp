@@ -1,0 +1,255 @@
+#include "corrector/long_record/csv_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "corrector/long_record/stretch_builder.hpp"
+#include "corrector/reading/smoother.hpp"
+#include "protocol/core/input_error.hpp"
+#include "protocol/signal/median.hpp"
+#include "protocol/text/csv.hpp"
+#include "protocol/text/csv_reader.hpp"
+#include "protocol/text/input_file.hpp"
+#include "protocol/text/text_file.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr std::size_t kBlockRows = 16384;
+constexpr std::size_t kFirstRows = 1000;  // whose steps tell the rate, whatever gaps they have
+constexpr double kStepTolerance = 0.1;
+constexpr double kMostSeconds = 9e9;  // of from_seconds()
+
+struct Row {
+    std::size_t line = 0;
+    UtcTime time;
+    std::vector<double> values;  ///< The axes in mGal, then the temperature.
+};
+
+/// The rows of the table within the window.
+class Rows {
+public:
+    Rows(const std::filesystem::path& file, const RecordWindow& window)
+        : in_(text::open_file(file)), reader_(in_, file), window_(window) {
+        const auto& columns = reader_.columns();
+        const auto has = [&](const char* name) {
+            return std::find(columns.begin(), columns.end(), name) != columns.end();
+        };
+        const auto index = [&](const char* name) {
+            return text::column_index(columns, name, file);
+        };
+        time_ = index(has("time") ? "time" : has("time_s") ? "time_s" : "time_utc");
+        const bool has_axes = has("x_g") || has("y_g") || has("z_g");
+        values_ = has_axes ? std::vector{index("x_g"), index("y_g"), index("z_g")}
+                           : std::vector{index("acceleration_mgal")};
+        if (has_axes) unit_mgal_ = kMilliGalPerStandardGravity;
+        values_.push_back(index("temperature_degc"));
+    }
+
+    [[nodiscard]] std::size_t axes() const { return values_.size() - 1; }
+
+    /// False at the end.
+    [[nodiscard]] bool read(Row& row) {
+        while (reader_.next()) {
+            row.time = time();
+            if (last_ && row.time <= *last_)
+                reader_.refuse(time_, "not after the row before it", "times that ascend");
+            last_ = row.time;
+            if ((window_.from && row.time < *window_.from) ||
+                (window_.to && row.time >= *window_.to))
+                continue;
+            row.line = reader_.line();
+            row.values.clear();
+            for (const std::size_t column : values_)
+                row.values.push_back(value(column) * (column == values_.back() ? 1.0 : unit_mgal_));
+            return true;
+        }
+        return false;
+    }
+
+    [[nodiscard]] std::size_t bytes_read() {
+        const auto position = in_.tellg();
+        return position < 0 ? 0 : static_cast<std::size_t>(position);
+    }
+
+private:
+    [[nodiscard]] UtcTime time() const {
+        const std::string_view cell = reader_.cells()[time_];
+        if (const auto instant = parse_rfc3339(cell)) return *instant;
+        const auto seconds = text::parse_number(cell);
+        if (!seconds || std::abs(*seconds) >= kMostSeconds)
+            reader_.refuse(time_, "no time", "an instant as in RFC 3339, or seconds");
+        return UtcTime(from_seconds(*seconds));
+    }
+
+    [[nodiscard]] double value(std::size_t column) const {
+        const std::string_view cell = reader_.cells()[column];
+        if (cell.empty()) return kNaN;
+        const auto number = text::parse_number(cell);
+        if (!number || std::abs(*number) > kLargestSample)
+            reader_.refuse(column, number ? "out of range" : "not a finite number",
+                           "a number with a decimal point, or nothing for a missing sample");
+        return *number;
+    }
+
+    std::ifstream in_;
+    text::CsvReader reader_;
+    const RecordWindow& window_;
+    std::size_t time_ = 0;
+    std::vector<std::size_t> values_;
+    double unit_mgal_ = 1.0;
+    std::optional<UtcTime> last_;
+};
+
+/// Puts rows on the steps of their clock; builds stretches.
+class CsvStream {
+public:
+    CsvStream(LongRecord& record, double step_s, int stages, std::size_t axes)
+        : record_(record), step_s_(step_s), stages_(stages), axes_(axes), block_(axes + 1) {}
+
+    void take(const Row& row) {
+        if (builder_) {
+            const double steps = seconds_between(last_, row.time) / step_s_;
+            if (steps * step_s_ > kLongestGap_s) {
+                finish();
+            } else {
+                // A row in less than half a step is the jitter of the stamps: it is the next one.
+                for (long long missing = std::llround(steps); missing > 1; --missing) add_missing();
+            }
+        }
+        if (!builder_) builder_.emplace(stages_, axes_);
+        const std::int64_t number = builder_->input_count() + static_cast<std::int64_t>(pending());
+        if (number % builder_->inputs_per_sample() == 0)
+            builder_->set_time(number / builder_->inputs_per_sample(), row.time);
+        for (std::size_t k = 0; k < block_.size(); ++k) block_[k].push_back(row.values[k]);
+        last_ = row.time;
+        if (pending() >= kBlockRows) flush();
+    }
+
+    void finish() {
+        if (!builder_) return;
+        flush();
+        record_.stretches.push_back(builder_->finish(record_.step_s));
+        builder_.reset();
+    }
+
+private:
+    [[nodiscard]] std::size_t pending() const { return block_.front().size(); }
+
+    void add_missing() {
+        for (std::vector<double>& channel : block_) channel.push_back(kNaN);
+    }
+
+    void flush() {
+        builder_->push(block_);
+        for (std::vector<double>& channel : block_) channel.clear();
+    }
+
+    LongRecord& record_;
+    double step_s_;
+    int stages_;
+    std::size_t axes_;
+    std::optional<StretchBuilder> builder_;
+    std::vector<std::vector<double>> block_;
+    UtcTime last_;
+};
+
+double median_step_s(const std::vector<Row>& rows) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < rows.size(); ++i)
+        steps.push_back(seconds_between(rows[i - 1].time, rows[i].time));
+    return median(std::move(steps));
+}
+
+/// Refuses rows that come at another step than the first ones: they would be put on wrong times.
+class StepCheck {
+public:
+    StepCheck(const std::filesystem::path& file, double step_s) : file_(file), step_s_(step_s) {}
+
+    void take(const Row& row) {
+        if (steps_.empty()) first_line_ = row.line;
+        if (last_) {
+            const double passed_s = seconds_between(*last_, row.time);
+            // Rows that are missing leave the step as it is.
+            if (passed_s <= kLongestGap_s)
+                steps_.push_back(passed_s / std::max(1.0, std::round(passed_s / step_s_)));
+        }
+        last_ = row.time;
+        if (steps_.size() == kRows) finish();
+    }
+
+    /// What is left at the end.
+    void finish() {
+        if (steps_.size() < kFewestRows) return;
+        const double step_s = median(std::move(steps_));
+        if (std::abs(step_s / step_s_ - 1.0) > kStepTolerance) {
+            throw InputError(file_.string() + ":" + std::to_string(first_line_) + ": a row every " +
+                             text::shortest(step_s) + " s from about here on, every " +
+                             text::shortest(step_s_) +
+                             " s elsewhere; allowed: one step in a file, within 10 %");
+        }
+        steps_.clear();
+    }
+
+private:
+    static constexpr std::size_t kRows = 100, kFewestRows = 20;  // stamps may jitter
+
+    const std::filesystem::path& file_;
+    double step_s_;
+    std::vector<double> steps_;
+    std::optional<UtcTime> last_;
+    std::size_t first_line_ = 0;
+};
+
+}  // namespace
+
+std::optional<int> record_stages(double step_s) {
+    double step = kRecordStep_s;
+    for (int stages = 0; stages <= kMostRecordStages; ++stages, step /= kRecordFactor)
+        if (std::abs(step_s / step - 1.0) < kStepTolerance) return stages;
+    return std::nullopt;
+}
+
+LongRecord read_csv_record(const std::filesystem::path& file, const RecordWindow& window,
+                           const Progress& progress) {
+    constexpr std::size_t kMegabyte = 1'000'000;
+    Rows rows(file, window);
+    std::vector<Row> first;
+    Row row;
+    while (first.size() < kFirstRows && rows.read(row)) first.push_back(row);
+    if (first.size() < 2) {
+        throw InputError(file.string() +
+                         ": fewer than two rows; allowed: a record from --from to --to");
+    }
+    const double step_s = median_step_s(first);
+    const auto stages = record_stages(step_s);
+    if (!stages) {
+        throw InputError(file.string() + ": a row every " + text::shortest(step_s) +
+                         " s; allowed: every 0.02, 0.2, 2 or 20 s within 10 %");
+    }
+
+    LongRecord record;
+    record.raw_rate_hz = 1.0 / step_s;
+    record.step_s = step_s * std::pow(kRecordFactor, *stages);
+    CsvStream stream(record, step_s, *stages, rows.axes());
+    StepCheck check(file, step_s);
+    const auto take = [&](const Row& next) {
+        check.take(next);
+        stream.take(next);
+    };
+    for (const Row& early : first) take(early);
+    const std::size_t megabytes = std::filesystem::file_size(file) / kMegabyte;
+    for (std::size_t count = 0; rows.read(row); ++count) {
+        take(row);
+        if (count % kBlockRows == 0) progress(rows.bytes_read() / kMegabyte, megabytes);
+    }
+    check.finish();
+    stream.finish();
+    record.source = file;
+    record.inputs.push_back(text::describe_input("record", file));
+    return record;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,109 @@
+#include "corrector/long_record/joined_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
+
+#include "corrector/long_record/record_epochs.hpp"
+#include "corrector/long_record/record_segments.hpp"
+#include "protocol/core/input_error.hpp"
+#include "protocol/text/csv.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr double kSameStep = 1e-3;  // ten times what a sensor's clock is off
+
+struct Part {
+    RecordStretch stretch;
+    std::size_t number;  ///< Of the part it is from.
+    bool is_tide_removed;
+};
+
+template <typename T>
+void append(std::vector<T>& to, std::size_t missing, const T& gap, const std::vector<T>& from) {
+    to.insert(to.end(), missing, gap);
+    to.insert(to.end(), from.begin(), from.end());
+}
+
+void append(RecordStretch& to, std::size_t missing, double step_s, const RecordStretch& from) {
+    if (!to.raw.empty()) append(to.raw, missing, {kNaN, kNaN, kNaN, kNaN}, from.raw);
+    for (std::size_t k = 0; k < to.axes_mgal.size(); ++k)
+        append(to.axes_mgal[k], missing, kNaN, from.axes_mgal[k]);
+    append(to.acceleration_mgal, missing, kNaN, from.acceleration_mgal);
+    append(to.temperature_degc, missing, kNaN, from.temperature_degc);
+    for (; missing > 0; --missing) to.times.push_back(to.times.back() + from_seconds(step_s));
+    to.times.insert(to.times.end(), from.times.begin(), from.times.end());
+}
+
+/// Samples missing between two stretches of different parts that are one piece.
+std::optional<std::size_t> bridged(const Part& before, const Part& after, double step_s) {
+    const RecordStretch &a = before.stretch, &b = after.stretch;
+    if (before.number == after.number || a.serial_number != b.serial_number ||
+        before.is_tide_removed != after.is_tide_removed || a.raw.empty() != b.raw.empty() ||
+        a.axes_mgal.size() != b.axes_mgal.size())
+        return std::nullopt;
+    const double steps = std::round(seconds_between(a.times.back(), b.times.front()) / step_s);
+    if (steps > static_cast<double>(SegmentOptions{}.longest_bridge + 1)) return std::nullopt;
+    return static_cast<std::size_t>(std::max(steps, 1.0)) - 1;
+}
+
+}  // namespace
+
+LongRecord joined_record(std::vector<LongRecord> parts) {
+    LongRecord all;
+    all.raw_rate_hz = parts.front().raw_rate_hz;
+    all.step_s = parts.front().step_s;
+    all.is_tide_removed = true;
+    std::vector<Part> sorted;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        LongRecord& part = parts[k];
+        if (std::abs(part.step_s / all.step_s - 1.0) > kSameStep) {
+            throw InputError(part.source.string() + ": a sample every " +
+                             text::shortest(part.step_s) + " s, " + parts.front().source.string() +
+                             " has one every " + text::shortest(all.step_s) +
+                             " s; allowed: one step in all parts of a record");
+        }
+        all.is_tide_removed = all.is_tide_removed && part.is_tide_removed;
+        for (RecordStretch& stretch : part.stretches)
+            sorted.push_back({std::move(stretch), k, part.is_tide_removed});
+        std::move(part.inputs.begin(), part.inputs.end(), std::back_inserter(all.inputs));
+        std::move(part.warnings.begin(), part.warnings.end(), std::back_inserter(all.warnings));
+    }
+    std::stable_sort(sorted.begin(), sorted.end(), [](const Part& a, const Part& b) {
+        return a.stretch.times.front() < b.stretch.times.front();
+    });
+    std::vector<Part> joined;
+    for (Part& next : sorted) {
+        if (joined.empty()) {
+            joined.push_back(std::move(next));
+            continue;
+        }
+        Part& last = joined.back();
+        if (next.stretch.times.front() <= last.stretch.times.back()) {
+            throw InputError(parts[next.number].source.string() + ": at " +
+                             to_rfc3339(next.stretch.times.front()) + " it overlaps " +
+                             parts[last.number].source.string() +
+                             "; allowed: each instant in one part of a record");
+        }
+        if (const auto missing = bridged(last, next, all.step_s)) {
+            append(last.stretch, *missing, all.step_s, next.stretch);
+            last.number = next.number;
+        } else {
+            if (std::string change =
+                    sensor_change(last.stretch.serial_number, next.stretch.serial_number);
+                last.number != next.number && !change.empty()) {
+                all.warnings.push_back("from " + to_rfc3339(next.stretch.times.front()) + " on " +
+                                       change + "; divided there");
+                next.stretch.begins_with = std::move(change);
+            }
+            joined.push_back(std::move(next));
+        }
+    }
+    for (Part& part : joined) all.stretches.push_back(std::move(part.stretch));
+    return all;
+}
+
+}  // namespace a351::corrector

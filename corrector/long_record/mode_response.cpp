@@ -1,0 +1,174 @@
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "corrector/long_record/fourier.hpp"
+#include "corrector/long_record/regression.hpp"
+#include "corrector/long_record/response.hpp"
+#include "protocol/core/units.hpp"
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+using Complex = std::complex<double>;
+constexpr double kCyclesPerBlock = 3.0;  // blocks of fewer are not independent
+constexpr std::size_t kFewestBlocks = 4, kMostBlocks = 24;
+
+/// Sums over a block.
+struct Sums {
+    Complex acceleration, temperature;  ///< Times the conjugate of the mode.
+    Sums& operator+=(const Sums& other) {
+        acceleration += other.acceleration;
+        temperature += other.temperature;
+        return *this;
+    }
+};
+
+Complex without(const Sums& all, const Sums& block) {
+    return (all.acceleration - block.acceleration) / (all.temperature - block.temperature);
+}
+
+/// Mean frequency of a mode's power, as a period.
+double period_of(std::span<const double> mode, double step_s) {
+    const std::size_t length = fast_length(mode.size());
+    const Spectrum spectrum = half_spectrum(mode, length);
+    double power = 0.0, frequency = 0.0;
+    for (std::size_t k = 1; k < spectrum.size(); ++k) {
+        power += std::norm(spectrum[k]);
+        frequency += std::norm(spectrum[k]) * static_cast<double>(k);
+    }
+    return frequency > 0.0 ? static_cast<double>(length) * step_s * power / frequency : 0.0;
+}
+
+std::vector<Sums> sums_of_blocks(const Spectrum& mode, const Spectrum& temperature,
+                                 const Spectrum& acceleration, std::size_t margin,
+                                 std::size_t blocks) {
+    std::vector<Sums> sums(blocks);
+    const std::size_t count = mode.size() - 2 * margin;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Complex z = std::conj(mode[margin + i]);
+        sums[i * blocks / count] += {acceleration[margin + i] * z, temperature[margin + i] * z};
+    }
+    return sums;
+}
+
+/// Gain that chance makes, exceeded with probability `significance`: from what the response leaves of
+/// the acceleration, shifted round the record.
+/// Source of the quantile: as in response_by_spectrum(), independent shifts for degrees of freedom.
+double chance_gain(const Spectrum& mode, const Spectrum& temperature, const Spectrum& acceleration,
+                   Complex gain, std::size_t margin, double cycles, double significance) {
+    constexpr std::size_t kShifts = 40;
+    const std::size_t count = mode.size() - 2 * margin;
+    Spectrum rest(count);
+    double power = 0.0, square = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        rest[i] = acceleration[margin + i] - gain * temperature[margin + i];
+        power += std::norm(mode[margin + i]);
+    }
+    for (std::size_t k = 1; k <= kShifts; ++k) {
+        const std::size_t shift = k * count / (kShifts + 1);
+        Complex sum = 0.0;
+        for (std::size_t i = 0; i < count; ++i)
+            sum += rest[(i + shift) % count] * std::conj(mode[margin + i]);
+        square += std::norm(sum / power) / static_cast<double>(kShifts);
+    }
+    const double freedom = std::min(static_cast<double>(kShifts), cycles / 2.0);
+    return std::sqrt(square * freedom * (std::pow(significance, -1.0 / freedom) - 1.0));
+}
+
+/// @param chance  chance_gain()
+/// @return whether the limits exclude a gain half or twice as large.
+bool set_limits(ResponsePoint& point, const std::vector<Sums>& sums, Complex gain, double chance,
+                double significance) {
+    Sums all;
+    for (const Sums& block : sums) all += block;
+    const auto blocks = static_cast<double>(sums.size());
+    Complex mean = 0.0;
+    std::vector<Complex> deviations;
+    deviations.reserve(sums.size());
+    for (const Sums& block : sums) deviations.push_back(std::log(without(all, block) / gain));
+    for (const Complex& deviation : deviations) mean += deviation / blocks;
+    double along = 0.0, across = 0.0;
+    for (const Complex& deviation : deviations) {
+        along += std::pow((deviation - mean).real(), 2);
+        across += std::pow((deviation - mean).imag(), 2);
+    }
+    const double share = (blocks - 1.0) / blocks;
+    const double quantile =
+        boost::math::quantile(boost::math::students_t(blocks - 1.0), 1.0 - 0.5 * significance);
+    const double factor = std::exp(quantile * std::sqrt(share * along));
+    const double size = std::abs(gain), phase = std::arg(gain) * kDegPerRad;
+    const double of_chance = chance < size ? std::asin(chance / size) * kDegPerRad : 180.0;
+    const double half_width =
+        std::clamp(quantile * std::sqrt(share * across) * kDegPerRad, of_chance, 180.0);
+    point.gain = {size, std::max(0.0, std::min(size / factor, size - chance)),
+                  std::max(size * factor, size + chance)};
+    point.phase_deg = {phase, phase - half_width, phase + half_width};
+    constexpr double kMostFactor = 2.0;
+    return factor < kMostFactor && chance * kMostFactor < size;
+}
+
+double squared_correlation(const Spectrum& x, const Spectrum& y, std::size_t margin) {
+    Complex xy = 0.0;
+    double xx = 0.0, yy = 0.0;
+    for (std::size_t i = margin; i + margin < x.size(); ++i) {
+        xy += y[i] * std::conj(x[i]);
+        xx += std::norm(x[i]);
+        yy += std::norm(y[i]);
+    }
+    return xx > 0.0 && yy > 0.0 ? std::norm(xy) / (xx * yy) : 0.0;
+}
+
+}  // namespace
+
+std::vector<ResponsePoint> response_by_modes(const std::vector<std::vector<double>>& modes,
+                                             std::span<const double> temperature_degc,
+                                             std::span<const double> acceleration_mgal,
+                                             double step_s, const ResponseOptions& options) {
+    const Spectrum temperature = analytic_signal(without_line(temperature_degc));
+    const Spectrum acceleration = analytic_signal(without_line(acceleration_mgal));
+    const double record_s = static_cast<double>(temperature_degc.size()) * step_s;
+    std::vector<ResponsePoint> points;
+    for (const std::vector<double>& mode : modes) {
+        ResponsePoint point;
+        point.period_s = period_of(mode, step_s);
+        if (point.period_s < options.shortest_s) continue;
+        point.shortest_s = point.period_s / std::numbers::sqrt2;
+        point.longest_s = point.period_s * std::numbers::sqrt2;
+        point.temperature_rms_degc = std::sqrt(variance_of(mode));
+        const auto margin = static_cast<std::size_t>(0.5 * point.period_s / step_s);
+        const double cycles = record_s / point.period_s;
+        const auto blocks = std::min(
+            static_cast<std::size_t>(std::max(0.0, cycles - 1.0) / kCyclesPerBlock), kMostBlocks);
+        if (blocks < kFewestBlocks) {
+            const double needed = kCyclesPerBlock * static_cast<double>(kFewestBlocks) + 1.0;
+            point.refusal = "fewer than " + text::fixed(needed, 0) + " cycles";
+            point.needed =
+                "a record of " + text::fixed(std::ceil(needed * point.period_s / 3600.0), 0) + " h";
+            points.push_back(std::move(point));
+            continue;
+        }
+        const Spectrum z = analytic_signal(mode);
+        const auto sums = sums_of_blocks(z, temperature, acceleration, margin, blocks);
+        point.coherence = squared_correlation(z, acceleration, margin);
+        Sums all;
+        for (const Sums& block : sums) all += block;
+        const Complex gain = all.acceleration / all.temperature;
+        const double chance =
+            chance_gain(z, temperature, acceleration, gain, margin, cycles, options.significance);
+        if (!std::isnormal(std::abs(gain)) || !std::isfinite(chance)) {
+            point.refusal = "one of both is constant";
+            point.needed = "a record in which both move";
+        } else if (!set_limits(point, sums, gain, chance, options.significance)) {
+            point.refusal = "not known within a factor of two";
+            point.needed = "more swing or a longer record: a response below " +
+                           text::fixed(2.0 * chance, 0) + " mGal/degC does not show";
+        }
+        points.push_back(std::move(point));
+    }
+    return points;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,128 @@
+#include "corrector/long_record/pair_statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "protocol/core/units.hpp"
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr double kFullTurn_deg = 360.0;
+
+/// Peak to peak of a sine of that standard deviation.
+double swing(std::span<const double> values) { return 2.0 * std::sqrt(2.0 * variance_of(values)); }
+
+double zero_crossing_period_s(std::span<const double> values, double step_s) {
+    std::size_t first = 0, last = 0, count = 0;
+    for (std::size_t i = 1; i < values.size(); ++i) {
+        if (values[i - 1] >= 0.0 || values[i] < 0.0) continue;
+        if (count++ == 0) first = i;
+        last = i;
+    }
+    if (count < 2) return 0.0;
+    return step_s * static_cast<double>(last - first) / static_cast<double>(count - 1);
+}
+
+LineFit turned_and_moved(std::span<const double> temperature, std::span<const double> acceleration,
+                         std::size_t earlier, std::size_t correlated) {
+    std::vector<double> turned(acceleration.begin() + static_cast<std::ptrdiff_t>(earlier),
+                               acceleration.end());
+    for (double& value : turned) value = -value;
+    return fit_line(temperature.first(turned.size()), turned, correlated);
+}
+
+std::string seconds_late(double delay_s) {
+    return text::fixed(std::abs(delay_s), 0) + " s " + (delay_s < 0.0 ? "before" : "after");
+}
+
+}  // namespace
+
+PairStatistics pair_statistics(std::span<const double> temperature_degc,
+                               std::span<const double> acceleration_mgal, double step_s,
+                               double cycle_s, double shift_s) {
+    PairStatistics pair;
+    pair.shift_s = shift_s;
+    pair.period_s = zero_crossing_period_s(temperature_degc, step_s);
+    pair.temperature_swing_degc = swing(temperature_degc);
+    pair.acceleration_swing_mgal = swing(acceleration_mgal);
+    const auto earlier = static_cast<std::size_t>(std::llround(shift_s / step_s));
+    // Residuals of a narrow band keep their phase for some cycles.
+    const auto correlated = static_cast<std::size_t>(std::llround(4.0 * cycle_s / step_s));
+    pair.moved = turned_and_moved(temperature_degc, acceleration_mgal, earlier, correlated);
+    const int half_cycle = std::max(2, static_cast<int>(0.5 * cycle_s / step_s));
+    pair.correlation = correlate(temperature_degc, acceleration_mgal, half_cycle, step_s);
+    return pair;
+}
+
+double phase_of_peaks_deg(const PairStatistics& pair) {
+    // A sine that comes `delay` late lags by that share of its period; the negative one is turned.
+    const double period_s = pair.period_s;
+    const auto lag_deg = [&](double delay_s) { return kFullTurn_deg * delay_s / period_s; };
+    const double by_positive = -lag_deg(pair.correlation.positive.delay_s);
+    const double by_negative = 0.5 * kFullTurn_deg - lag_deg(pair.correlation.negative.delay_s);
+    // The mean of two angles is that of their vectors.
+    const double to_rad = std::numbers::pi / (0.5 * kFullTurn_deg);
+    return std::atan2(std::sin(by_positive * to_rad) + std::sin(by_negative * to_rad),
+                      std::cos(by_positive * to_rad) + std::cos(by_negative * to_rad)) /
+           to_rad;
+}
+
+double rate_coefficient(const PairStatistics& pair) {
+    const CorrelationPeak& negative = pair.correlation.negative;
+    const double gain =
+        std::abs(negative.value) * pair.acceleration_swing_mgal / pair.temperature_swing_degc;
+    const double angular_hz = 2.0 * std::numbers::pi / pair.period_s;
+    const double phase_rad = phase_of_peaks_deg(pair) * std::numbers::pi / (0.5 * kFullTurn_deg);
+    return gain * std::sin(phase_rad) / angular_hz / kSecondsPerHour;
+}
+
+std::string causal_reading(const PairStatistics& pair) {
+    const CorrelationPeak &negative = pair.correlation.negative,
+                          &positive = pair.correlation.positive;
+    const double ratio = std::abs(positive.value / negative.value);
+    const double phase_deg = phase_of_peaks_deg(pair);
+    constexpr double kEqual = 1.25;  // in size, either way
+    constexpr double kWeak = 0.3;    // a tenth of the variance
+    constexpr double kQuadrature_deg = 45.0;
+    if (std::max(std::abs(negative.value), std::abs(positive.value)) < kWeak) {
+        return "Neither peak stands out of chance: in this band the record shows no response to "
+               "temperature.";
+    }
+    std::string text = "The acceleration follows the temperature with its sign turned " +
+                       seconds_late(negative.delay_s) + " it, and with its own sign " +
+                       seconds_late(positive.delay_s) + " it. ";
+    if (ratio > kEqual || ratio < 1.0 / kEqual) {
+        text += "The peaks differ in size by " + text::fixed(std::max(ratio, 1.0 / ratio), 2) +
+                ": the band is not narrow, and the " +
+                (ratio > 1.0 ? std::string("positive") : std::string("negative")) +
+                " one describes the response better. ";
+    } else {
+        text +=
+            "The peaks are of nearly equal size: in a narrow band they are one statement, a "
+            "phase of " +
+            text::fixed(phase_deg, 0) + " degrees at " + text::fixed(pair.period_s, 0) + " s. ";
+    }
+    const bool is_early = negative.delay_s < 0.0 || positive.delay_s < 0.0;
+    if (is_early) {
+        text +=
+            "No effect comes before its cause: what looks early is not a delayed response of "
+            "that sign. ";
+    }
+    if (std::abs(std::abs(phase_deg) - 90.0) < kQuadrature_deg) {
+        text += std::string("The response is mostly to the rate of change of the temperature, ") +
+                text::fixed(rate_coefficient(pair), 1) + " mGal per degC/h in this band";
+        text += phase_deg > 0.0 ? ": the crystals feel a change before the thermometer that "
+                                  "compensates them does."
+                                : ": the crystals feel a change after the thermometer that "
+                                  "compensates them.";
+    } else {
+        text += "The response is mostly to the temperature itself, with " +
+                std::string(std::abs(phase_deg) > 90.0 ? "its sign turned." : "its own sign.");
+    }
+    return text;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,169 @@
+#include "corrector/long_record/record_analysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "corrector/reading/band_pass.hpp"
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr double kMostSplit = 0.2;  // of a mode's energy in a neighbour of nearly its period
+
+EemdResult decompose(const std::vector<double>& values, const RecordAnalysisOptions& options,
+                     std::size_t before) {
+    EemdOptions eemd_options;
+    eemd_options.ensemble_size = options.ensemble_size;
+    eemd_options.seed = options.seed;
+    eemd_options.threads = options.threads;
+    eemd_options.progress = [&](int done, int members) {
+        if (options.progress) {
+            options.progress(before + static_cast<std::size_t>(done),
+                             2 * static_cast<std::size_t>(members));
+        }
+        return true;
+    };
+    return eemd(values, eemd_options);
+}
+
+/// The mode whose mean period is nearest to the cycle, by ratio, and within an octave of it.
+std::optional<ChosenMode> choose_mode(const EemdResult& result, double cycle_s, double step_s) {
+    const auto distance = [&](const Component& mode) {
+        return mode.extrema_count == 0
+                   ? std::numeric_limits<double>::infinity()
+                   : std::abs(std::log2(mode.mean_period_samples * step_s / cycle_s));
+    };
+    const auto& modes = result.modes;
+    const auto best = std::min_element(
+        modes.begin(), modes.end(),
+        [&](const Component& a, const Component& b) { return distance(a) < distance(b); });
+    if (best == modes.end() || distance(*best) > 1.0) return std::nullopt;
+    ChosenMode chosen;
+    chosen.number = static_cast<std::size_t>(best - modes.begin()) + 1;
+    chosen.period_s = best->mean_period_samples * step_s;
+    chosen.energy_share = best->energy_share;
+    const auto add_neighbour = [&](const Component& neighbour) {
+        if (best->energy_share > 0.0)
+            chosen.neighbour_share =
+                std::max(chosen.neighbour_share, neighbour.energy_share / best->energy_share);
+    };
+    if (best != modes.begin()) add_neighbour(*(best - 1));
+    if (best + 1 != modes.end()) add_neighbour(*(best + 1));
+    return chosen;
+}
+
+/// A reading only where a part of the band shows a response above chance.
+std::string reading_of(const RecordAnalysis& analysis, double cycle_s) {
+    const ResponsePoint* at_cycle = nullptr;
+    for (const ResponsePoint& point : analysis.by_spectrum) {
+        const bool is_in_band = point.period_s > shortest_of_band_s(cycle_s) &&
+                                point.period_s < longest_of_band_s(cycle_s);
+        if (is_in_band && point.refusal.empty()) return causal_reading(analysis.band);
+        if (point.shortest_s <= cycle_s && cycle_s <= point.longest_s) at_cycle = &point;
+    }
+    std::string text =
+        "In the band of " + text::fixed(cycle_s, 0) + " s this record shows no response";
+    if (at_cycle != nullptr) text += " (" + at_cycle->refusal + "); needed: " + at_cycle->needed;
+    return text + ". The statistics of band and modes mean nothing here.";
+}
+
+double change_of(const std::vector<double>& values) { return values.back() - values.front(); }
+
+void remark_on_mode(RecordAnalysis& analysis, const std::optional<ChosenMode>& mode,
+                    const std::string& name, double cycle_s) {
+    if (!mode) {
+        analysis.remarks.push_back(name + ": no mode has a mean period within an octave of " +
+                                   text::fixed(cycle_s, 0) +
+                                   " s; a record in which the oven cycles would have one");
+    } else if (mode->neighbour_share > kMostSplit) {
+        analysis.remarks.push_back(name + ": a neighbour of mode " + std::to_string(mode->number) +
+                                   " (" + text::fixed(mode->period_s, 0) + " s) has " +
+                                   text::fixed(100.0 * mode->neighbour_share, 0) +
+                                   " % of its energy: the oscillation may be split between both");
+    }
+}
+
+void remark_on_trend(RecordAnalysis& analysis, double record_s) {
+    constexpr double kLeast_s = 6.0 * 3600.0;
+    if (record_s < kLeast_s) {
+        analysis.remarks.push_back("trend: " + text::fixed(record_s / 3600.0, 1) +
+                                   " h are too short to tell a trend; 12 h or more would show it");
+    }
+    if (!analysis.two_paths[TwoPathTerm::warm_up].is_determined ||
+        !analysis.two_paths[TwoPathTerm::drift].is_determined) {
+        analysis.remarks.push_back(
+            "trend: this record does not part warm-up, drift and slow temperature; one from "
+            "power-on, "
+            "or with the temperature moved up and down over days, does");
+    }
+}
+
+}  // namespace
+
+double shortest_of_band_s(double cycle_s) { return cycle_s / 1.5; }
+double longest_of_band_s(double cycle_s) { return cycle_s * 5.0 / 3.0; }
+
+std::size_t least_record_length(double cycle_s, double step_s) {
+    constexpr double kCycles = 8.0;
+    return static_cast<std::size_t>(std::ceil(kCycles * cycle_s / step_s));
+}
+
+RecordAnalysis analyse_record(const RecordSegment& segment, double step_s,
+                              const RecordAnalysisOptions& options) {
+    if (segment.size() < least_record_length(options.cycle_s, step_s))
+        throw std::invalid_argument("analyse_record: segment shorter than eight cycles");
+    const std::vector<double>& temperature = segment.temperature_degc;
+    // Less the first sample, for the last digits: a norm is near a million.
+    std::vector<double> acceleration = segment.acceleration_mgal;
+    for (double& value : acceleration) value -= segment.acceleration_mgal.front();
+
+    RecordAnalysis analysis;
+    analysis.step_s = step_s;
+    const auto correlated = static_cast<std::size_t>(4.0 * options.cycle_s / step_s);
+    analysis.raw = fit_line(temperature, acceleration, correlated);
+    analysis.raw.intercept += segment.acceleration_mgal.front();
+    analysis.raw.mean_y += segment.acceleration_mgal.front();
+
+    const double shortest_s = shortest_of_band_s(options.cycle_s),
+                 longest_s = longest_of_band_s(options.cycle_s);
+    analysis.band = pair_statistics(band_pass(temperature, step_s, shortest_s, longest_s),
+                                    band_pass(acceleration, step_s, shortest_s, longest_s), step_s,
+                                    options.cycle_s, options.shift_s);
+
+    analysis.temperature = decompose(temperature, options, 0);
+    analysis.acceleration =
+        decompose(acceleration, options, static_cast<std::size_t>(options.ensemble_size));
+    const std::vector<double>&slow_temperature = analysis.temperature.residue.values,
+          &slow_acceleration = analysis.acceleration.residue.values;
+    analysis.trend = fit_line(slow_temperature, slow_acceleration, slow_temperature.size() / 4);
+    analysis.temperature_change_degc = change_of(slow_temperature);
+    analysis.acceleration_change_mgal = change_of(slow_acceleration);
+
+    analysis.temperature_mode = choose_mode(analysis.temperature, options.cycle_s, step_s);
+    analysis.acceleration_mode = choose_mode(analysis.acceleration, options.cycle_s, step_s);
+    remark_on_mode(analysis, analysis.temperature_mode, "temperature", options.cycle_s);
+    remark_on_mode(analysis, analysis.acceleration_mode, "acceleration", options.cycle_s);
+    if (analysis.temperature_mode && analysis.acceleration_mode) {
+        analysis.modes = pair_statistics(
+            analysis.temperature.modes[analysis.temperature_mode->number - 1].values,
+            analysis.acceleration.modes[analysis.acceleration_mode->number - 1].values, step_s,
+            options.cycle_s, options.shift_s);
+    }
+
+    ResponseOptions response;
+    response.cycle_s = options.cycle_s;
+    analysis.by_spectrum = response_by_spectrum(temperature, acceleration, step_s, response);
+    analysis.reading = reading_of(analysis, options.cycle_s);
+    std::vector<std::vector<double>> modes;
+    for (const Component& mode : analysis.temperature.modes)
+        if (mode.extrema_count > 0) modes.push_back(mode.values);
+    analysis.by_modes = response_by_modes(modes, temperature, acceleration, step_s, response);
+    analysis.two_paths = fit_two_paths(temperature, acceleration, step_s, options.cycle_s);
+    remark_on_trend(analysis, static_cast<double>(segment.size()) * step_s);
+    return analysis;
+}
+
+}  // namespace a351::corrector

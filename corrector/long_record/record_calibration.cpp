@@ -1,0 +1,234 @@
+#include "corrector/long_record/record_calibration.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+
+#include "protocol/core/units.hpp"
+#include "protocol/linear_algebra/cholesky.hpp"
+#include "protocol/linear_algebra/symmetric_eigen.hpp"
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+using Index = Eigen::Index;
+constexpr int kCount = static_cast<int>(kThermalNames.size());
+static_assert(kThermalTerms.size() == kThermalNames.size());
+using Vector = Eigen::Matrix<double, kCount, 1>;
+using Matrix = Eigen::Matrix<double, kCount, kCount>;
+
+constexpr Index kLevel = 0, kSlow = 1, kRate = 2, kFirstLag = 3;
+
+constexpr double kLeastInformation = 1.0;  // as much as the prior
+constexpr double kOpenDeviation = 100.0;   // of the prior's deviation
+constexpr double kOneSided95 = 1.645;
+
+/// What a record says beyond the priors, in units of their deviations about their means.
+struct Information {
+    Matrix matrix = Matrix::Zero();
+    Vector vector = Vector::Zero();  ///< matrix x estimate
+};
+
+Vector prior_means() {
+    Vector means;
+    for (Index k = 0; k < kCount; ++k)
+        means(k) = two_path_prior(kThermalTerms.at(static_cast<std::size_t>(k))).mean;
+    return means;
+}
+
+Vector prior_deviations() {
+    Vector deviations;
+    for (Index k = 0; k < kCount; ++k)
+        deviations(k) = two_path_prior(kThermalTerms.at(static_cast<std::size_t>(k))).deviation;
+    return deviations;
+}
+
+Information information_of(const TwoPathFit& fit) {
+    const Vector means = prior_means(), deviations = prior_deviations();
+    Vector estimate;
+    Matrix covariance;
+    for (Index i = 0; i < kCount; ++i) {
+        const TwoPathTerm term = kThermalTerms.at(static_cast<std::size_t>(i));
+        const double value = i < kFirstLag ? fit[term].value : std::log(fit[term].value);
+        estimate(i) = (value - means(i)) / deviations(i);
+        for (Index j = 0; j < kCount; ++j) {
+            const TwoPathTerm other = kThermalTerms.at(static_cast<std::size_t>(j));
+            covariance(i, j) = fit.covariance(static_cast<Index>(term), static_cast<Index>(other)) /
+                               (deviations(i) * deviations(j));
+        }
+    }
+    // The priors are independent: the other terms, integrated out, leave theirs untouched.
+    const Matrix posterior = Cholesky(covariance).inverse();
+    return {0.5 * (posterior + posterior.transpose()) - Matrix::Identity(), posterior * estimate};
+}
+
+/// The part of it in directions of at least kLeastInformation, and their number.
+std::pair<Information, int> told(const Information& all) {
+    const SymmetricEigen axes = symmetric_eigen(all.matrix);
+    Information part;
+    int count = 0;
+    for (Index k = 0; k < kCount; ++k) {
+        if (axes.values(k) < kLeastInformation) continue;
+        const Vector axis = axes.vectors.col(k);
+        part.matrix += axes.values(k) * axis * axis.transpose();
+        part.vector += axis * axis.dot(all.vector);
+        ++count;
+    }
+    return {part, count};
+}
+
+/// vector' matrix^+ vector, and the rank.
+std::pair<double, int> explained(const Information& part) {
+    constexpr double kNothing = 1e-6;
+    const SymmetricEigen axes = symmetric_eigen(part.matrix);
+    double sum = 0.0;
+    int rank = 0;
+    for (Index k = 0; k < kCount; ++k) {
+        if (axes.values(k) < kNothing) continue;
+        const double along = axes.vectors.col(k).dot(part.vector);
+        sum += along * along / axes.values(k);
+        ++rank;
+    }
+    return {sum, rank};
+}
+
+double agreement(const std::vector<Information>& records) {
+    Information together;
+    double sum = 0.0;
+    int dof = 0;
+    for (const Information& record : records) {
+        const auto [part, count] = told(record);
+        together.matrix += part.matrix;
+        together.vector += part.vector;
+        sum += explained(part).first;
+        dof += count;
+    }
+    const auto [common, rank] = explained(together);
+    if (dof == rank) return 1.0;
+    const boost::math::chi_squared distribution(static_cast<double>(dof - rank));
+    return boost::math::cdf(boost::math::complement(
+        distribution, std::max(0.0, sum - common) / (kThermalErrorFactor * kThermalErrorFactor)));
+}
+
+ThermalResponse passed_on(const Information& all) {
+    const SymmetricEigen axes = symmetric_eigen(all.matrix);
+    Vector values = Vector::Zero();
+    Matrix covariance = Matrix::Zero();
+    for (Index k = 0; k < kCount; ++k) {
+        const Vector axis = axes.vectors.col(k);
+        const double information = axes.values(k), along = axis.dot(all.vector);
+        const bool is_told = information >= kLeastInformation;
+        values += axis * along / (is_told ? information : 1.0 + std::max(0.0, information));
+        covariance += (is_told ? 1.0 / information : kOpenDeviation * kOpenDeviation) * axis *
+                      axis.transpose();
+    }
+    const Vector deviations = prior_deviations();
+    ThermalResponse response;
+    response.values = prior_means() + deviations.cwiseProduct(values);
+    const Matrix scaled = deviations.asDiagonal() * covariance * deviations.asDiagonal();
+    response.covariance = 0.5 * (scaled + scaled.transpose());
+    return response;
+}
+
+}  // namespace
+
+PooledThermal pool_thermal(const std::vector<TwoPathFit>& fits) {
+    std::vector<Information> records;
+    Information all;
+    for (const TwoPathFit& fit : fits) {
+        records.push_back(information_of(fit));
+        all.matrix += records.back().matrix;
+        all.vector += records.back().vector;
+    }
+    const Matrix covariance = Cholesky(all.matrix + Matrix::Identity()).inverse();
+    const Vector estimate = covariance * all.vector;
+    const Vector means = prior_means(), deviations = prior_deviations();
+
+    PooledThermal pooled;
+    for (Index k = 0; k < kCount; ++k) {
+        FittedParameter parameter = fits.front()[kThermalTerms.at(static_cast<std::size_t>(k))];
+        for (const TwoPathFit& fit : fits) {
+            const std::string& needed = fit[kThermalTerms.at(static_cast<std::size_t>(k))].needed;
+            if (!needed.empty()) parameter.needed = needed;
+        }
+        const double deviation = std::sqrt(covariance(k, k));
+        parameter.value = means(k) + deviations(k) * estimate(k);
+        parameter.standard_error = deviations(k) * deviation;
+        if (k >= kFirstLag) {
+            parameter.value = std::exp(parameter.value);
+            parameter.standard_error *= parameter.value;
+        }
+        parameter.is_determined = deviation < kDeterminedDeviation;
+        if (parameter.is_determined) parameter.needed.clear();
+        pooled.parameters.push_back(std::move(parameter));
+    }
+    Vector both = Vector::Zero();
+    both(kLevel) = deviations(kLevel);
+    both(kSlow) = deviations(kSlow);
+    pooled.static_slope = both.dot(estimate);
+    pooled.static_slope_error = std::sqrt(both.dot(covariance * both));
+    pooled.is_static_slope_determined =
+        pooled.static_slope_error < kDeterminedDeviation * both.norm();
+    pooled.agreement_p = agreement(records);
+    if (pooled.parameters[kRate].is_determined || pooled.is_static_slope_determined)
+        pooled.response = passed_on(all);
+    return pooled;
+}
+
+std::string lacks_response(const std::vector<double>& temperature_degc,
+                           const std::vector<double>& acceleration_mgal, double step_s) {
+    ResponseOptions options;
+    const auto bands = response_by_spectrum(temperature_degc, acceleration_mgal, step_s, options);
+    options.significance /= static_cast<double>(std::max<std::size_t>(bands.size(), 1));
+    const auto points = response_by_spectrum(temperature_degc, acceleration_mgal, step_s, options);
+    const ResponsePoint* at_cycle = nullptr;
+    for (const ResponsePoint& point : points) {
+        if (point.refusal.empty()) return {};
+        if (point.shortest_s <= options.cycle_s) at_cycle = &point;
+    }
+    return "no response to temperature in any band" +
+           (at_cycle == nullptr
+                ? std::string()
+                : ", at the oven's cycle: " + at_cycle->refusal + "; needed: " + at_cycle->needed);
+}
+
+WarmUpReading warm_up_guidance(const TwoPathFit& fit, double begins_after_h, double length_h,
+                               double within_mgal) {
+    const FittedParameter &size = fit[TwoPathTerm::warm_up], &time = fit[TwoPathTerm::warm_up_time];
+    const std::string shown =
+        "warm-up of " + text::fixed(size.value, 1) + " +- " + text::fixed(size.standard_error, 1) +
+        " mGal at the record's begin, time " + text::fixed(time.value / kSecondsPerHour, 1) +
+        " +- " + text::fixed(time.standard_error / kSecondsPerHour, 1) + " h";
+    if (!size.is_determined || !time.is_determined ||
+        std::abs(size.value) < 2.0 * size.standard_error) {
+        return {std::nullopt, shown +
+                                  ": the record does not determine it; needed: a record that "
+                                  "begins when the sensor is switched on, and a day long or more"};
+    }
+    const double time_h = time.value / kSecondsPerHour;
+    const double ratio = std::log(std::abs(size.value) / within_mgal);
+    // Of time_h x ratio by ln(time) and by the size.
+    const Eigen::Vector2d slopes(time_h * ratio, time_h / size.value);
+    constexpr auto kTime = static_cast<Index>(TwoPathTerm::warm_up_time),
+                   kSize = static_cast<Index>(TwoPathTerm::warm_up);
+    Eigen::Matrix2d covariance;
+    covariance << fit.covariance(kTime, kTime), fit.covariance(kTime, kSize),
+        fit.covariance(kSize, kTime), fit.covariance(kSize, kSize);
+    const double error_h = std::sqrt(slopes.dot(covariance * slopes));
+    const double after_h = std::max(0.0, time_h * ratio + kOneSided95 * error_h);
+    if (after_h > length_h) {
+        return {std::nullopt, shown + ": within " + text::fixed(within_mgal, 2) +
+                                  " mGal only after " + text::fixed(after_h, 1) +
+                                  " h, and the record ends before; needed: " +
+                                  text::fixed(after_h, 0) + " h or more"};
+    }
+    return {WarmUpGuidance{within_mgal, begins_after_h + after_h},
+            shown + ": within " + text::fixed(within_mgal, 2) + " mGal " +
+                text::fixed(begins_after_h + std::max(0.0, time_h * ratio), 1) +
+                " h after power-on, " + text::fixed(begins_after_h + after_h, 1) +
+                " h with 95 % confidence"};
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,56 @@
+#include "corrector/long_record/record_epochs.hpp"
+
+#include <set>
+
+#include "corrector/reading/occupation_window.hpp"
+#include "protocol/station/station_document.hpp"
+
+namespace a351::corrector {
+namespace {
+
+/// Instants at which a channel begins an epoch.
+std::set<UtcTime> starts_in(const std::filesystem::path& metadata) {
+    const auto document = record::load_station_document(metadata);
+    std::set<UtcTime> starts;
+    for (const auto& found : document.select_nodes("/FDSNStationXML/Network/Station/Channel"))
+        starts.insert(
+            record::date_of(metadata, found.node(), "startDate").value_or(UtcTime::min()));
+    return starts;
+}
+
+}  // namespace
+
+std::vector<RecordEpoch> read_record_epochs(const std::filesystem::path& metadata) {
+    std::vector<RecordEpoch> epochs;
+    for (const UtcTime start : starts_in(metadata)) {
+        const record::StationMetadata station = record::read_station_xml(metadata, start);
+        const SurveyChannels found = find_channels(station, metadata);
+        RecordEpoch epoch{start,
+                          station.serial_number,
+                          station.codes,
+                          {found.axes[0], found.axes[1], found.axes[2], found.temperature}};
+        if (epochs.empty() || !epoch_change(epochs.back(), epoch).empty())
+            epochs.push_back(std::move(epoch));
+    }
+    return epochs;
+}
+
+std::string sensor_change(const std::string& before, const std::string& after) {
+    if (before.empty() || after.empty() || before == after) return {};
+    return "another sensor: " + after + " after " + before;
+}
+
+std::string epoch_change(const RecordEpoch& before, const RecordEpoch& after) {
+    if (std::string change = sensor_change(before.serial_number, after.serial_number);
+        !change.empty())
+        return change;
+    if (!(before.codes == after.codes)) return "other channels";
+    for (std::size_t k = 0; k < kRecordChannels; ++k) {
+        const record::ChannelScale &a = before.scales.at(k), &b = after.scales.at(k);
+        if (a.code != b.code) return "other channels";
+        if (a.gain != b.gain || a.offset != b.offset) return "another scale of " + b.code;
+    }
+    return {};
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,211 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "corrector/long_record/applied_tables.hpp"
+#include "corrector/long_record/record_result.hpp"
+#include "protocol/text/aligned_text.hpp"
+#include "protocol/text/csv.hpp"
+#include "protocol/text/input_file.hpp"
+#include "protocol/text/write_together.hpp"
+
+namespace a351::corrector {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string cell(double value, int decimals) {
+    return std::isfinite(value) ? text::fixed(value, decimals) : std::string();
+}
+
+/// To be read again as it is.
+std::string exact_cell(double value) {
+    return std::isfinite(value) ? text::shortest(value) : std::string();
+}
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json limits_json(const Limits& limits) {
+    return {{"value", number(limits.value)},
+            {"low", number(limits.low)},
+            {"high", number(limits.high)}};
+}
+
+Json points_json(const std::vector<ResponsePoint>& points) {
+    Json list = Json::array();
+    for (const ResponsePoint& point : points) {
+        Json json;
+        json["period_s"] = number(point.period_s);
+        json["shortest_s"] = number(point.shortest_s);
+        json["longest_s"] = number(point.longest_s);
+        const bool is_claimed = point.refusal.empty();
+        json["gain_mgal_per_degc"] = is_claimed ? limits_json(point.gain) : Json(nullptr);
+        json["phase_deg"] = is_claimed ? limits_json(point.phase_deg) : Json(nullptr);
+        json["coherence"] = number(point.coherence);
+        json["temperature_rms_degc"] = number(point.temperature_rms_degc);
+        json["refused"] = is_claimed ? Json(nullptr) : Json(point.refusal);
+        json["needed"] = is_claimed ? Json(nullptr) : Json(point.needed);
+        list.push_back(std::move(json));
+    }
+    return list;
+}
+
+Json mode_json(const std::optional<ChosenMode>& mode) {
+    if (!mode) return nullptr;
+    return {{"number", mode->number},
+            {"period_s", mode->period_s},
+            {"energy_share", mode->energy_share},
+            {"neighbour_share", mode->neighbour_share}};
+}
+
+Json components_json(const EemdResult& result, double step_s) {
+    Json list = Json::array();
+    const auto add = [&](const std::string& name, const Component& component) {
+        list.push_back(
+            {{"component", name},
+             {"period_s", number(component.mean_period_samples * step_s)},
+             {"energy_share", component.energy_share},
+             {"standard_error",
+              component.standard_error ? Json(*component.standard_error) : Json(nullptr)}});
+    };
+    for (std::size_t k = 0; k < result.modes.size(); ++k)
+        add("imf" + std::to_string(k + 1), result.modes[k]);
+    add("residue", result.residue);
+    return list;
+}
+
+Json two_paths_json(const TwoPathFit& fit) {
+    Json json;
+    for (const FittedParameter& parameter : fit.parameters) {
+        json["parameters"][parameter.key] = {
+            {"value", number(parameter.value)},
+            {"standard_error", number(parameter.standard_error)},
+            {"determined", parameter.is_determined},
+            {"needed", parameter.is_determined ? Json(nullptr) : Json(parameter.needed)}};
+    }
+    // Of the coefficients in their units, of the logarithms of lags and times.
+    for (Eigen::Index row = 0; row < fit.covariance.rows(); ++row) {
+        Json cells = Json::array();
+        for (Eigen::Index column = 0; column < fit.covariance.cols(); ++column)
+            cells.push_back(number(fit.covariance(row, column)));
+        json["covariance"].push_back(std::move(cells));
+    }
+    json["static_slope_mgal_per_degc"] = number(fit.static_slope);
+    json["static_slope_error_mgal_per_degc"] = number(fit.static_slope_error);
+    json["static_slope_determined"] = fit.is_static_slope_determined;
+    json["residual_rms_mgal"] = number(fit.residual_rms_mgal);
+    json["residual_follows_temperature"] = points_json(fit.unexplained);
+    return json;
+}
+
+Json serial_json(const RecordSegment& segment) {
+    return segment.serial_number.empty() ? Json(nullptr) : Json(segment.serial_number);
+}
+
+Json segments_json(const RecordResult& result) {
+    Json list = Json::array();
+    for (std::size_t k = 0; k < result.parts.segments.size(); ++k) {
+        const RecordSegment& segment = result.parts.segments[k];
+        list.push_back({{"start_utc", to_rfc3339(segment.start, 3)},
+                        {"end_utc", to_rfc3339(segment.end, 3)},
+                        {"serial_number", serial_json(segment)},
+                        {"samples", segment.size()},
+                        {"begins_with", segment.begins_with},
+                        {"restart", segment.is_restart},
+                        {"bridged", segment.bridged},
+                        {"knocks", segment.disturbed},
+                        {"analysed", k == result.analysed}});
+    }
+    return list;
+}
+
+}  // namespace
+
+std::string record_csv(const RecordResult& result) {
+    std::string csv = "time_utc,acceleration_mgal,temperature_degc,segment" +
+                      std::string(result.applied ? ",parametric_mgal,by_modes_mgal\n" : "\n");
+    for (const RecordStretch& stretch : result.record.stretches) {
+        for (std::size_t i = 0; i < stretch.size(); ++i) {
+            csv += to_rfc3339(stretch.times[i], 6) + ',' +
+                   exact_cell(stretch.acceleration_mgal[i]) + ',' +
+                   exact_cell(stretch.temperature_degc[i]) + ',';
+            for (std::size_t k = 0; k < result.parts.segments.size(); ++k) {
+                const RecordSegment& segment = result.parts.segments[k];
+                if (stretch.times[i] >= segment.start && stretch.times[i] <= segment.end)
+                    csv += std::to_string(k + 1);
+            }
+            csv += applied_cells(result, stretch.times[i]) + '\n';
+        }
+    }
+    return csv;
+}
+
+std::string response_csv(const RecordResult& result) {
+    std::string csv =
+        "way,period_s,shortest_s,longest_s,gain_mgal_per_degc,gain_low,gain_high,phase_deg,"
+        "phase_low,phase_high,coherence,temperature_rms_degc,refused\n";
+    const auto add = [&csv](const std::string& way, const std::vector<ResponsePoint>& points) {
+        for (const ResponsePoint& point : points) {
+            csv += way + ',' + cell(point.period_s, 1) + ',' + cell(point.shortest_s, 1) + ',' +
+                   cell(point.longest_s, 1) + ',';
+            if (point.refusal.empty()) {
+                for (const Limits* limits : {&point.gain, &point.phase_deg})
+                    for (const double value : {limits->value, limits->low, limits->high})
+                        csv += cell(value, 3) + ',';
+            } else {
+                csv += ",,,,,,";
+            }
+            csv += cell(point.coherence, 4) + ',' + cell(point.temperature_rms_degc, 6) + ',' +
+                   (point.refusal.empty() ? "0\n" : "1\n");
+        }
+    };
+    add("spectrum", result.analysis.by_spectrum);
+    add("modes", result.analysis.by_modes);
+    return csv;
+}
+
+std::string record_json(const RecordResult& result, const Json& settings) {
+    const RecordAnalysis& analysis = result.analysis;
+    Json json;
+    json["program"] = "a351-correct";
+    json["version"] = A351_VERSION;
+    json["settings"] = settings;
+    for (const text::InputFile& input : result.record.inputs) {
+        json["inputs"].push_back({{"role", input.role},
+                                  {"name", input.name},
+                                  {"byte_count", input.byte_count},
+                                  {"crc32", input.crc32}});
+    }
+    json["serial_number"] = serial_json(result.segment());
+    json["raw_rate_hz"] = result.record.raw_rate_hz;
+    json["step_s"] = result.record.step_s;
+    json["tide_removed"] = result.record.is_tide_removed;
+    json["warnings"] = result.record.warnings;
+    json["segments"] = segments_json(result);
+    json["refused"] = Json::array();
+    for (const RefusedPart& part : result.parts.refused) {
+        json["refused"].push_back({{"start_utc", to_rfc3339(part.start, 3)},
+                                   {"end_utc", to_rfc3339(part.end, 3)},
+                                   {"reason", part.reason}});
+    }
+    for (const RecordStatistic& statistic : record_statistics(result))
+        json["statistics"][statistic.key] = number(statistic.value);
+    json["temperature_mode"] = mode_json(analysis.temperature_mode);
+    json["acceleration_mode"] = mode_json(analysis.acceleration_mode);
+    json["temperature_components"] = components_json(analysis.temperature, analysis.step_s);
+    json["acceleration_components"] = components_json(analysis.acceleration, analysis.step_s);
+    json["causal_reading"] = analysis.reading;
+    json["response_by_spectrum"] = points_json(analysis.by_spectrum);
+    json["response_by_modes"] = points_json(analysis.by_modes);
+    json["two_paths"] = two_paths_json(analysis.two_paths);
+    json["applied"] = applied_json(result);
+    json["remarks"] = analysis.remarks;
+    return json.dump(2) + '\n';
+}
+
+std::vector<text::NamedText> record_files(const RecordResult& result, const Json& settings) {
+    return {{"record.csv", record_csv(result)},
+            {"response.csv", response_csv(result)},
+            {"result.json", record_json(result, settings)}};
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,185 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "corrector/long_record/fourier.hpp"
+#include "corrector/long_record/regression.hpp"
+#include "corrector/long_record/response.hpp"
+#include "protocol/core/units.hpp"
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr std::size_t kFewestTapers = 3, kMostTapers = 15;
+constexpr double kHalfOctave = std::numbers::sqrt2;
+constexpr double kNoiseShare = 0.2;  // of the thermometer in a band: it lowers the gain as much
+
+/// Spectra of both series with each taper; of unit white noise 1.
+struct TaperedSpectra {
+    std::vector<Spectrum> temperature, acceleration;
+    double bin_hz = 0.0;    ///< From value to value.
+    double rayleigh = 0.0;  ///< Values in the resolution of the untapered record.
+
+    [[nodiscard]] std::size_t size() const { return temperature.front().size(); }
+};
+
+TaperedSpectra tapered_spectra(std::span<const double> temperature,
+                               std::span<const double> acceleration, double step_s) {
+    const std::size_t count = temperature.size();
+    const std::size_t length = fast_length(count);
+    const std::vector<double> t = without_line(temperature), a = without_line(acceleration);
+    TaperedSpectra result;
+    result.bin_hz = 1.0 / (static_cast<double>(length) * step_s);
+    result.rayleigh = static_cast<double>(length) / static_cast<double>(count);
+    std::vector<double> tapered_t(count), tapered_a(count);
+    const auto n1 = static_cast<double>(count + 1);
+    for (std::size_t taper = 1; taper <= kMostTapers; ++taper) {
+        const double angle = std::numbers::pi * static_cast<double>(taper) / n1;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double weight =
+                std::sqrt(2.0 / n1) * std::sin(angle * static_cast<double>(i + 1));
+            tapered_t[i] = weight * t[i];
+            tapered_a[i] = weight * a[i];
+        }
+        result.temperature.push_back(half_spectrum(tapered_t, length));
+        result.acceleration.push_back(half_spectrum(tapered_a, length));
+    }
+    return result;
+}
+
+/// Frequencies [first, behind) of a band.
+struct Band {
+    double shortest_s, longest_s;
+    std::size_t first, behind;
+};
+
+std::vector<Band> bands_of(const TaperedSpectra& spectrum, double step_s,
+                           const ResponseOptions& options) {
+    std::vector<Band> bands;
+    const auto number = [&](double period_s) {
+        return static_cast<std::size_t>(std::ceil(1.0 / (period_s * spectrum.bin_hz)));
+    };
+    double period_s = options.cycle_s;
+    while (period_s / kHalfOctave > std::max(options.shortest_s, 4.0 * step_s))
+        period_s /= kHalfOctave;
+    const double quarter = std::sqrt(kHalfOctave);
+    for (; period_s * spectrum.bin_hz < 1.0; period_s *= kHalfOctave) {
+        const Band band{period_s / quarter, period_s * quarter,
+                        std::max<std::size_t>(1, number(period_s * quarter)),
+                        std::min(spectrum.size(), number(period_s / quarter))};
+        if (band.first < band.behind) bands.push_back(band);
+    }
+    return bands;
+}
+
+/// White noise of the thermometer: the mean spectrum at periods that no oven moves.
+double thermometer_noise(const TaperedSpectra& spectrum) {
+    constexpr double kLongest_s = 110.0, kShortest_s = 70.0;  // the filters' edge is at 40 s
+    double sum = 0.0, count = 0.0;
+    for (std::size_t k = 1; k < spectrum.size(); ++k) {
+        const double period_s = 1.0 / (static_cast<double>(k) * spectrum.bin_hz);
+        if (period_s > kLongest_s || period_s < kShortest_s) continue;
+        sum += std::norm(spectrum.temperature.front()[k]);
+        count += 1.0;
+    }
+    return count > 0.0 ? sum / count : 0.0;
+}
+
+ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, double noise,
+                          double record_s, std::size_t samples, const ResponseOptions& options) {
+    double tt = 0.0, aa = 0.0, tt2 = 0.0, frequency = 0.0;
+    std::complex<double> at = 0.0;
+    // The main lobe of K tapers is K + 1 resolutions wide.
+    const double cycles = record_s / std::sqrt(band.shortest_s * band.longest_s);
+    constexpr double kRelativeWidth = 0.348;  // of half an octave
+    const auto tapers = std::clamp(static_cast<std::size_t>(0.5 * kRelativeWidth * cycles),
+                                   kFewestTapers + 1, kMostTapers + 1) -
+                        1;
+    for (std::size_t k = band.first; k < band.behind; ++k) {
+        double power = 0.0;
+        for (std::size_t taper = 0; taper < tapers; ++taper) {
+            const std::complex<double> x = spectrum.temperature[taper][k],
+                                       y = spectrum.acceleration[taper][k];
+            power += std::norm(x) / static_cast<double>(tapers);
+            aa += std::norm(y) / static_cast<double>(tapers);
+            at += y * std::conj(x) / static_cast<double>(tapers);
+        }
+        tt += power;
+        tt2 += power * power;
+        frequency += power * static_cast<double>(k) * spectrum.bin_hz;
+    }
+    const auto bins = static_cast<double>(band.behind - band.first);
+    ResponsePoint point;
+    point.shortest_s = band.shortest_s;
+    point.longest_s = band.longest_s;
+    point.period_s = tt > 0.0 ? tt / frequency : std::sqrt(band.shortest_s * band.longest_s);
+    point.temperature_rms_degc =
+        std::sqrt(2.0 * tt / spectrum.rayleigh / static_cast<double>(samples));
+    // Of a constant rounding may leave so little that the quotient is no number.
+    const std::complex<double> gain = at / tt;
+    if (!(tt > 0.0) || !(aa > 0.0) || !std::isfinite(std::abs(gain)) || !std::isfinite(aa / tt)) {
+        point.refusal = "one of both is constant";
+        point.needed = "a record in which both move";
+        return point;
+    }
+    // Bins that carry the temperature's power, in units of the resolution: a line is as wide as the
+    // tapers make it.
+    const double freedom = std::max(tt * tt / tt2 / spectrum.rayleigh - 1.0, 2.0);
+    point.coherence = std::min(1.0, std::norm(at) / tt / aa);  // rounding goes above 1
+    const double quantile = std::pow(options.significance, -1.0 / (freedom - 1.0 + 1e-9)) - 1.0;
+    const double radius = std::sqrt(quantile * (1.0 - point.coherence) * aa / tt);
+    point.gain = {std::abs(gain), std::max(0.0, std::abs(gain) - radius), std::abs(gain) + radius};
+    const double phase = std::arg(gain) * kDegPerRad;
+    const double half_width =
+        radius < std::abs(gain) ? std::asin(radius / std::abs(gain)) * kDegPerRad : 180.0;
+    point.phase_deg = {phase, phase - half_width, phase + half_width};
+
+    const double longest_s = record_s / options.cycles;
+    const double least_swing_degc = std::sqrt(16.0 * noise * bins / kNoiseShare /
+                                              spectrum.rayleigh / static_cast<double>(samples));
+    if (point.period_s > longest_s) {
+        point.refusal = "fewer than " + text::fixed(options.cycles, 0) + " cycles";
+        point.needed = "a record of " +
+                       text::fixed(std::ceil(options.cycles * point.period_s / 3600.0), 0) + " h";
+    } else if (noise * bins > kNoiseShare * tt) {
+        point.refusal = "no excitation: the temperature shows the thermometer's noise";
+        point.needed = "a swing of " + text::fixed(least_swing_degc, 4) + " degC";
+    } else if (radius >= std::abs(gain)) {
+        point.refusal = "no coherence above chance";
+        point.needed = "more swing or a longer record: a response below " +
+                       text::fixed(point.gain.high, 0) + " mGal/degC does not show";
+    }
+    return point;
+}
+
+}  // namespace
+
+ThermometerSpectrum thermometer_spectrum(std::span<const double> temperature_degc, double step_s) {
+    constexpr std::size_t kTapers = 7;
+    const TaperedSpectra spectrum = tapered_spectra(temperature_degc, temperature_degc, step_s);
+    ThermometerSpectrum result;
+    result.noise = thermometer_noise(spectrum);
+    result.power.resize(spectrum.size());
+    for (std::size_t taper = 0; taper < kTapers; ++taper)
+        for (std::size_t k = 0; k < spectrum.size(); ++k)
+            result.power[k] +=
+                std::norm(spectrum.temperature[taper][k]) / static_cast<double>(kTapers);
+    return result;
+}
+
+std::vector<ResponsePoint> response_by_spectrum(std::span<const double> temperature_degc,
+                                                std::span<const double> acceleration_mgal,
+                                                double step_s, const ResponseOptions& options) {
+    const TaperedSpectra spectrum = tapered_spectra(temperature_degc, acceleration_mgal, step_s);
+    const double noise = thermometer_noise(spectrum);
+    const double record_s = static_cast<double>(temperature_degc.size()) * step_s;
+    std::vector<ResponsePoint> points;
+    for (const Band& band : bands_of(spectrum, step_s, options)) {
+        points.push_back(
+            response_in(band, spectrum, noise, record_s, temperature_degc.size(), options));
+    }
+    return points;
+}
+
+}  // namespace a351::corrector

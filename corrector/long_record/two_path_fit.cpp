@@ -1,0 +1,348 @@
+#include "corrector/long_record/two_path_fit.hpp"
+
+#include <nlopt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <numeric>
+
+#include "corrector/long_record/fourier.hpp"
+#include "corrector/long_record/regression.hpp"
+#include "corrector/whole_day/day_columns.hpp"
+#include "corrector/whole_day/search_grid.hpp"
+#include "protocol/core/units.hpp"
+#include "protocol/linear_algebra/cholesky.hpp"
+#include "protocol/linear_algebra/normal_matrix.hpp"
+
+namespace a351::corrector {
+namespace {
+
+using Index = Eigen::Index;
+using Lags = std::array<double, 3>;  // logarithms over the priors' deviations: fast, slow, warm-up
+
+constexpr double kShortest_s = 240.0;  // below, the thermometer's noise outweighs what it shows
+constexpr Index kLinear = 5;           // drift ... slow
+constexpr std::array<double, kLinear> kPriorDeviation{1.0, 60.0, 60.0, 30.0, 60.0};
+constexpr Lags kLagMedian_s{43.0, 2700.0, 9000.0};
+constexpr Lags kLagFactor{2.0, 2.0, 1.5};
+
+double lag_s(const Lags& u, std::size_t k) {
+    return kLagMedian_s[k] * std::pow(kLagFactor[k], u[k]);
+}
+
+class Problem {
+public:
+    Problem(const std::vector<double>& temperature, const std::vector<double>& acceleration,
+            double step_s)
+        : count_(fast_length_within(temperature.size())),
+          step_s_(step_s),
+          temperature_(
+              {}, Hertz(1.0 / step_s),
+              {temperature.begin(), temperature.begin() + static_cast<std::ptrdiff_t>(count_)}) {
+        frequencies_ =
+            std::min(static_cast<Index>(static_cast<double>(count_) * step_s / kShortest_s),
+                     static_cast<Index>(count_ / 2));
+        readings_ = transformed(
+            {acceleration.begin(), acceleration.begin() + static_cast<std::ptrdiff_t>(count_)});
+        mean_degc_ = mean_of(temperature_.values());
+        numbers_.resize(count_);
+        std::iota(numbers_.begin(), numbers_.end(), 0.0);
+        ramp_ = transformed(numbers_);
+        set_trust();
+        noise_ = Eigen::VectorXd::Ones(frequencies_);
+        for (Index k = 0; k < frequencies_; ++k) noise_(k) = 1.0 / static_cast<double>(k + 1);
+    }
+
+    /// (n, kLinear) of the model's columns over the whole series.
+    [[nodiscard]] std::vector<std::vector<double>> columns(const TimeSeries<DegC>& temperature,
+                                                           const Lags& u) const {
+        const std::vector<double>& t = temperature.values();
+        std::vector<std::vector<double>> all(kLinear, std::vector<double>(t.size()));
+        all[3] = lagged(temperature, lag_s(u, 0));
+        all[4] = lagged(temperature, lag_s(u, 1));
+        for (std::size_t i = 0; i < t.size(); ++i) {
+            const double time_h = static_cast<double>(i) * step_s_ / kSecondsPerHour;
+            all[0][i] = time_h;
+            all[1][i] = std::exp(-time_h * kSecondsPerHour / lag_s(u, 2));
+            all[2][i] = t[i] - mean_degc_;
+            all[3][i] = (t[i] - all[3][i]) / lag_s(u, 0) * kSecondsPerHour;
+            all[4][i] -= mean_degc_;
+        }
+        return all;
+    }
+
+    /// (2 frequencies, kLinear): real parts above imaginary ones, noise 1, priors 1.
+    [[nodiscard]] Eigen::MatrixXd design(const Lags& u) const {
+        const auto all = columns(temperature_, u);
+        Eigen::MatrixXd x(2 * frequencies_, kLinear);
+        for (Index k = 0; k < kLinear; ++k) {
+            const auto place = static_cast<std::size_t>(k);
+            Eigen::VectorXd column = transformed(all[place]);
+            if (place >= static_cast<std::size_t>(TwoPathTerm::level))
+                column = trusted(std::move(column), fit_line(numbers_, all[place]).slope);
+            x.col(k) = kPriorDeviation.at(place) * whitened(std::move(column));
+        }
+        return x;
+    }
+
+    [[nodiscard]] Eigen::VectorXd readings() const { return whitened(readings_); }
+
+    [[nodiscard]] double cost(const Lags& u) const {
+        const Eigen::MatrixXd x = design(u);
+        const Eigen::VectorXd y = readings();
+        const Cholesky factor(normal_matrix(x));
+        if (!factor.is_positive_definite()) return HUGE_VAL;  // Numbers that overflow.
+        const Eigen::VectorXd half = factor.half_solve(x.transpose() * y);
+        double sum = factor.log_determinant() + y.squaredNorm() - half.squaredNorm();
+        for (const double value : u) sum += value * value;
+        return 0.5 * sum;
+    }
+
+    /// From afar by subplexes, from nearby by parabolas, which need a third of the time.
+    [[nodiscard]] Lags most_likely(Lags u, bool is_nearby) const {
+        constexpr unsigned kLags = 3;
+        const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> search(
+            nlopt_create(is_nearby ? NLOPT_LN_BOBYQA : NLOPT_LN_SBPLX, kLags), &nlopt_destroy);
+        const auto cost_of = [](unsigned, const double* point, double*, void* problem) {
+            Lags at;
+            std::transform(point, point + kLags, at.begin(), search_point);
+            return search_cost(static_cast<const Problem*>(problem)->cost(at));
+        };
+        constexpr double kFarthest = 5.0;  // standard deviations of the priors
+        nlopt_set_min_objective(search.get(), cost_of, const_cast<Problem*>(this));
+        nlopt_set_lower_bounds1(search.get(), -kFarthest);
+        nlopt_set_upper_bounds1(search.get(), kFarthest);
+        nlopt_set_initial_step1(search.get(), 0.3);
+        nlopt_set_xtol_abs1(search.get(), 0.01);
+        nlopt_set_maxeval(search.get(), 120);
+        double least = 0.0;
+        nlopt_optimize(search.get(), u.data(), &least);
+        for (double& value : u) value = search_point(value);
+        return u;
+    }
+
+    /// In units of the priors' deviations.
+    [[nodiscard]] Eigen::VectorXd coefficients(const Lags& u) const {
+        const Eigen::MatrixXd x = design(u);
+        return Cholesky(normal_matrix(x)).solve(x.transpose() * readings());
+    }
+
+    /// Of coefficients and lags, in units of the priors' deviations; linearised.
+    [[nodiscard]] Eigen::MatrixXd covariance(const Lags& u, const Eigen::VectorXd& beta) const {
+        constexpr double kStep = 0.05;
+        Eigen::MatrixXd jacobian(2 * frequencies_, static_cast<Index>(kTwoPathTerms));
+        jacobian.leftCols(kLinear) = design(u);
+        for (std::size_t k = 0; k < u.size(); ++k) {
+            Lags more = u, less = u;
+            more[k] += kStep;
+            less[k] -= kStep;
+            jacobian.col(kLinear + static_cast<Index>(k)) =
+                (design(more) - design(less)) * beta / (2.0 * kStep);
+        }
+        return Cholesky(normal_matrix(jacobian)).inverse();
+    }
+
+    /// Takes the noise from what the coefficients leave.
+    void update_noise(const Lags& u, const Eigen::VectorXd& beta) {
+        const Eigen::VectorXd rest = readings() - design(u) * beta;
+        Eigen::VectorXd power(frequencies_);
+        for (Index k = 0; k < frequencies_; ++k) {
+            const double square =
+                rest(k) * rest(k) + rest(frequencies_ + k) * rest(frequencies_ + k);
+            power(k) = 0.5 * square * noise_(k);
+        }
+        smooth_noise(power);
+    }
+
+private:
+    static std::size_t fast_length_within(std::size_t n) {
+        while (fast_length(n) != n) --n;
+        return n;
+    }
+
+    /// Noise of the thermometer in the regressors would flatten the fit, most where the oven hardly
+    /// moves: each frequency counts with the share of its power that is no noise.  Where that power is
+    /// less than three times the noise, nothing is: of noise alone, 14 degrees of freedom by seven
+    /// tapers, it is above once in ten thousand.
+    /// Source: R. J. Carroll et al., Measurement Error in Nonlinear Models, 2nd ed., Chapman & Hall
+    /// 2006, chap. 4 (regression calibration).
+    void set_trust() {
+        constexpr double kLeastPower = 3.0;
+        const ThermometerSpectrum spectrum = thermometer_spectrum(temperature_.values(), step_s_);
+        trust_.resize(frequencies_);
+        for (Index k = 0; k < frequencies_; ++k) {
+            const double power = spectrum.power[static_cast<std::size_t>(k + 1)];
+            trust_(k) = power < kLeastPower * spectrum.noise ? 0.0 : 1.0 - spectrum.noise / power;
+        }
+    }
+
+    /// A column of the temperature, a straight line of that slope in it: the line leaks into every
+    /// frequency and is no noise in any.
+    [[nodiscard]] Eigen::VectorXd trusted(Eigen::VectorXd column, double slope) const {
+        column -= slope * ramp_;
+        column.head(frequencies_).array() *= trust_.array();
+        column.tail(frequencies_).array() *= trust_.array();
+        return column + slope * ramp_;
+    }
+
+    [[nodiscard]] Eigen::VectorXd transformed(const std::vector<double>& values) const {
+        const double mean = mean_of(values);
+        std::vector<double> centred = values;
+        for (double& value : centred) value -= mean;
+        const Spectrum spectrum = half_spectrum(centred, centred.size());
+        Eigen::VectorXd parts(2 * frequencies_);
+        for (Index k = 0; k < frequencies_; ++k) {
+            parts(k) = spectrum[static_cast<std::size_t>(k + 1)].real();
+            parts(frequencies_ + k) = spectrum[static_cast<std::size_t>(k + 1)].imag();
+        }
+        return parts;
+    }
+
+    /// noise_ is the mean square of either part.
+    [[nodiscard]] Eigen::VectorXd whitened(Eigen::VectorXd parts) const {
+        parts.head(frequencies_).array() /= noise_.array().sqrt();
+        parts.tail(frequencies_).array() /= noise_.array().sqrt();
+        return parts;
+    }
+
+    void smooth_noise(const Eigen::VectorXd& power) {
+        constexpr Index kLowest = 8;
+        constexpr double kBandRatio = std::numbers::sqrt2;  // half an octave
+        for (Index first = kLowest; first < frequencies_;) {
+            const Index behind = std::min(
+                frequencies_,
+                std::max(first + 4, static_cast<Index>(kBandRatio * static_cast<double>(first))));
+            noise_.segment(first, behind - first)
+                .setConstant(power.segment(first, behind - first).mean());
+            first = behind;
+        }
+        const Index lowest = std::min(kLowest, frequencies_);
+        const double here = std::max(power.head(lowest).mean(), 1e-300);
+        const Index beside = std::min(2 * kLowest, frequencies_ - 1);
+        const double level = noise_.segment(lowest, std::max<Index>(beside - lowest, 1)).mean();
+        const double middle = 0.5 * static_cast<double>(lowest + beside);
+        for (Index k = 0; k < lowest; ++k)
+            noise_(k) = std::max(here, level * middle / static_cast<double>(k + 1));
+    }
+
+    std::size_t count_;
+    double step_s_;
+    TimeSeries<DegC> temperature_;
+    double mean_degc_ = 0.0;
+    Index frequencies_ = 0;
+    std::vector<double> numbers_;  ///< 0, 1, 2 ...
+    Eigen::VectorXd ramp_;         ///< Of these.
+    Eigen::VectorXd readings_;
+    Eigen::VectorXd noise_;
+    Eigen::VectorXd trust_;  ///< Of the temperature, 0 to 1.
+};
+
+FittedParameter named(TwoPathTerm term) {
+    const std::string by_days =
+        "the set point moved by some 0.1 degC every few hours for two days or more";
+    switch (term) {
+        case TwoPathTerm::drift:
+            return {"drift_mgal_per_h", "drift", "mGal/h", 0, 0, false, "a week or more"};
+        case TwoPathTerm::warm_up:
+            return {"warm_up_mgal",
+                    "warm-up at the begin",
+                    "mGal",
+                    0,
+                    0,
+                    false,
+                    "a record that begins when the sensor is switched on"};
+        case TwoPathTerm::level:
+            return {
+                "level_mgal_per_degc", "static slope, prompt", "mGal/degC", 0, 0, false, by_days};
+        case TwoPathTerm::fast:
+            return {"fast_mgal_per_degc_per_h", "fast path", "mGal/(degC/h)", 0, 0, false,
+                    "more swing at 5 to 30 min"};
+        case TwoPathTerm::slow:
+            return {"slow_mgal_per_degc", "static slope, late", "mGal/degC", 0, 0, false, by_days};
+        case TwoPathTerm::fast_lag:
+            return {"fast_lag_s", "lag of the fast path",    "s", 0, 0,
+                    false,        "more swing at 4 to 8 min"};
+        case TwoPathTerm::slow_lag:
+            return {"slow_lag_s", "lag of the slow path", "s", 0, 0, false, by_days};
+        case TwoPathTerm::warm_up_time:
+            break;
+    }
+    return {"warm_up_time_s",
+            "time of the warm-up",
+            "s",
+            0,
+            0,
+            false,
+            "a record that begins when the sensor is switched on"};
+}
+
+}  // namespace
+
+TwoPathPrior two_path_prior(TwoPathTerm term) {
+    const auto place = static_cast<std::size_t>(term);
+    if (place < kPriorDeviation.size()) return {0.0, kPriorDeviation.at(place)};
+    const std::size_t lag = place - kPriorDeviation.size();
+    return {std::log(kLagMedian_s.at(lag)), std::log(kLagFactor.at(lag))};
+}
+
+TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
+                         const std::vector<double>& acceleration_mgal, double step_s,
+                         double cycle_s) {
+    Problem problem(temperature_degc, acceleration_mgal, step_s);
+    constexpr int kRounds = 4;
+    Lags u{};
+    Eigen::VectorXd beta = problem.coefficients(u);
+    for (int round = 0; round < kRounds; ++round) {
+        problem.update_noise(u, beta);
+        u = problem.most_likely(u, round > 0);
+        beta = problem.coefficients(u);
+    }
+
+    TwoPathFit fit;
+    const Eigen::MatrixXd scaled = problem.covariance(u, beta);
+    Eigen::VectorXd units(static_cast<Index>(kTwoPathTerms));
+    for (std::size_t k = 0; k < kTwoPathTerms; ++k) {
+        const auto place = static_cast<Index>(k);
+        const bool is_lag = place >= kLinear;
+        const std::size_t lag = is_lag ? k - static_cast<std::size_t>(kLinear) : 0;
+        FittedParameter& parameter = fit.parameters.at(k);
+        parameter = named(static_cast<TwoPathTerm>(k));
+        units(place) = two_path_prior(static_cast<TwoPathTerm>(k)).deviation;
+        const double deviation = units(place) * std::sqrt(scaled(place, place));
+        parameter.value = is_lag ? lag_s(u, lag) : units(place) * beta(place);
+        parameter.standard_error = is_lag ? parameter.value * deviation : deviation;
+        parameter.is_determined = std::sqrt(scaled(place, place)) < kDeterminedDeviation;
+        if (parameter.is_determined) parameter.needed.clear();
+    }
+    fit.covariance = units.asDiagonal() * scaled * units.asDiagonal();
+    constexpr auto level = static_cast<Index>(TwoPathTerm::level),
+                   slow = static_cast<Index>(TwoPathTerm::slow);
+    fit.static_slope = fit[TwoPathTerm::level].value + fit[TwoPathTerm::slow].value;
+    fit.static_slope_error = std::sqrt(fit.covariance(level, level) + fit.covariance(slow, slow) +
+                                       2.0 * fit.covariance(level, slow));
+    const double prior = std::sqrt(units(level) * units(level) + units(slow) * units(slow));
+    fit.is_static_slope_determined = fit.static_slope_error < kDeterminedDeviation * prior;
+
+    const TimeSeries<DegC> whole({}, Hertz(1.0 / step_s), temperature_degc);
+    const auto columns = problem.columns(whole, u);
+    fit.residual_mgal = acceleration_mgal;
+    for (std::size_t i = 0; i < fit.residual_mgal.size(); ++i)
+        for (std::size_t k = 0; k < columns.size(); ++k)
+            fit.residual_mgal[i] -= fit.parameters.at(k).value * columns[k][i];
+    const double mean = mean_of(fit.residual_mgal);
+    for (double& value : fit.residual_mgal) value -= mean;
+    fit.residual_rms_mgal = std::sqrt(variance_of(fit.residual_mgal));
+
+    ResponseOptions test;
+    test.cycle_s = cycle_s;
+    const auto bands = response_by_spectrum(temperature_degc, fit.residual_mgal, step_s, test);
+    test.significance /= static_cast<double>(std::max<std::size_t>(bands.size(), 1));
+    for (ResponsePoint& point :
+         response_by_spectrum(temperature_degc, fit.residual_mgal, step_s, test))
+        if (point.refusal.empty()) fit.unexplained.push_back(std::move(point));
+    return fit;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,223 @@
+#include "corrector/model/calibration_use.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "protocol/core/input_error.hpp"
+#include "protocol/linear_algebra/symmetric_eigen.hpp"
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const std::vector<Eigen::Index> kAxisPlaces{DayPriors::place_of(DayTerm::x),
+                                            DayPriors::place_of(DayTerm::y)};
+// As kThermalNames: rA, rS, rF, then the lags, which DayPriors has first.
+const std::vector<Eigen::Index> kThermalPlaces{DayPriors::place_of(DayTerm::level),
+                                               DayPriors::place_of(DayTerm::slow),
+                                               DayPriors::place_of(DayTerm::fast), 0, 1};
+
+MilliGal tilt_effect(const SurveyRow& row, const std::optional<AxisBias>& bias) {
+    if (!bias) return MilliGal(0.0);
+    return MilliGal(bias->values(0) * row.detail_for("calibration", "mean_x_g") +
+                    bias->values(1) * row.detail_for("calibration", "mean_y_g"));
+}
+
+bool is_contradicted(const std::optional<Disagreement>& test) {
+    return test && test->p < kContradictionP;
+}
+
+bool is_harmful(const CalibrationUse& use, const ModelScore& score) {
+    return use.loso_without_mgal && score.loso_mgal &&
+           *score.loso_mgal > (1.0 + kHarm) * *use.loso_without_mgal;
+}
+
+std::string name_of(const Calibration& calibration) {
+    return "calibration of unit " + calibration.serial_number + " (" + calibration.program +
+           ", from " + to_rfc3339(calibration.valid_from) + ")";
+}
+
+void remark_test(SurveyCorrection& result, const std::string& part,
+                 const std::optional<Disagreement>& test) {
+    if (!test)
+        result.remarks.push_back("the calibration's " + part +
+                                 " not tested: the readings say nothing beside it");
+    if (!is_contradicted(test)) return;
+    result.remarks.push_back("the readings contradict the calibration's " + part + ": chi-square " +
+                             text::fixed(test->chi_square, 1) + " for " +
+                             std::to_string(test->dof) +
+                             " degrees of freedom, by chance once in more than a hundred surveys; "
+                             "is it of this unit, and "
+                             "still true? Correct the survey without it too");
+}
+
+Json part_json(bool is_there, bool is_used, const char* use,
+               const std::optional<Disagreement>& test) {
+    if (!is_there) return nullptr;
+    Json json{{"use", is_used ? use : "none"},
+              {"chi_square", nullptr},
+              {"dof", nullptr},
+              {"p", nullptr},
+              {"contradicted", nullptr}};
+    if (test) {
+        json["contradicted"] = is_contradicted(test);
+        json["chi_square"] = test->chi_square;
+        json["dof"] = test->dof;
+        json["p"] = test->p;
+    }
+    return json;
+}
+
+}  // namespace
+
+bool says_of_day(const std::optional<Calibration>& calibration) {
+    return calibration && (calibration->axis_bias || calibration->thermal);
+}
+
+DayPriors day_priors_of(const std::optional<Calibration>& calibration) {
+    DayPriors priors = usual_day_priors();
+    if (calibration && calibration->axis_bias) {
+        const AxisBias& bias = *calibration->axis_bias;
+        priors.observe(kAxisPlaces, bias.values, bias.covariance);
+    }
+    if (calibration && calibration->thermal) {
+        const ThermalResponse& thermal = *calibration->thermal;
+        priors.observe(kThermalPlaces, thermal.values,
+                       kThermalErrorFactor * kThermalErrorFactor * thermal.covariance);
+    }
+    return priors;
+}
+
+// What the day's data, alone, say of the shift has the covariance D + 1 about 0 when the prior is
+// true; the posterior mean is D of the way there, with D = 1 - posterior covariance, and its own
+// covariance is D.  Where D is 0 the day is silent.
+std::optional<Disagreement> disagreement(const DayFit& fit,
+                                         const std::vector<Eigen::Index>& places) {
+    // What D must exceed for the shift to be one.  A prior that is tight and wrong makes D small,
+    // for the noise takes the disagreement: terms, which are solved for, have the floor of rounding,
+    // lags ten times the 1e-3 to which they are searched for.
+    constexpr double kLeastOfTerm = 1e-10, kLeastOfLag = 1e-4;
+    const auto count = static_cast<Eigen::Index>(places.size());
+    Eigen::VectorXd scale(count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const bool is_lag = places[static_cast<std::size_t>(k)] < Eigen::Index{kDayLags};
+        scale(k) = 1.0 / std::sqrt(is_lag ? kLeastOfLag : kLeastOfTerm);
+    }
+    const Eigen::MatrixXd gained = Eigen::MatrixXd::Identity(count, count) -
+                                   Eigen::MatrixXd(fit.shift_covariance(places, places));
+    const SymmetricEigen axes = symmetric_eigen(scale.asDiagonal() * gained * scale.asDiagonal());
+    const Eigen::VectorXd along =
+        axes.vectors.transpose() * scale.cwiseProduct(Eigen::VectorXd(fit.shift(places)));
+    Disagreement test;
+    for (Eigen::Index k = 0; k < count; ++k) {
+        if (axes.values(k) < 1.0) continue;
+        test.chi_square += along(k) * along(k) / axes.values(k);
+        ++test.dof;
+    }
+    if (test.dof == 0) return std::nullopt;
+    const boost::math::chi_squared distribution(static_cast<double>(test.dof));
+    test.p = boost::math::cdf(boost::math::complement(distribution, test.chi_square));
+    return test;
+}
+
+void tell_prior_use(SurveyCorrection& result, const DayFit& fit, const DayFit& without,
+                    const std::optional<double>& without_loso_mgal) {
+    const Calibration& calibration = result.options.calibration.value();
+    CalibrationUse use;
+    use.is_prior = true;
+    if (calibration.axis_bias) use.axis_bias = disagreement(fit, kAxisPlaces);
+    if (calibration.thermal) use.thermal = disagreement(fit, kThermalPlaces);
+    double squares = 0.0;
+    for (std::size_t i = 0; i < fit.set_ups.size(); ++i)
+        squares += std::pow((fit.set_ups[i].corrected - without.set_ups[i].corrected).value(), 2);
+    use.effect_rms_mgal = std::sqrt(squares / static_cast<double>(fit.set_ups.size()));
+    result.remarks.push_back(
+        name_of(calibration) +
+        " as prior: " + (calibration.axis_bias ? "axis biases" : "no axis biases") +
+        (calibration.thermal ? ", thermal response with twice its errors"
+                             : ", no thermal response") +
+        "; it changes corrected values by " + text::fixed(use.effect_rms_mgal, 2) + " mGal rms" +
+        (calibration.axis_bias ? "; other models are scored on readings freed from axis bias x tilt"
+                               : ""));
+    if (calibration.axis_bias) remark_test(result, "axis biases", use.axis_bias);
+    if (calibration.thermal) remark_test(result, "thermal response", use.thermal);
+    use.loso_without_mgal = without_loso_mgal;
+    if (is_harmful(use, result.score))
+        result.remarks.push_back(
+            "with the calibration the survey is worse: stations left out come back to " +
+            text::fixed(*result.score.loso_mgal, 2) + " mGal rms, without it to " +
+            text::fixed(*without_loso_mgal, 2) + "; is it of this unit, and still true?");
+    result.calibration = use;
+}
+
+SurveyCorrection correct_with_calibration(const std::vector<SurveyRow>& rows,
+                                          const SurveyOptions& options, const DayRecord* day) {
+    if (!options.calibration) return correct_survey(rows, options, day);
+    const Calibration& calibration = *options.calibration;
+    std::vector<SurveyRow> freed = rows;
+    for (SurveyRow& row : freed)
+        row.acceleration = row.acceleration - tilt_effect(row, calibration.axis_bias);
+    SurveyCorrection result = correct_survey(freed, options, day);
+    if (result.model == "day") return result;
+
+    CalibrationUse use;
+    double sum = 0.0, squares = 0.0;
+    for (CorrectedRow& row : result.rows) {
+        const MilliGal effect = tilt_effect(row.row, calibration.axis_bias);
+        row.row.acceleration = row.row.acceleration + effect;
+        if (row.difference) row.difference = *row.difference + effect;
+        row.tilt_correction = row.tilt_correction - effect;
+        row.row.set_detail("tilt_correction_mgal", row.tilt_correction.value());
+        sum += effect.value();
+        squares += effect.value() * effect.value();
+    }
+    const auto n = static_cast<double>(result.rows.size());
+    use.effect_rms_mgal = std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)));
+    std::string text = name_of(calibration) + ": ";
+    text +=
+        calibration.axis_bias
+            ? "readings, those behind the scores of all models too, freed from axis bias x tilt, "
+              "which scatters by " +
+                  text::fixed(use.effect_rms_mgal, 2) + " mGal rms; not compared with the readings"
+            : "no axis biases";
+    if (calibration.thermal)
+        text += "; its thermal response is of no use to the model " + result.model;
+    result.remarks.push_back(text);
+    result.calibration = use;
+    return result;
+}
+
+std::string_view calibration_in(const SurveyCorrection& result, const ModelScore& score) {
+    const std::optional<Calibration>& calibration = result.options.calibration;
+    if (!says_of_day(calibration)) return "none";
+    if (score.model == "day") return "prior";
+    return calibration->axis_bias ? "fixed" : "none";
+}
+
+Json calibration_json(const SurveyCorrection& result) {
+    if (!result.calibration) return nullptr;
+    const Calibration& calibration = result.options.calibration.value();
+    const CalibrationUse& use = *result.calibration;
+    Json json;
+    json["serial_number"] = calibration.serial_number;
+    json["program"] = calibration.program;
+    json["valid_from_utc"] = to_rfc3339(calibration.valid_from, 3);
+    json["valid_to_utc"] =
+        calibration.valid_to ? Json(to_rfc3339(*calibration.valid_to, 3)) : Json(nullptr);
+    json["axis_bias"] = part_json(calibration.axis_bias.has_value(), true,
+                                  use.is_prior ? "prior" : "fixed", use.axis_bias);
+    json["thermal"] =
+        part_json(calibration.thermal.has_value(), use.is_prior, "prior", use.thermal);
+    json["effect_rms_mgal"] = use.effect_rms_mgal;
+    json["loso_without_mgal"] =
+        use.loso_without_mgal ? Json(*use.loso_without_mgal) : Json(nullptr);
+    json["worse_with_it"] =
+        use.loso_without_mgal ? Json(is_harmful(use, result.score)) : Json(nullptr);
+    return json;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,306 @@
+#include "corrector/model/day_correction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "corrector/model/calibration_use.hpp"
+#include "corrector/reading/on_all_cores.hpp"
+#include "corrector/whole_day/day_model.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr std::size_t kFewestRows = 6;    // fewer say little beside the priors
+constexpr double kLongestGap_s = 1800.0;  // less than the slow lag
+constexpr double kWantedLead_s = 7200.0;  // some slow lags
+
+std::size_t count_of(const std::vector<bool>& rows) {
+    return static_cast<std::size_t>(std::count(rows.begin(), rows.end(), true));
+}
+
+/// Rows of a fit.
+struct RowSet {
+    const std::vector<bool>& in_use;
+    bool use_flags;  ///< Flagged rows are not among them.
+
+    [[nodiscard]] bool stands_alone(const SurveyRow& row) const {
+        return row.is_excluded || (use_flags && row.is_flagged);
+    }
+};
+
+/// What the fit holds: the reference of rows in use, but for those of the station left out.
+/// Unknown: one value for each other station, and one for every row that has no say.
+std::vector<DayStation> stations_of(const std::vector<CorrectedRow>& rows, const RowSet& set,
+                                    const std::string& left_out) {
+    std::vector<DayStation> stations;
+    std::map<std::string, std::size_t> unknowns;
+    const auto number_of = [&](const std::string& name) {
+        return unknowns.emplace(name, unknowns.size()).first->second;
+    };
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const SurveyRow& row = rows[i].row;
+        DayStation station{row.tide, std::nullopt, 0};
+        if (set.in_use[i] && row.site != left_out)
+            station.gravity = row.reference;
+        else if (set.stands_alone(row))
+            station.unknown = number_of("row " + std::to_string(i));
+        else
+            station.unknown = number_of("station " + row.site);
+        stations.push_back(station);
+    }
+    return stations;
+}
+
+/// The fit of one set of rows, and of each station what it says without that station.
+struct DayFits {
+    std::vector<DayStation> stations;
+    DayFit fit;
+    std::vector<std::string> left_out;  ///< Stations.
+    std::vector<std::vector<DayStation>> others;
+    std::vector<DayFit> without;
+
+    [[nodiscard]] std::optional<std::size_t> number_of(const std::string& site) const {
+        const auto found = std::find(left_out.begin(), left_out.end(), site);
+        if (found == left_out.end()) return std::nullopt;
+        return static_cast<std::size_t>(found - left_out.begin());
+    }
+};
+
+DayFits fit_with_and_without(const std::vector<CorrectedRow>& rows, const RowSet& set,
+                             const DayRecord& day, const DayPriors& priors) {
+    DayFits fits;
+    fits.stations = stations_of(rows, set, "");
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (set.in_use[i] && !fits.number_of(rows[i].row.site))
+            fits.left_out.push_back(rows[i].row.site);
+    if (fits.left_out.size() < 2) fits.left_out.clear();  // nothing would be held
+    for (const std::string& site : fits.left_out)
+        fits.others.push_back(stations_of(rows, set, site));
+    fits.without.resize(fits.left_out.size());
+    fits.fit = fit_day(day, fits.stations, nullptr, priors).value();
+    on_all_cores(fits.left_out.size(), [&](std::size_t k) {
+        fits.without[k] = fit_day(day, fits.others[k], &fits.fit, priors).value();
+    });
+    return fits;
+}
+
+ModelScore score_of(const std::vector<CorrectedRow>& rows, const std::vector<bool>& in_use,
+                    const DayFits& fits) {
+    ModelScore score;
+    score.model = "day";
+    score.parameter_count = kDayTerms;
+    double in_sample = 0.0, left_out = 0.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (!in_use[i]) continue;
+        ++score.row_count;
+        const double reference = rows[i].row.reference->value();
+        in_sample += std::pow(reference - fits.fit.set_ups[i].corrected.value(), 2);
+        const auto k = fits.number_of(rows[i].row.site);
+        if (k) left_out += std::pow(reference - fits.without[*k].set_ups[i].corrected.value(), 2);
+    }
+    score.dof = score.row_count - std::min(score.row_count, score.parameter_count);
+    const auto n = static_cast<double>(score.row_count);
+    score.rms_mgal = std::sqrt(in_sample / n);
+    if (!fits.left_out.empty()) score.loso_mgal = std::sqrt(left_out / n);
+    return score;
+}
+
+std::vector<Coefficient> coefficients_of(const DayFit& fit) {
+    std::vector<Coefficient> list;
+    for (std::size_t k = 0; k < kDayTerms; ++k)
+        list.push_back({std::string(day_term_name(static_cast<DayTerm>(k))),
+                        fit.coefficients.at(k).value, fit.coefficients.at(k).standard_error});
+    list.push_back({"fast_lag_s", fit.fast_lag_s, std::nullopt});
+    list.push_back({"slow_lag_s", fit.slow_lag_s, std::nullopt});
+    list.push_back({"placement_mgal", fit.noise.placement_mgal, std::nullopt});
+    list.push_back({"flicker_mgal", fit.noise.flicker_mgal, std::nullopt});
+    list.push_back({"white_mgal", fit.noise.white_mgal, std::nullopt});
+    return list;
+}
+
+/// Gravity of an unknown, with its uncertainty.
+Estimate unknown_of(const DayFit& fit, const std::vector<DayStation>& stations, std::size_t row) {
+    return fit.unknown_mgal[stations[row].unknown];
+}
+
+/// Of a set-up's corrected value, when its station is unknown: the station's, and what its own
+/// placement differs from the mean of those that share the unknown.
+MilliGal row_uncertainty(const DayFit& fit, const std::vector<DayStation>& stations,
+                         std::size_t row) {
+    double count = 0.0;
+    for (const DayStation& station : stations)
+        if (!station.gravity && station.unknown == stations[row].unknown) count += 1.0;
+    const double own = fit.noise.placement_mgal * std::sqrt(1.0 - 1.0 / count);
+    const double error = unknown_of(fit, stations, row).standard_error;
+    return MilliGal(std::sqrt(error * error + own * own));
+}
+
+/// What is said of the row when its reference is not known.
+void set_left_out(CorrectedRow& out, MilliGal predicted, MilliGal uncertainty) {
+    out.u_corrected = uncertainty;
+    if (!out.row.reference) return;
+    out.row.details.back().value = predicted.value();
+    out.studentised_residual = (*out.row.reference - predicted).value() / uncertainty.value();
+}
+
+/// The samples that the bins of a set-up average.
+struct Averaged {
+    std::vector<UtcTime> times;
+
+    [[nodiscard]] double seconds() const {
+        double spacing_s = seconds_between(times[0], times[1]);
+        for (std::size_t i = 2; i < times.size(); ++i)
+            spacing_s = std::min(spacing_s, seconds_between(times[i - 1], times[i]));
+        return spacing_s * static_cast<double>(times.size());
+    }
+};
+
+/// One for every row.
+std::vector<Averaged> averaged_samples(std::size_t row_count, const DayRecord& day) {
+    std::vector<Averaged> averaged(row_count);
+    for (const DayBin& bin : day.bins) {
+        auto& times = averaged[bin.set_up].times;
+        times.insert(times.end(), bin.times.begin(), bin.times.end());
+    }
+    return averaged;
+}
+
+void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits, const Averaged& averaged) {
+    const DaySetUp& set_up = fits.fit.set_ups[i];
+    const auto effect = [&](DayTerm term) {
+        return MilliGal(set_up.effect_mgal.at(static_cast<std::size_t>(term)));
+    };
+    out.row.start = averaged.times.front();
+    out.row.end = averaged.times.back();
+    out.row.acceleration = set_up.reading;
+    out.row.temperature = set_up.temperature;
+    out.temperature_correction =
+        -(effect(DayTerm::constant) + effect(DayTerm::level) + effect(DayTerm::slow));
+    out.rate_correction = -effect(DayTerm::fast);
+    out.drift_correction = -(effect(DayTerm::drift) + effect(DayTerm::warm_up));
+    out.tilt_correction = -(effect(DayTerm::x) + effect(DayTerm::y));
+    out.corrected = set_up.corrected;
+    out.row.details.push_back({"averaged_s", averaged.seconds()});
+    out.row.details.push_back({"fast_rate_degc_per_h", set_up.rate_degc_per_h});
+    out.row.details.push_back({"tilt_correction_mgal", out.tilt_correction.value()});
+    out.row.details.push_back({"flicker_correction_mgal", -set_up.flicker.value()});
+    out.row.details.push_back({"left_out_mgal", std::nullopt});
+    if (out.row.reference) {
+        out.difference = out.row.acceleration - *out.row.reference - out.row.tide;
+        out.residual = *out.row.reference - out.corrected;
+    }
+    const auto k = fits.number_of(out.row.site);
+    if (!fits.stations[i].gravity) {
+        set_left_out(out, out.corrected, row_uncertainty(fits.fit, fits.stations, i));
+    } else if (k) {
+        set_left_out(out, fits.without[*k].set_ups[i].corrected,
+                     row_uncertainty(fits.without[*k], fits.others[*k], i));
+    }
+}
+
+/// Of the station's value: that of its unknown, or of the mean of several.
+std::optional<MilliGal> station_uncertainty(const DayFits& fits,
+                                            const std::vector<std::size_t>& members,
+                                            const std::string& site) {
+    const auto k = fits.number_of(site);
+    double squares = 0.0;
+    std::set<std::size_t> unknowns;
+    for (const std::size_t i : members) {
+        const bool is_held = fits.stations[i].gravity.has_value();
+        if (is_held && !k) return std::nullopt;
+        const DayFit& fit = is_held ? fits.without[*k] : fits.fit;
+        const auto& stations = is_held ? fits.others[*k] : fits.stations;
+        if (!unknowns.insert(stations[i].unknown).second) continue;
+        squares += std::pow(unknown_of(fit, stations, i).standard_error, 2);
+    }
+    return MilliGal(std::sqrt(squares) / static_cast<double>(unknowns.size()));
+}
+
+std::vector<StationValue> station_values(const std::vector<CorrectedRow>& rows, const DayFits& fits,
+                                         const RowSet& set) {
+    std::vector<StationValue> stations;
+    std::set<std::string> done;
+    for (const CorrectedRow& first : rows) {
+        if (!done.insert(first.row.site).second) continue;
+        StationValue station;
+        station.site = first.row.site;
+        station.reference = first.row.reference;
+        std::vector<std::size_t> own, members;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (rows[i].row.site != station.site) continue;
+            own.push_back(i);
+            if (!set.stands_alone(rows[i].row)) members.push_back(i);
+        }
+        station.is_flagged_only = members.empty();
+        if (members.empty()) members = own;
+        double sum = 0.0;
+        for (const std::size_t i : members) sum += rows[i].corrected.value();
+        station.row_count = members.size();
+        station.gravity = MilliGal(sum / static_cast<double>(members.size()));
+        station.u_gravity = station_uncertainty(fits, members, station.site);
+        if (station.reference) station.residual = *station.reference - station.gravity;
+        stations.push_back(std::move(station));
+    }
+    return stations;
+}
+
+}  // namespace
+
+std::optional<std::string> day_refusal(const std::vector<SurveyRow>& rows,
+                                       const std::vector<bool>& in_use, const DayRecord* day,
+                                       bool is_calibrated) {
+    if (day == nullptr) return "needs the record of the day's temperature";
+    const std::size_t used = count_of(in_use);
+    const std::size_t fewest = is_calibrated ? 1 : kFewestRows;
+    if (used < fewest)
+        return "needs at least " + std::to_string(fewest) + " rows with a reference, has " +
+               std::to_string(used);
+    if (day->temperature.longest_gap_s > kLongestGap_s)
+        return "the temperature is missing for " +
+               std::to_string(std::lround(day->temperature.longest_gap_s / 60.0)) +
+               " min at a time, allowed are " + std::to_string(std::lround(kLongestGap_s / 60.0));
+    std::vector<bool> has_bins(rows.size(), false);
+    for (const DayBin& bin : day->bins) has_bins[bin.set_up] = true;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (!has_bins[i])
+            return rows[i].site + " (" + std::to_string(rows[i].occupation) +
+                   ") has no half minute without a disturbance";
+    return std::nullopt;
+}
+
+void correct_by_day(SurveyCorrection& result, const DayRowSets& sets, const DayRecord& day) {
+    result.model = "day";
+    std::vector<CorrectedRow> rows = result.rows;
+    const bool use_flags = result.options.use_flags;
+    const std::vector<bool>& in_use = use_flags ? sets.used : sets.all;
+    const DayPriors priors = day_priors_of(result.options.calibration);
+    const DayFits fits = fit_with_and_without(rows, {in_use, use_flags}, day, priors);
+    result.score = score_of(rows, in_use, fits);
+    for (ScoredRowSet& set : result.row_sets) {
+        const bool is_used = set.rows == "used";
+        const std::vector<bool>& others = is_used ? sets.used : sets.all;
+        if (others == in_use)
+            set.scores.push_back(result.score);
+        else if (count_of(others) >= kFewestRows)
+            set.scores.push_back(
+                score_of(rows, others, fit_with_and_without(rows, {others, is_used}, day, priors)));
+    }
+    const std::vector<Averaged> averaged = averaged_samples(rows.size(), day);
+    for (std::size_t i = 0; i < rows.size(); ++i) correct_row(result.rows[i], i, fits, averaged[i]);
+    result.coefficients = coefficients_of(fits.fit);
+    result.stations = station_values(result.rows, fits, {in_use, use_flags});
+    if (result.options.calibration) {
+        const DayFits usual =
+            fit_with_and_without(rows, {in_use, use_flags}, day, usual_day_priors());
+        tell_prior_use(result, fits.fit, usual.fit, score_of(rows, in_use, usual).loso_mgal);
+    }
+    const double lead_s = seconds_between(day.temperature.series.start(), day.bins.front().time);
+    if (lead_s < kWantedLead_s)
+        result.remarks.push_back(
+            "the temperature is known from " + std::to_string(std::lround(lead_s / 60.0)) +
+            " min before the first occupation on; its slow effect wants two hours");
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,83 @@
+#include "corrector/model/linear_fit.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "protocol/linear_algebra/pivoted_qr.hpp"
+
+namespace a351::corrector {
+
+double LinearFit::at(const Eigen::Ref<const Eigen::VectorXd>& x) const {
+    // Centred: the constant would carry the rounding of large x.
+    return mean + (x - column_means).dot(coefficients.tail(coefficients.size() - 1));
+}
+
+double LinearFit::leverage_at(const Eigen::Ref<const Eigen::VectorXd>& x) const {
+    const Eigen::Index q = column_means.size();
+    const Eigen::VectorXd centred = x - column_means;
+    return 1.0 / static_cast<double>(row_count()) +
+           centred.dot(cofactor.bottomRightCorner(q, q) * centred);
+}
+
+std::optional<double> LinearFit::residual_scale() const {
+    if (dof() <= 0) return std::nullopt;
+    return std::sqrt((rss + prior_rss) / static_cast<double>(dof()));
+}
+
+std::optional<LinearFit> fit_linear(const Eigen::Ref<const Eigen::MatrixXd>& columns,
+                                    const Eigen::Ref<const Eigen::VectorXd>& y,
+                                    const SlopePriors& priors) {
+    const Eigen::Index n = columns.rows();
+    const Eigen::Index q = columns.cols();
+    LinearFit fit;
+    fit.prior_count = (priors.weights.array() > 0.0).count();
+    if (n < 1 || n + fit.prior_count < q + 1) return std::nullopt;
+
+    fit.column_means = columns.colwise().mean().transpose();
+    fit.mean = y.mean();
+    const Eigen::MatrixXd x = columns.rowwise() - fit.column_means.transpose();
+    const Eigen::VectorXd centred_y = y.array() - fit.mean;
+
+    fit.coefficients.resize(q + 1);
+    fit.cofactor.resize(q + 1, q + 1);
+    Eigen::VectorXd slopes = Eigen::VectorXd::Zero(q);
+    Eigen::MatrixXd slope_cofactor = Eigen::MatrixXd::Zero(q, q);
+    if (q > 0) {
+        // The constant has no prior, so the priors' rows stand beside the centred ones.
+        Eigen::MatrixXd rows(n + fit.prior_count, q);
+        Eigen::VectorXd right(n + fit.prior_count);
+        rows.topRows(n) = x;
+        right.head(n) = centred_y;
+        for (Eigen::Index k = 0, row = n; k < q && row < rows.rows(); ++k) {
+            if (!(priors.weights(k) > 0.0)) continue;
+            rows.row(row) = priors.weights(k) * Eigen::RowVectorXd::Unit(q, k);
+            right(row++) = priors.weights(k) * priors.values(k);
+        }
+        const PivotedQr qr(rows);
+        // Columns are centred to about 1e-16 of their values; what is left of a constant one is noise.
+        const double noise =
+            1e-12 * (1.0 + columns.cwiseAbs().maxCoeff()) * std::sqrt(static_cast<double>(n));
+        if (!(qr.pivots().array() > noise).all() || qr.rank() < q) return std::nullopt;
+        slopes = qr.solve(right);
+        fit.prior_rss = (right - rows * slopes).tail(fit.prior_count).squaredNorm();
+        const Eigen::MatrixXd root = qr.cofactor_root();
+        slope_cofactor = root * root.transpose();
+    }
+    const Eigen::VectorXd mean_cofactor = slope_cofactor * fit.column_means;
+    fit.coefficients(0) = fit.mean - slopes.dot(fit.column_means);
+    fit.coefficients.tail(q) = slopes;
+    fit.cofactor(0, 0) = 1.0 / static_cast<double>(n) + fit.column_means.dot(mean_cofactor);
+    fit.cofactor.block(1, 0, q, 1) = -mean_cofactor;
+    fit.cofactor.block(0, 1, 1, q) = -mean_cofactor.transpose();
+    fit.cofactor.bottomRightCorner(q, q) = slope_cofactor;
+
+    fit.residuals = centred_y - x * slopes;
+    fit.rss = fit.residuals.squaredNorm();
+    const double total = centred_y.squaredNorm();
+    fit.r_squared = total > 0.0 ? 1.0 - fit.rss / total : std::numeric_limits<double>::quiet_NaN();
+    fit.leverages.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) fit.leverages(i) = fit.leverage_at(columns.row(i));
+    return fit;
+}
+
+}  // namespace a351::corrector

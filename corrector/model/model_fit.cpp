@@ -1,0 +1,257 @@
+#include "corrector/model/model_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "corrector/model/paper_correction.hpp"
+#include "protocol/core/units.hpp"
+
+namespace a351::corrector {
+namespace {
+
+Eigen::VectorXd as_vector(const std::vector<double>& values) {
+    return Eigen::Map<const Eigen::VectorXd>(values.data(),
+                                             static_cast<Eigen::Index>(values.size()));
+}
+
+std::vector<SurveyRow> without_station(const std::vector<SurveyRow>& rows,
+                                       const std::string& site) {
+    std::vector<SurveyRow> others;
+    for (const SurveyRow& row : rows) {
+        if (row.site != site) others.push_back(row);
+    }
+    return others;
+}
+
+std::vector<std::string> stations_of(const std::vector<SurveyRow>& rows) {
+    std::vector<std::string> stations;
+    for (const SurveyRow& row : rows) {
+        if (std::find(stations.begin(), stations.end(), row.site) == stations.end()) {
+            stations.push_back(row.site);
+        }
+    }
+    return stations;
+}
+
+using ModelOf = std::function<const LinearModel*(const std::vector<SurveyRow>&)>;
+
+/// Leave-one-station-out error of the model that `model_of` takes from the remaining rows.
+std::optional<double> left_out_stations_mgal(const ModelOf& model_of,
+                                             const std::vector<SurveyRow>& rows, UtcTime origin,
+                                             const ModelPriors& priors) {
+    double sum = 0.0;
+    for (const std::string& station : stations_of(rows)) {
+        const std::vector<SurveyRow> others = without_station(rows, station);
+        const LinearModel* const model = model_of(others);
+        if (model == nullptr) return std::nullopt;
+        const auto fit = fit_model(*model, others, origin, priors);
+        if (!fit) return std::nullopt;
+        const Eigen::MatrixXd columns = model_columns(*model, rows, origin);
+        const std::vector<double> differences = differences_mgal(rows);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (rows[i].site != station) continue;
+            const double error =
+                differences[i] - fit->at(columns.row(static_cast<Eigen::Index>(i)).transpose());
+            sum += error * error;
+        }
+    }
+    return std::sqrt(sum / static_cast<double>(rows.size()));
+}
+
+/// Error (1) and (2) of the publication; (2) is empty when the drift step is refused.
+struct PaperErrors {
+    std::vector<double> before_mgal;
+    std::vector<double> after_mgal;
+};
+
+std::optional<PaperErrors> paper_errors(const std::vector<SurveyRow>& rows,
+                                        const std::vector<bool>& in_use, std::string_view base) {
+    const auto line = fit_temperature_line(rows, in_use);
+    if (!line) return std::nullopt;
+    const std::vector<double> corrected1 = temperature_corrected_mgal(rows, *line);
+    PaperErrors errors{errors_mgal(rows, corrected1), {}};
+    const DriftStep step = find_end_point_drift(rows, in_use, corrected1, base);
+    if (step.drift) {
+        errors.after_mgal = errors_mgal(rows, drift_corrected_mgal(rows, corrected1, *step.drift));
+    }
+    return errors;
+}
+
+/// Error (2) of row `left_out`, line and drift made without it.
+std::optional<double> left_out_paper_error_mgal(std::vector<SurveyRow> rows,
+                                                std::vector<bool> in_use, std::size_t left_out,
+                                                std::string_view base) {
+    const SurveyRow row = rows[left_out];
+    rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(left_out));
+    in_use.erase(in_use.begin() + static_cast<std::ptrdiff_t>(left_out));
+    const auto line = fit_temperature_line(rows, in_use);
+    if (!line) return std::nullopt;
+    const DriftStep step =
+        find_end_point_drift(rows, in_use, temperature_corrected_mgal(rows, *line), base);
+    if (!step.drift) return std::nullopt;
+    const std::vector<double> corrected1 = temperature_corrected_mgal({row}, *line);
+    return errors_mgal({row}, drift_corrected_mgal({row}, corrected1, *step.drift)).front();
+}
+
+bool takes_part(const LinearModel& model, const std::vector<SurveyRow>& rows,
+                std::string_view base) {
+    constexpr std::size_t kFewestBaseStays = 3;
+    constexpr std::size_t kEnoughRows = 12;
+    if (!(model.has_rate && model.has_time)) return true;
+    std::set<int> base_stays;
+    for (const SurveyRow& row : rows) {
+        if (row.site == base) base_stays.insert(row.occupation);
+    }
+    return base_stays.size() >= kFewestBaseStays || rows.size() >= kEnoughRows;
+}
+
+}  // namespace
+
+const LinearModel* find_linear_model(std::string_view name) {
+    for (const LinearModel& model : kLinearModels) {
+        if (model.name == name) return &model;
+    }
+    return name == kAxesModel.name ? &kAxesModel : nullptr;
+}
+
+Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<SurveyRow>& rows,
+                              UtcTime origin) {
+    Eigen::MatrixXd columns(static_cast<Eigen::Index>(rows.size()),
+                            static_cast<Eigen::Index>(model.parameter_count()) - 1);
+    for (Eigen::Index i = 0; i < columns.rows(); ++i) {
+        const SurveyRow& row = rows[static_cast<std::size_t>(i)];
+        Eigen::Index k = 0;
+        columns(i, k++) = (row.temperature - kReferenceTemperature).value();
+        if (model.has_rate) columns(i, k++) = row.rate_degc_per_h;
+        if (model.has_time) {
+            columns(i, k++) =
+                seconds_between(origin, row.time) / kSecondsPerHour - kReferenceTime_h;
+        }
+        if (model.has_axes) {
+            const std::string wanted_by = "model = " + std::string(kAxesModel.name);
+            columns(i, k++) = row.detail_for(wanted_by, "mean_x_g");
+            columns(i, k) = row.detail_for(wanted_by, "mean_y_g");
+        }
+    }
+    return columns;
+}
+
+std::vector<std::string> coefficient_names(const LinearModel& model) {
+    std::vector<std::string> names{"constant_mgal", "temperature_mgal_per_degc"};
+    if (model.has_rate) names.emplace_back("rate_mgal_per_degc_per_h");
+    if (model.has_time) names.emplace_back("time_mgal_per_h");
+    if (model.has_axes) names.insert(names.end(), {"x_mgal_per_g", "y_mgal_per_g"});
+    return names;
+}
+
+SlopePriors slope_priors(const LinearModel& model, const ModelPriors& priors) {
+    const std::vector<std::string> names = coefficient_names(model);
+    const auto slope_count = static_cast<Eigen::Index>(names.size()) - 1;
+    SlopePriors slopes{Eigen::VectorXd::Zero(slope_count), Eigen::VectorXd::Zero(slope_count)};
+    for (Eigen::Index k = 0; k < slope_count; ++k) {
+        const Prior* const prior = priors.find(names[static_cast<std::size_t>(k) + 1]);
+        if (prior == nullptr) continue;
+        slopes.values(k) = prior->mean;
+        slopes.weights(k) = priors.reading_sd_mgal / prior->sd;
+    }
+    return slopes;
+}
+
+std::optional<LinearFit> fit_model(const LinearModel& model, const std::vector<SurveyRow>& rows,
+                                   UtcTime origin, const ModelPriors& priors) {
+    if (rows.empty()) return std::nullopt;
+    return fit_linear(model_columns(model, rows, origin), as_vector(differences_mgal(rows)),
+                      slope_priors(model, priors));
+}
+
+ModelScore score_linear_model(const LinearModel& model, const std::vector<SurveyRow>& rows,
+                              UtcTime origin, const ModelPriors& priors) {
+    ModelScore score;
+    score.model = model.name;
+    score.row_count = rows.size();
+    score.parameter_count = model.parameter_count();
+    const auto fit = fit_model(model, rows, origin, priors);
+    if (!fit) return score;
+
+    const auto n = static_cast<double>(score.row_count);
+    const auto k = static_cast<double>(score.parameter_count + 1);
+    score.rms_mgal = std::sqrt(fit->rss / n);
+    score.dof = static_cast<std::size_t>(fit->dof());
+    score.s_mgal = fit->residual_scale();
+    if (score.s_mgal) {
+        const Eigen::ArrayXd left_out = fit->residuals.array() / (1.0 - fit->leverages.array());
+        score.loo_mgal = std::sqrt(left_out.square().sum() / n);
+        if (!std::isfinite(*score.loo_mgal)) score.loo_mgal.reset();
+    }
+    if (n - k - 1.0 > 0.0 && fit->rss > 0.0 && fit->prior_count == 0) {
+        score.aicc = n * std::log(fit->rss / n) + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
+    }
+    score.loso_mgal =
+        left_out_stations_mgal([&model](const auto&) { return &model; }, rows, origin, priors);
+    return score;
+}
+
+ModelScore score_paper_model(const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use,
+                             std::string_view base) {
+    ModelScore score;
+    score.model = "paper";
+    score.row_count = static_cast<std::size_t>(std::count(in_use.begin(), in_use.end(), true));
+    score.parameter_count = 4;  // slope, intercept, and the errors at both ends
+    const auto errors = paper_errors(rows, in_use, base);
+    if (!errors) return score;
+    score.rms_before_drift_mgal = rms(errors->before_mgal, in_use).value();
+    if (errors->after_mgal.empty()) return score;
+    const auto n = static_cast<double>(score.row_count);
+    score.dof = score.row_count - std::min(score.row_count, score.parameter_count);
+    score.rms_mgal = rms(errors->after_mgal, in_use).value();
+    if (score.dof > 0)
+        score.s_mgal = *score.rms_mgal * std::sqrt(n / static_cast<double>(score.dof));
+
+    double sum = 0.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (!in_use[i]) continue;
+        const auto error = left_out_paper_error_mgal(rows, in_use, i, base);
+        if (!error) return score;
+        sum += *error * *error;
+    }
+    score.loo_mgal = std::sqrt(sum / n);
+    return score;
+}
+
+std::optional<ModelChoice> choose_model(const std::vector<SurveyRow>& rows, UtcTime origin,
+                                        std::string_view base, const ModelPriors& priors) {
+    std::vector<ModelScore> scores;
+    for (const LinearModel& model : kLinearModels) {
+        if (!takes_part(model, rows, base)) continue;
+        ModelScore score = score_linear_model(model, rows, origin, priors);
+        if (score.loso_mgal && score.row_count > score.parameter_count) scores.push_back(score);
+    }
+    if (scores.empty()) return std::nullopt;
+    const auto by_loso = [](const ModelScore& a, const ModelScore& b) {
+        return *a.loso_mgal < *b.loso_mgal;
+    };
+    const ModelScore& best = *std::min_element(scores.begin(), scores.end(), by_loso);
+    const auto dof = static_cast<double>(best.row_count - best.parameter_count);
+    const double limit = *best.loso_mgal * (1.0 + 1.0 / std::sqrt(2.0 * dof));
+    const ModelScore* chosen = &best;
+    for (const ModelScore& score : scores) {
+        if (*score.loso_mgal > limit) continue;
+        const bool is_smaller = score.parameter_count < chosen->parameter_count;
+        const bool is_equal = score.parameter_count == chosen->parameter_count;
+        if (is_smaller || (is_equal && by_loso(score, *chosen))) chosen = &score;
+    }
+    return ModelChoice{chosen->model, limit};
+}
+
+std::optional<double> choice_loso_mgal(const std::vector<SurveyRow>& rows, UtcTime origin,
+                                       std::string_view base, const ModelPriors& priors) {
+    const ModelOf chosen = [&](const std::vector<SurveyRow>& others) -> const LinearModel* {
+        const auto choice = choose_model(others, origin, base, priors);
+        return choice ? find_linear_model(choice->model) : nullptr;
+    };
+    return left_out_stations_mgal(chosen, rows, origin, priors);
+}
+
+}  // namespace a351::corrector

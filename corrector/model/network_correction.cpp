@@ -1,0 +1,199 @@
+#include "corrector/model/network_correction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "protocol/core/input_error.hpp"
+
+namespace a351::corrector {
+namespace {
+
+ModelScore score_of(const NetworkAdjustment& network, double reading_sd_mgal) {
+    ModelScore score;
+    score.model = "network";
+    score.row_count = network.reading_count;
+    score.parameter_count = static_cast<std::size_t>(network.unknowns.size());
+    score.dof = network.dof;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < network.reading_count; ++i) {
+        squares += network.rows[i].residual * network.rows[i].residual;
+    }
+    score.rms_mgal = std::sqrt(squares / static_cast<double>(network.reading_count));
+    if (const auto s0 = network.s0()) score.s_mgal = *s0 * reading_sd_mgal;
+    if (network.datum_count < 2) return score;
+    squares = 0.0;
+    for (std::size_t k = 0; k < network.datum_count; ++k) {
+        const NetworkRow& datum = network.rows[network.reading_count + k];
+        squares += std::pow(datum.residual / datum.redundancy, 2);
+    }
+    score.loso_mgal = std::sqrt(squares / static_cast<double>(network.datum_count));
+    if (!std::isfinite(*score.loso_mgal)) score.loso_mgal.reset();
+    return score;
+}
+
+/// Variance of what the terms add to `line`, a mean of lines of the terms' columns.
+double effect_variance(const NetworkAdjustment& network, const Eigen::RowVectorXd& line) {
+    const Eigen::Index k = line.size();
+    return (line * network.covariance.bottomRightCorner(k, k)).dot(line);
+}
+
+void set_rows(SurveyCorrection& result, const NetworkAdjustment& network,
+              const std::vector<bool>& in_use) {
+    const double sd = result.options.priors.reading_sd_mgal;
+    std::size_t reading = 0;
+    for (std::size_t i = 0; i < result.rows.size(); ++i) {
+        CorrectedRow& out = result.rows[i];
+        out.is_used = in_use[i];
+        double constant = 0.0;
+        double drift = 0.0;
+        double temperature = 0.0;
+        double rate = 0.0;
+        for (std::size_t k = 0; k < network.terms.size(); ++k) {
+            const double effect = network.effect_mgal(i, k);
+            const std::string& name = network.terms[k];
+            (name.starts_with("constant")      ? constant
+             : name.starts_with("time")        ? drift
+             : name.starts_with("temperature") ? temperature
+                                               : rate) += effect;
+        }
+        out.temperature_correction = MilliGal(-constant - temperature);
+        out.rate_correction = MilliGal(-rate);
+        out.drift_correction = MilliGal(-drift);
+        out.corrected = out.row.acceleration - out.row.tide + out.temperature_correction +
+                        out.rate_correction + out.drift_correction;
+        if (out.row.reference) out.residual = *out.row.reference - out.corrected;
+        const double variance =
+            effect_variance(network, network.term_columns.row(static_cast<Eigen::Index>(i)));
+        out.u_corrected = MilliGal(std::sqrt(sd * sd + variance));
+        out.leverage = variance / (sd * sd);
+        if (!in_use[i]) continue;
+        out.leverage = 1.0 - network.rows[reading].redundancy;
+        out.studentised_residual = network.studentised(reading++);
+    }
+}
+
+StationValue adjusted_station(const SurveyCorrection& result, const NetworkAdjustment& network,
+                              std::size_t k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    StationValue station;
+    station.site = network.stations[k];
+    station.gravity = network.origin + MilliGal(network.unknowns(at));
+    station.u_gravity = MilliGal(std::sqrt(network.covariance(at, at)));
+    if (const auto s0 = network.s0()) {
+        station.u_a_posteriori = MilliGal(*s0 * station.u_gravity->value());
+    }
+    station.redundancy = 0.0;
+    for (const CorrectedRow& row : result.rows) {
+        if (row.row.site != station.site) continue;
+        station.reference = row.row.reference;
+        if (!row.is_used) continue;
+        ++station.row_count;
+        *station.redundancy += 1.0 - row.leverage.value();
+    }
+    for (const NetworkRow& row : network.rows) {
+        if (row.label == "datum " + station.site) *station.redundancy += row.redundancy;
+    }
+    return station;
+}
+
+/// A station that is seen in flagged rows only.
+StationValue flagged_station(const SurveyCorrection& result, const NetworkAdjustment& network,
+                             const std::string& site) {
+    StationValue station;
+    station.site = site;
+    station.is_flagged_only = true;
+    double sum = 0.0;
+    Eigen::RowVectorXd line = Eigen::RowVectorXd::Zero(network.term_columns.cols());
+    for (std::size_t i = 0; i < result.rows.size(); ++i) {
+        const CorrectedRow& row = result.rows[i];
+        if (row.row.site != site) continue;
+        station.reference = row.row.reference;
+        ++station.row_count;
+        sum += (row.corrected - network.origin).value();
+        line += network.term_columns.row(static_cast<Eigen::Index>(i));
+    }
+    const auto n = static_cast<double>(station.row_count);
+    const double sd = result.options.priors.reading_sd_mgal;
+    station.gravity = network.origin + MilliGal(sum / n);
+    station.u_gravity = MilliGal(std::sqrt(sd * sd / n + effect_variance(network, line / n)));
+    return station;
+}
+
+/// Takes out the rows whose loop has no constant, and says so.
+void leave_out_untied(SurveyCorrection& result, const NetworkAdjustment& network) {
+    std::vector<CorrectedRow> rows;
+    std::string names;
+    for (std::size_t i = 0; i < result.rows.size(); ++i) {
+        const SurveyRow& row = result.rows[i].row;
+        if (network.is_tied[i]) {
+            rows.push_back(std::move(result.rows[i]));
+            continue;
+        }
+        names +=
+            (names.empty() ? "" : ", ") + row.site + " (" + std::to_string(row.occupation) + ')';
+        result.left_out.push_back({row.site, row.occupation, row.start.value_or(row.time),
+                                   row.end.value_or(row.time), "no reading of its loop in use"});
+    }
+    result.rows = std::move(rows);
+    if (names.empty()) return;
+    result.remarks.push_back("no reading in use between two pauses of more than " +
+                             std::to_string(std::lround(kLoopPause_h)) +
+                             " h, so that the instrument's constant there is open: left out are " +
+                             names);
+}
+
+void set_stations(SurveyCorrection& result, const NetworkAdjustment& network) {
+    for (const CorrectedRow& row : result.rows) {
+        const std::string& site = row.row.site;
+        const bool is_known = std::any_of(result.stations.begin(), result.stations.end(),
+                                          [&](const auto& s) { return s.site == site; });
+        if (is_known) continue;
+        const auto at = std::find(network.stations.begin(), network.stations.end(), site);
+        result.stations.push_back(
+            at == network.stations.end()
+                ? flagged_station(result, network, site)
+                : adjusted_station(result, network,
+                                   static_cast<std::size_t>(at - network.stations.begin())));
+        StationValue& station = result.stations.back();
+        if (station.reference) station.residual = *station.reference - station.gravity;
+    }
+}
+
+}  // namespace
+
+void correct_network(SurveyCorrection& result, const std::vector<SurveyRow>& rows,
+                     const std::vector<bool>& not_flagged) {
+    const SurveyOptions& options = result.options;
+    const auto adjust = [&](const std::vector<bool>& in_use) {
+        return adjust_network(rows, in_use, options.datum, options.priors, options.network);
+    };
+    const NetworkResult network = adjust(not_flagged);
+    if (!network.adjustment) throw InputError("model = network: " + network.refusal);
+    result.model = "network";
+    result.network = network.adjustment;
+    result.score = score_of(*network.adjustment, options.priors.reading_sd_mgal);
+    for (ScoredRowSet& set : result.row_sets) {
+        std::vector<bool> in_use;
+        in_use.reserve(rows.size());
+        for (const SurveyRow& row : rows)
+            in_use.push_back(!row.is_excluded && (set.rows == "all" || !row.is_flagged));
+        const NetworkResult other = adjust(in_use);
+        ModelScore score;
+        score.model = "network";
+        if (other.adjustment) score = score_of(*other.adjustment, options.priors.reading_sd_mgal);
+        set.scores.push_back(score);
+    }
+    for (std::size_t k = 0; k < network.adjustment->terms.size(); ++k) {
+        const auto at = static_cast<Eigen::Index>(network.adjustment->stations.size() + k);
+        result.coefficients.push_back({network.adjustment->terms[k],
+                                       network.adjustment->unknowns(at),
+                                       std::sqrt(network.adjustment->covariance(at, at))});
+    }
+    set_rows(result, *network.adjustment, not_flagged);
+    leave_out_untied(result, *network.adjustment);
+    set_stations(result, *network.adjustment);
+    const auto& remarks = network.adjustment->remarks;
+    result.remarks.insert(result.remarks.end(), remarks.begin(), remarks.end());
+}
+
+}  // namespace a351::corrector

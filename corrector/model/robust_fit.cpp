@@ -1,0 +1,223 @@
+#include "corrector/model/robust_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "protocol/linear_algebra/pivoted_qr.hpp"
+#include "protocol/signal/median.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr Eigen::Index kExhaustiveRows = 25;  // 12650 subsets of four
+constexpr int kDrawnSubsets = 3000;           // hundreds are clean at 40 % bad rows
+constexpr std::size_t kBestStarts = 10;
+constexpr int kMostSteps = 200;
+/// Below the last digit of any table: rows closer than this agree.
+constexpr double kLeastScale = 1e-6;
+
+/// y = [1 X] b with the priors' rows below.
+struct Problem {
+    Eigen::MatrixXd design;  ///< (n, p) constant, centred columns.
+    Eigen::VectorXd y;
+    Eigen::MatrixXd prior_design;
+    Eigen::VectorXd prior_y;
+
+    /// Weighted least squares; empty when the weighted rows leave something open.
+    [[nodiscard]] std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& weights) const {
+        const Eigen::Index used = (weights.array() > 0.0).count();
+        const Eigen::Index p = design.cols();
+        Eigen::MatrixXd rows(used + prior_design.rows(), p);
+        Eigen::VectorXd right(rows.rows());
+        Eigen::Index at = 0;
+        for (Eigen::Index i = 0; i < weights.size(); ++i) {
+            if (!(weights(i) > 0.0)) continue;
+            const double root = std::sqrt(weights(i));
+            rows.row(at) = root * design.row(i);
+            right(at++) = root * y(i);
+        }
+        rows.bottomRows(prior_design.rows()) = prior_design;
+        right.tail(prior_y.size()) = prior_y;
+        if (rows.rows() < p) return std::nullopt;
+        const PivotedQr qr(rows);
+        // Temperatures are printed to 0.01 degC: smaller pivots come from rows alike.
+        constexpr double kLeastPivot = 1e-9;
+        if (!(qr.pivots()(p - 1) > kLeastPivot)) return std::nullopt;
+        return qr.solve(right);
+    }
+
+    [[nodiscard]] Eigen::VectorXd residuals(const Eigen::VectorXd& b) const {
+        return y - design * b;
+    }
+};
+
+Problem problem_of(const Eigen::Ref<const Eigen::MatrixXd>& columns,
+                   const Eigen::Ref<const Eigen::VectorXd>& y, const SlopePriors& priors) {
+    const Eigen::Index p = columns.cols() + 1;
+    Problem problem;
+    problem.design.resize(columns.rows(), p);
+    problem.design.col(0).setOnes();
+    problem.design.rightCols(p - 1) =
+        columns.rowwise() - Eigen::RowVectorXd(columns.colwise().mean());
+    problem.y = y.array() - y.mean();
+    const Eigen::Index prior_count = (priors.weights.array() > 0.0).count();
+    problem.prior_design = Eigen::MatrixXd::Zero(prior_count, p);
+    problem.prior_y.resize(prior_count);
+    for (Eigen::Index k = 0, row = 0; k < priors.weights.size(); ++k) {
+        if (!(priors.weights(k) > 0.0)) continue;
+        problem.prior_design(row, k + 1) = priors.weights(k);
+        problem.prior_y(row++) = priors.weights(k) * priors.values(k);
+    }
+    return problem;
+}
+
+struct Start {
+    double trimmed = 0.0;  ///< Sum of the h smallest squares.
+    Eigen::VectorXd b;
+};
+
+/// The h rows with the smallest residuals get weight 1.
+Eigen::VectorXd best_half(const Eigen::VectorXd& residuals, Eigen::Index h, double& trimmed) {
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(residuals.size()));
+    std::iota(order.begin(), order.end(), Eigen::Index(0));
+    std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+        return std::pair(std::abs(residuals(a)), a) < std::pair(std::abs(residuals(b)), b);
+    });
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(residuals.size());
+    trimmed = 0.0;
+    for (Eigen::Index k = 0; k < h; ++k) {
+        const Eigen::Index i = order[static_cast<std::size_t>(k)];
+        weights(i) = 1.0;
+        trimmed += residuals(i) * residuals(i);
+    }
+    return weights;
+}
+
+/// Calls `visit` with 0/1 weights of subsets of p rows.
+template <class Visit>
+void for_each_subset(Eigen::Index n, Eigen::Index p, const Visit& visit) {
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
+    if (n <= kExhaustiveRows) {
+        std::vector<bool> chosen(static_cast<std::size_t>(n), false);
+        std::fill(chosen.begin(), chosen.begin() + p, true);
+        do {
+            for (Eigen::Index i = 0; i < n; ++i) {
+                weights(i) = chosen[static_cast<std::size_t>(i)] ? 1.0 : 0.0;
+            }
+            visit(weights);
+        } while (std::prev_permutation(chosen.begin(), chosen.end()));
+        return;
+    }
+    std::mt19937_64 generator(1);  // its own: the fit is the same whatever the survey's seed
+    for (int draw = 0; draw < kDrawnSubsets; ++draw) {
+        weights.setZero();
+        for (Eigen::Index chosen = 0; chosen < p;) {
+            double& weight =
+                weights(static_cast<Eigen::Index>(generator() % static_cast<std::uint64_t>(n)));
+            if (weight > 0.0) continue;
+            weight = 1.0;
+            ++chosen;
+        }
+        visit(weights);
+    }
+}
+
+std::optional<Eigen::VectorXd> least_trimmed_squares(const Problem& problem) {
+    const Eigen::Index n = problem.y.size();
+    const Eigen::Index p = problem.design.cols();
+    const Eigen::Index h = (n + p + 1) / 2;
+    const auto is_better = [](const Start& a, const Start& b) { return a.trimmed < b.trimmed; };
+    std::vector<Start> best;  // a heap, the worst in front
+    for_each_subset(n, p, [&](const Eigen::VectorXd& weights) {
+        auto b = problem.solve(weights);
+        if (!b) return;
+        Start start{0.0, std::move(*b)};
+        Eigen::ArrayXd squares = problem.residuals(start.b).array().square();
+        std::nth_element(squares.begin(), squares.begin() + (h - 1), squares.end());
+        start.trimmed = squares.head(h).sum();
+        if (best.size() == kBestStarts && !is_better(start, best.front())) return;
+        if (best.size() == kBestStarts) {
+            std::pop_heap(best.begin(), best.end(), is_better);
+            best.pop_back();
+        }
+        best.push_back(std::move(start));
+        std::push_heap(best.begin(), best.end(), is_better);
+    });
+    if (best.empty()) return std::nullopt;
+    for (Start& start : best) {
+        for (int step = 0; step < kMostSteps; ++step) {
+            double trimmed = 0.0;
+            const auto b = problem.solve(best_half(problem.residuals(start.b), h, trimmed));
+            if (!b) break;
+            Start next{0.0, *b};
+            static_cast<void>(best_half(problem.residuals(*b), h, next.trimmed));
+            if (!is_better(next, start)) break;
+            start = std::move(next);
+        }
+    }
+    return std::min_element(best.begin(), best.end(), is_better)->b;
+}
+
+double median_size(const Eigen::VectorXd& residuals) {
+    std::vector<double> sizes(residuals.begin(), residuals.end());
+    for (double& size : sizes) size = std::abs(size);
+    std::sort(sizes.begin(), sizes.end());
+    const std::size_t n = sizes.size();
+    return n % 2 == 1 ? sizes[n / 2] : 0.5 * (sizes[n / 2 - 1] + sizes[n / 2]);
+}
+
+Eigen::VectorXd bisquare_weights(const Eigen::VectorXd& residuals, double scale) {
+    const Eigen::ArrayXd u = residuals.array() / (kBisquareTuning * scale);
+    return (u.abs() < 1.0).select((1.0 - u.square()).square(), 0.0);
+}
+
+/// Huber's s: s^2 = sum psi^2 / (n - p) / mean(psi')^2.
+double covariance_scale(const RobustFit& robust) {
+    const Eigen::ArrayXd r = robust.fit.residuals.array();
+    const Eigen::ArrayXd u2 = (r / (kBisquareTuning * robust.start_scale)).square();
+    const double slope = (u2 < 1.0).select((1.0 - u2) * (1.0 - 5.0 * u2), 0.0).mean();
+    const auto dof = static_cast<double>(robust.fit.row_count() - robust.fit.parameter_count());
+    return std::sqrt((robust.weights.array() * r).square().sum() / dof) / slope;
+}
+
+}  // namespace
+
+std::optional<RobustFit> fit_robust(const Eigen::Ref<const Eigen::MatrixXd>& columns,
+                                    const Eigen::Ref<const Eigen::VectorXd>& y,
+                                    const SlopePriors& priors) {
+    const Eigen::Index n = columns.rows();
+    const Eigen::Index p = columns.cols() + 1;
+    if (n <= p) return std::nullopt;
+    auto all = fit_linear(columns, y, priors);
+    if (!all) return std::nullopt;
+    const Problem problem = problem_of(columns, y, priors);
+    const auto start = least_trimmed_squares(problem);
+    if (!start) return std::nullopt;
+
+    RobustFit robust;
+    Eigen::VectorXd b = *start;
+    robust.start_scale =
+        std::max(kLeastScale, kGaussianPerMad * (1.0 + 5.0 / static_cast<double>(n - p)) *
+                                  median_size(problem.residuals(b)));
+    for (int step = 0; step < kMostSteps; ++step) {
+        robust.weights = bisquare_weights(problem.residuals(b), robust.start_scale);
+        const auto next = problem.solve(robust.weights);
+        if (!next) return std::nullopt;
+        const double change = (problem.design * (*next - b)).cwiseAbs().maxCoeff();
+        b = *next;
+        if (change < kLeastScale * 1e-3) break;
+    }
+    robust.fit = std::move(*all);
+    robust.fit.mean = y.mean() + b(0);
+    robust.fit.coefficients.tail(p - 1) = b.tail(p - 1);
+    robust.fit.coefficients(0) = robust.fit.mean - b.tail(p - 1).dot(robust.fit.column_means);
+    robust.fit.residuals = problem.residuals(b);
+    robust.fit.rss = robust.fit.residuals.squaredNorm();
+    robust.s = covariance_scale(robust);
+    if (!(robust.s > 0.0)) robust.s = robust.start_scale;
+    return robust;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,349 @@
+#include "corrector/model/survey_correction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "corrector/model/calibration_use.hpp"
+#include "corrector/model/day_correction.hpp"
+#include "corrector/model/network_correction.hpp"
+#include "corrector/model/outlier_tests.hpp"
+#include "corrector/model/paper_correction.hpp"
+#include "corrector/model/robust_fit.hpp"
+#include "corrector/model/row_doubts.hpp"
+#include "protocol/core/input_error.hpp"
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+void require_row_of(const std::vector<SurveyRow>& rows, const std::string& site,
+                    const std::string& role) {
+    std::vector<std::string> known;
+    for (const SurveyRow& row : rows) {
+        if (row.site == site) return;
+        if (std::find(known.begin(), known.end(), row.site) == known.end()) {
+            known.push_back(row.site);
+        }
+    }
+    throw InputError(role + " = " + site +
+                     ": no occupation of it; allowed: " + text::joined(known));
+}
+
+/// Whether a row may enter a fit, flags aside.
+bool is_datum(const SurveyRow& row, const std::vector<std::string>& datum) {
+    return row.reference && !row.is_excluded &&
+           (datum.empty() || std::find(datum.begin(), datum.end(), row.site) != datum.end());
+}
+
+std::vector<SurveyRow> chosen_rows(const std::vector<SurveyRow>& rows,
+                                   const std::vector<bool>& chosen) {
+    std::vector<SurveyRow> result;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (chosen[i]) result.push_back(rows[i]);
+    }
+    return result;
+}
+
+ScoredRowSet score_all_models(const std::string& name, const std::vector<SurveyRow>& rows,
+                              const std::vector<bool>& in_use, const SurveyOptions& options) {
+    ScoredRowSet set{name, {score_paper_model(rows, in_use, options.base)}};
+    const std::vector<SurveyRow> used = chosen_rows(rows, in_use);
+    for (const LinearModel& model : kLinearModels) {
+        set.scores.push_back(score_linear_model(model, used, rows.front().time, options.priors));
+    }
+    return set;
+}
+
+/// What the fit gives for every row, in use or not.
+struct Applied {
+    LinearFit fit;
+    Eigen::MatrixXd columns;  ///< All rows.
+    std::optional<double> s_mgal;
+};
+
+Applied apply_model(const LinearModel& model, const std::vector<SurveyRow>& rows,
+                    const std::vector<SurveyRow>& used, UtcTime origin, const ModelPriors& priors) {
+    auto fit = fit_model(model, used, origin, priors);
+    if (!fit) {
+        throw InputError("model = " + std::string(model.name) + ": " + std::to_string(used.size()) +
+                         " rows with a reference do not determine it; allowed: at least " +
+                         std::to_string(model.parameter_count()) +
+                         " rows between which temperature, rate and time vary independently");
+    }
+    const auto s_mgal = fit->residual_scale();
+    return {std::move(*fit), model_columns(model, rows, origin), s_mgal};
+}
+
+void set_uncertainty(CorrectedRow& out, const LinearFit& fit, std::optional<double> s_mgal,
+                     const Eigen::VectorXd& x) {
+    const double leverage = fit.leverage_at(x);
+    out.leverage = leverage;
+    if (s_mgal) out.u_corrected = MilliGal(*s_mgal * std::sqrt(1.0 + leverage));
+}
+
+void correct_linear(SurveyCorrection& result, const LinearModel& model, const Applied& applied) {
+    const LinearFit& fit = applied.fit;
+    const auto s = applied.s_mgal;
+    for (std::size_t i = 0; i < result.rows.size(); ++i) {
+        CorrectedRow& out = result.rows[i];
+        const auto at = static_cast<Eigen::Index>(i);
+        const auto effect = [&](Eigen::Index k) {
+            return MilliGal(fit.coefficients(k + 1) * applied.columns(at, k));
+        };
+        const Eigen::VectorXd x = applied.columns.row(at).transpose();
+        Eigen::Index k = 0;
+        out.temperature_correction = -(MilliGal(fit.coefficients(0)) + effect(k++));
+        if (model.has_rate) out.rate_correction = -effect(k++);
+        if (model.has_time) out.drift_correction = -effect(k++);
+        if (model.has_axes) {
+            out.tilt_correction = -(effect(k) + effect(k + 1));
+            out.row.set_detail("tilt_correction_mgal", out.tilt_correction.value());
+        }
+        out.corrected = out.row.acceleration - out.row.tide - MilliGal(fit.at(x));
+        if (out.row.reference) out.residual = *out.row.reference - out.corrected;
+        set_uncertainty(out, fit, s, x);
+        if (out.residual) {
+            out.studentised_residual =
+                studentised_residual(out.residual->value(), out.leverage.value(), out.is_used, fit);
+        }
+    }
+    const std::vector<std::string> names = coefficient_names(model);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        const auto at = static_cast<Eigen::Index>(k);
+        std::optional<double> error;
+        if (s) error = *s * std::sqrt(fit.cofactor(at, at));
+        result.coefficients.push_back({names[k], fit.coefficients(at), error});
+    }
+}
+
+/// Leave-one-out errors of the rows in the fit are exact for least squares: r / (1 - h).
+std::optional<Interval> loo_interval(const SurveyCorrection& result) {
+    std::vector<double> errors;
+    std::vector<std::string> stations;
+    for (const CorrectedRow& row : result.rows) {
+        if (!row.is_used) continue;
+        errors.push_back(row.residual->value() / (1.0 - row.leverage.value()));
+        stations.push_back(row.row.site);
+    }
+    if (!result.score.loo_mgal) return std::nullopt;
+    return bootstrap_rms_interval(errors, stations, result.options.seed);
+}
+
+void correct_robust(SurveyCorrection& result, const LinearModel& model, Applied& applied,
+                    const std::vector<SurveyRow>& used, UtcTime origin) {
+    const auto robust = fit_robust_model(model, used, origin, result.options.priors);
+    if (!robust) {
+        throw InputError("model = robust: " + std::to_string(used.size()) +
+                         " rows with a reference are too few for " + std::string(model.name) +
+                         ", or too many of them alike; allowed: more of them");
+    }
+    applied.fit = robust->fit;
+    applied.s_mgal = robust->s;
+    correct_linear(result, model, applied);
+    Eigen::Index at = 0;
+    for (CorrectedRow& row : result.rows) {
+        // The robust scale is hardly the row's own doing: no row is left out of it.
+        row.studentised_residual.reset();
+        if (row.residual && row.leverage.value() < 1.0) {
+            const double share =
+                row.is_used ? 1.0 - row.leverage.value() : 1.0 + row.leverage.value();
+            row.studentised_residual = row.residual->value() / (robust->s * std::sqrt(share));
+        }
+        if (row.is_used) row.weight = robust->weights(at++);
+    }
+}
+
+void correct_as_published(SurveyCorrection& result, const std::vector<SurveyRow>& rows,
+                          const std::vector<bool>& in_use, const Applied& line_fit) {
+    const TemperatureLine line = fit_temperature_line(rows, in_use).value();
+    const std::vector<double> corrected1 = temperature_corrected_mgal(rows, line);
+    const DriftStep step = find_end_point_drift(rows, in_use, corrected1, result.options.base);
+    if (!step.drift) {
+        throw InputError("model = paper: the drift step is refused, " + step.refusal +
+                         "; allowed: another base, or a model of auto, t, t-rate, t-drift, "
+                         "t-rate-drift");
+    }
+    const std::vector<double> corrected2 = drift_corrected_mgal(rows, corrected1, *step.drift);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        CorrectedRow& out = result.rows[i];
+        out.corrected1 = MilliGal(corrected1[i]);
+        out.corrected = MilliGal(corrected2[i]);
+        out.temperature_correction = *out.corrected1 - (rows[i].acceleration - rows[i].tide);
+        out.drift_correction = step.drift->at(rows[i].time);
+        if (rows[i].reference) out.residual = *rows[i].reference - out.corrected;
+        set_uncertainty(out, line_fit.fit, result.score.s_mgal,
+                        line_fit.columns.row(static_cast<Eigen::Index>(i)).transpose());
+    }
+    std::optional<double> slope_error;
+    if (const auto s = line_fit.fit.residual_scale()) {
+        slope_error = *s * std::sqrt(line_fit.fit.cofactor(1, 1));
+    }
+    result.coefficients = {
+        {"temperature_mgal_per_degc", line.slope_mgal_per_degc, slope_error},
+        {"intercept_at_0_degc_mgal", line.intercept.value(), std::nullopt},
+        {"r_squared", line.r_squared, std::nullopt},
+        {"first_base_error_mgal", step.drift->first_error.value(), std::nullopt},
+        {"last_base_error_mgal", step.drift->last_error.value(), std::nullopt},
+        {"drift_mgal_per_h", step.drift->rate_mgal_per_h(), std::nullopt},
+    };
+}
+
+std::vector<StationValue> average_stations(const std::vector<CorrectedRow>& rows,
+                                           const std::vector<bool>& not_flagged,
+                                           const Applied& applied, std::optional<double> s_mgal) {
+    std::vector<StationValue> stations;
+    for (const CorrectedRow& first : rows) {
+        const std::string& site = first.row.site;
+        const bool is_known = std::any_of(stations.begin(), stations.end(),
+                                          [&site](const auto& s) { return s.site == site; });
+        if (is_known) continue;
+        StationValue station;
+        station.site = site;
+        station.reference = first.row.reference;
+        bool has_unflagged = false;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            has_unflagged = has_unflagged || (rows[i].row.site == site && not_flagged[i]);
+        }
+        station.is_flagged_only = !has_unflagged;
+        double sum = 0.0;
+        Eigen::VectorXd x = Eigen::VectorXd::Zero(applied.columns.cols());
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (rows[i].row.site != site) continue;
+            if (rows[i].is_used) {
+                station.redundancy =
+                    station.redundancy.value_or(0.0) + 1.0 - rows[i].leverage.value();
+            }
+            if (has_unflagged && !not_flagged[i]) continue;
+            ++station.row_count;
+            sum += rows[i].corrected.value();
+            x += applied.columns.row(static_cast<Eigen::Index>(i)).transpose();
+        }
+        const auto n = static_cast<double>(station.row_count);
+        station.gravity = MilliGal(sum / n);
+        if (s_mgal) {
+            station.u_gravity =
+                MilliGal(*s_mgal * std::sqrt(1.0 / n + applied.fit.leverage_at(x / n)));
+        }
+        if (station.reference) station.residual = *station.reference - station.gravity;
+        stations.push_back(std::move(station));
+    }
+    return stations;
+}
+
+}  // namespace
+
+const std::vector<std::string>& model_names() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> list{"auto", "paper", "day"};
+        for (const LinearModel& model : kLinearModels) list.emplace_back(model.name);
+        list.emplace_back(kAxesModel.name);
+        list.emplace_back("network");
+        list.emplace_back("robust");
+        return list;
+    }();
+    return names;
+}
+
+void add_left_out(SurveyCorrection& result, const std::vector<LeftOut>& occupations) {
+    auto& all = result.left_out;
+    all.insert(all.end(), occupations.begin(), occupations.end());
+    std::stable_sort(all.begin(), all.end(),
+                     [](const LeftOut& a, const LeftOut& b) { return a.start < b.start; });
+}
+
+SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const SurveyOptions& options,
+                                const DayRecord* day) {
+    const auto& names = model_names();
+    if (std::find(names.begin(), names.end(), options.model) == names.end()) {
+        throw InputError("model = " + options.model + ": unknown; allowed: " + text::joined(names));
+    }
+    if (rows.empty()) throw InputError("no occupations; allowed: at least two with a reference");
+    SurveyCorrection result;
+    result.options = options;
+    if (result.options.base.empty()) result.options.base = rows.front().site;
+    require_row_of(rows, result.options.base, "base");
+    for (const std::string& site : options.datum) require_row_of(rows, site, "datum");
+
+    const UtcTime origin = rows.front().time;
+    std::vector<bool> not_flagged, in_use, usable;
+    for (const SurveyRow& row : rows) {
+        usable.push_back(is_datum(row, options.datum));
+        not_flagged.push_back(!row.is_excluded && !(options.use_flags && row.is_flagged));
+        in_use.push_back(usable.back() && not_flagged.back());
+    }
+    std::vector<bool> unflagged_usable;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        unflagged_usable.push_back(usable[i] && !rows[i].is_flagged);
+        CorrectedRow out;
+        out.row = rows[i];
+        out.is_used = in_use[i];
+        if (rows[i].reference) {
+            out.difference = rows[i].acceleration - *rows[i].reference - rows[i].tide;
+        }
+        result.rows.push_back(std::move(out));
+    }
+    const std::string& base = result.options.base;
+    const ModelPriors& priors = result.options.priors;
+    result.row_sets = {
+        score_all_models("used", rows, unflagged_usable, result.options),
+        score_all_models("all", rows, usable, result.options),
+    };
+
+    if (options.model == "network") {
+        correct_network(result, rows, not_flagged);
+        set_doubts(result);
+        return result;
+    }
+
+    const std::vector<SurveyRow> used = chosen_rows(rows, in_use);
+    result.model = options.model;
+    auto refusal = day_refusal(rows, in_use, day, says_of_day(options.calibration));
+    if (!refusal && has_any(priors)) refusal = "has priors of its own, `prior` would be lost";
+    if (options.model == "day" && refusal) {
+        throw InputError("model = day: " + *refusal + "; allowed: another model");
+    }
+    if (options.model == "day" || (options.model == "auto" && !refusal)) {
+        correct_by_day(result, {usable, unflagged_usable}, *day);
+        set_doubts(result);
+        return result;
+    }
+    if (options.model == "auto") {
+        if (day != nullptr) result.remarks.push_back("not the whole-day model: " + *refusal);
+        result.choice = choose_model(used, origin, base, priors);
+        result.choice_loso_mgal = choice_loso_mgal(used, origin, base, priors);
+        // Too few stations to compare models: the simplest one, or its refusal.
+        result.model = result.choice ? result.choice->model : "t";
+    }
+    const bool is_robust = result.model == "robust";
+    const LinearModel* const model =
+        find_linear_model(is_robust ? options.robust_terms : result.model);
+    // The line of `paper` is the publication's, without priors.
+    Applied applied = model != nullptr ? apply_model(*model, rows, used, origin, priors)
+                                       : apply_model(kLinearModels.front(), rows, used, origin, {});
+    if (is_robust) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            result.row_sets[k].scores.push_back(score_robust_model(
+                *model, chosen_rows(rows, k == 0 ? unflagged_usable : usable), origin, priors));
+        }
+        result.score = result.row_sets[options.use_flags ? 0 : 1].scores.back();
+        correct_robust(result, *model, applied, used, origin);
+    } else if (model != nullptr) {
+        if (model->has_axes) {
+            for (std::size_t k = 0; k < 2; ++k) {
+                result.row_sets[k].scores.push_back(score_linear_model(
+                    *model, chosen_rows(rows, k == 0 ? unflagged_usable : usable), origin, priors));
+            }
+        }
+        result.score = score_linear_model(*model, used, origin, priors);
+        correct_linear(result, *model, applied);
+        result.loo_interval_mgal = loo_interval(result);
+    } else {
+        result.score = score_paper_model(rows, in_use, base);
+        correct_as_published(result, rows, in_use, applied);
+    }
+    result.stations = average_stations(result.rows, not_flagged, applied, result.score.s_mgal);
+    set_doubts(result);
+    return result;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,174 @@
+#include "corrector/model/tilt_series.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "corrector/model/day_correction.hpp"
+#include "corrector/whole_day/day_model.hpp"
+#include "protocol/core/input_error.hpp"
+#include "protocol/core/units.hpp"
+#include "protocol/linear_algebra/cholesky.hpp"
+#include "protocol/linear_algebra/symmetric_eigen.hpp"
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr std::size_t kFewestSetUps = 6;  // level, four tilts, level again
+// 2 Gal of bias then make 17 mGal, ten times the scatter of set-ups.
+constexpr double kLeastTilt_deg = 0.5;
+// 0.3 degC move the reading by 10 mGal, of which the fit may leave a tenth.
+constexpr double kGreatestRange_degc = 0.3;
+
+bool is_in_series(const SurveyRow& row) { return !row.is_flagged && !row.is_excluded; }
+
+[[noreturn]] void refuse(const std::string& origin, const std::string& trouble,
+                         const std::string& allowed) {
+    throw InputError(origin + ": tilt series: " + trouble + "; allowed: " + allowed);
+}
+
+double tilt_deg(StandardGravity along) {
+    return kDegPerRad * std::asin(std::clamp(along.value(), -1.0, 1.0));
+}
+
+/// Horizontal axes of all bins that take part, degrees; (bins, 2).
+Eigen::MatrixXd tilts_deg(const OccupationRows& read) {
+    const std::vector<DayBin>& bins = read.day->bins;
+    Eigen::MatrixXd all(static_cast<Eigen::Index>(bins.size()), 2);
+    Eigen::Index count = 0;
+    for (const DayBin& bin : bins)
+        if (is_in_series(read.rows[bin.set_up]))
+            all.row(count++) << tilt_deg(bin.x), tilt_deg(bin.y);
+    return all.topRows(count);
+}
+
+void require_both_axes(const Eigen::MatrixXd& tilts, const std::string& origin) {
+    const std::string allowed = "both axes tilted by " + text::fixed(kLeastTilt_deg, 1) +
+                                " deg or more to both sides, one at a time";
+    for (const Eigen::Index axis : {0, 1}) {
+        const double least = tilts.col(axis).minCoeff(), greatest = tilts.col(axis).maxCoeff();
+        if (least <= -kLeastTilt_deg && greatest >= kLeastTilt_deg) continue;
+        std::string trouble = axis == 0 ? "x" : "y";
+        trouble += " is tilted from ";
+        trouble += text::fixed(least, 2) + " to " + text::fixed(greatest, 2) + " deg";
+        refuse(origin, trouble, allowed);
+    }
+    const Eigen::MatrixXd centred = tilts.rowwise() - tilts.colwise().mean();
+    const SymmetricEigen axes =
+        symmetric_eigen(centred.transpose() * centred / static_cast<double>(tilts.rows()));
+    const double across = std::sqrt(std::max(0.0, axes.values(0)));
+    if (across < kLeastTilt_deg / 2.0)
+        refuse(origin,
+               "x and y are tilted together: across, the tilts scatter by " +
+                   text::fixed(across, 2) + " deg",
+               allowed);
+}
+
+double temperature_range_degc(const OccupationRows& read) {
+    double least = HUGE_VAL, greatest = -HUGE_VAL;
+    for (const SurveyRow& row : read.rows) {
+        if (!is_in_series(row)) continue;
+        least = std::min(least, row.temperature.value());
+        greatest = std::max(greatest, row.temperature.value());
+    }
+    return greatest - least;
+}
+
+void require_tilt_series(const OccupationRows& read, const TiltSeries& series,
+                         const std::string& origin) {
+    for (const SurveyRow& row : read.rows)
+        if (row.site != read.rows.front().site)
+            refuse(origin, "set-ups at " + read.rows.front().site + " and " + row.site,
+                   "one point");
+    if (series.set_ups < kFewestSetUps)
+        refuse(origin, std::to_string(series.set_ups) + " set-ups",
+               std::to_string(kFewestSetUps) + " or more");
+    if (series.temperature_range_degc > kGreatestRange_degc)
+        refuse(origin,
+               "the temperature moved by " + text::fixed(series.temperature_range_degc, 2) +
+                   " degC between set-ups",
+               text::fixed(kGreatestRange_degc, 1) + " degC");
+    const DayRecord* const day = read.day ? &*read.day : nullptr;
+    const auto refusal =
+        day_refusal(read.rows, std::vector<bool>(read.rows.size(), true), day, false);
+    if (refusal) refuse(origin, *refusal, "a record without that");
+    require_both_axes(tilts_deg(read), origin);
+}
+
+/// The bins with | mean vector - biases |, biases in mGal.
+std::vector<DayBin> freed_from(const std::vector<DayBin>& bins, const Eigen::Vector3d& biases) {
+    std::vector<DayBin> freed = bins;
+    for (DayBin& bin : freed) {
+        const double x = bin.x.value() * kMilliGalPerStandardGravity;
+        const double y = bin.y.value() * kMilliGalPerStandardGravity;
+        const double norm = bin.reading.value();
+        const double z = std::sqrt(norm * norm - x * x - y * y);
+        bin.reading = MilliGal((Eigen::Vector3d(x, y, z) - biases).norm());
+    }
+    return freed;
+}
+
+}  // namespace
+
+TiltSeries measure_axis_bias(const OccupationRows& read, const std::string& origin) {
+    TiltSeries series;
+    series.set_ups = static_cast<std::size_t>(std::ranges::count_if(read.rows, is_in_series));
+    series.temperature_range_degc = temperature_range_degc(read);
+    require_tilt_series(read, series, origin);
+    const Eigen::MatrixXd tilts = tilts_deg(read);
+    for (const std::size_t axis : {0U, 1U}) {
+        const auto column = tilts.col(static_cast<Eigen::Index>(axis));
+        series.least_tilt_deg.at(axis) = column.minCoeff();
+        series.greatest_tilt_deg.at(axis) = column.maxCoeff();
+    }
+
+    // Without a reference its error, 3 Gal at most, is one of the vertical bias: even in the tilt.
+    const MilliGal gravity =
+        read.rows.front().reference.value_or(MilliGal(kMilliGalPerStandardGravity));
+    std::vector<DayStation> stations;
+    for (std::size_t i = 0; i < read.rows.size(); ++i) {
+        DayStation station{read.rows[i].tide, gravity, 0};
+        if (!is_in_series(read.rows[i])) station = {read.rows[i].tide, std::nullopt, i};
+        stations.push_back(station);
+    }
+    double mean = 0.0;
+    for (const DayBin& bin : read.day->bins)
+        mean += (bin.reading - gravity).value() / static_cast<double>(read.day->bins.size());
+
+    Eigen::Vector3d biases(0.0, 0.0, mean);
+    constexpr int kRounds = 3;  // each leaves some 1e-3 of the change before
+    DayRecord day = *read.day;
+    const DayPriors priors = usual_day_priors();
+    for (int round = 0; round < kRounds; ++round) {
+        day.bins = freed_from(read.day->bins, biases);
+        const DayFit fit = fit_day(day, stations, nullptr, priors).value();
+        const auto x = DayPriors::place_of(DayTerm::x), y = DayPriors::place_of(DayTerm::y);
+        const DayPriors::Vector change = priors.factor * fit.shift;
+        const DayPriors::Matrix covariance =
+            priors.factor * fit.shift_covariance * priors.factor.transpose();
+        biases.head<2>() += Eigen::Vector2d(change(x), change(y));
+        series.bias.values = biases.head<2>();
+        series.bias.covariance << covariance(x, x), covariance(x, y), covariance(x, y),
+            covariance(y, y);
+        series.placement_mgal = fit.noise.placement_mgal;
+    }
+    return series;
+}
+
+AxisBias combine(const std::vector<TiltSeries>& series) {
+    if (series.size() == 1) return series.front().bias;
+    Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d weighted = Eigen::Vector2d::Zero();
+    for (const TiltSeries& one : series) {
+        const Eigen::Matrix2d inverse = Cholesky(one.bias.covariance).inverse();
+        information += inverse;
+        weighted += inverse * one.bias.values;
+    }
+    AxisBias bias;
+    const Eigen::Matrix2d covariance = Cholesky(information).inverse();
+    bias.covariance << covariance(0, 0), covariance(0, 1), covariance(0, 1), covariance(1, 1);
+    bias.values = covariance * weighted;
+    return bias;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,220 @@
+#include "corrector/reading/occupation_list.hpp"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "protocol/core/input_error.hpp"
+#include "protocol/events/event_log.hpp"
+#include "protocol/text/csv.hpp"
+
+namespace a351::corrector {
+namespace {
+
+std::string named(const OccupationWindow& window) {
+    return window.site + " (" + std::to_string(window.number) + ") at " + to_rfc3339(window.start);
+}
+
+void sort_by_start(std::vector<OccupationWindow>& windows) {
+    std::stable_sort(windows.begin(), windows.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.start, a.end, a.site, a.number) <
+               std::tie(b.start, b.end, b.site, b.number);
+    });
+}
+
+bool do_overlap(const OccupationWindow& a, const OccupationWindow& b) {
+    return a.start < b.end && b.start < a.end;
+}
+
+/// Those that overlap the largest number of others, by place in the list.
+std::vector<std::size_t> most_overlapping(const std::vector<OccupationWindow>& windows) {
+    std::vector<std::size_t> most;
+    std::size_t largest = 1;
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < windows.size(); ++k) {
+            if (k != i && do_overlap(windows[i], windows[k])) ++count;
+        }
+        if (count > largest) most.clear();
+        if (count >= largest) most.push_back(i);
+        largest = std::max(largest, count);
+    }
+    return most;
+}
+
+void leave_out_overlapping(OccupationList& list) {
+    auto& windows = list.windows;
+    for (auto most = most_overlapping(windows); !most.empty(); most = most_overlapping(windows)) {
+        for (const std::size_t i : most) {
+            const auto other =
+                std::find_if(windows.begin(), windows.end(), [&](const OccupationWindow& window) {
+                    return &window != &windows[i] && do_overlap(window, windows[i]);
+                });
+            leave_out(list.left_out, list.warnings, windows[i], "overlaps another",
+                      ", " + named(*other));
+        }
+        for (auto i = most.rbegin(); i != most.rend(); ++i) {
+            windows.erase(windows.begin() + static_cast<std::ptrdiff_t>(*i));
+        }
+    }
+}
+
+/// @throws InputError  none starts in that time.
+void keep_between(std::vector<OccupationWindow>& windows, const std::optional<UtcTime>& from,
+                  const std::optional<UtcTime>& to, const std::filesystem::path& origin) {
+    if (windows.empty()) return;
+    const UtcTime first = windows.front().start, last = windows.back().start;
+    std::erase_if(windows, [&](const OccupationWindow& window) {
+        return (from && window.start < *from) || (to && window.start >= *to);
+    });
+    if (windows.empty()) {
+        throw InputError(origin.string() + ": no occupation starts" +
+                         (from ? " from " + to_rfc3339(*from) + " on" : "") +
+                         (from && to ? " and" : "") + (to ? " before " + to_rfc3339(*to) : "") +
+                         "; allowed: a time with one of those that start from " +
+                         to_rfc3339(first) + " to " + to_rfc3339(last));
+    }
+}
+
+/// With a warning that there are others.
+void keep_last_day(std::vector<record::Occupation>& occupations, OccupationList& list,
+                   const std::filesystem::path& origin) {
+    if (occupations.empty()) return;
+    const std::size_t all = occupations.size();
+    const UtcTime last = occupations.back().set_ups.back().start;
+    occupations = record::survey_day(std::move(occupations), last);
+    if (occupations.size() == all) return;
+    list.warnings.push_back(
+        origin.string() + ": the last day is taken, from " +
+        to_rfc3339(occupations.front().set_ups.front().start) +
+        " on; occupations of earlier days: " + std::to_string(all - occupations.size()) +
+        "; from_utc and to_utc choose others");
+}
+
+UtcTime instant(const text::CsvTable& table, std::size_t row, std::string_view column) {
+    const auto time = parse_rfc3339_in_zone(table.cell(row, column), std::chrono::minutes(0));
+    if (!time) table.refuse(row, column, "not an instant", "YYYY-MM-DDThh:mm:ssZ");
+    return *time;
+}
+
+/// Instants at which a start ended an occupation that had no stop.
+std::set<UtcTime> ends_without_stop(const std::vector<record::Event>& events) {
+    std::set<UtcTime> ends;
+    bool is_running = false;
+    for (const record::Event& event : events) {
+        if (event.type == "start") {
+            if (is_running) ends.insert(event.utc);
+            is_running = true;
+        } else if (event.type == "stop" || event.type == "discard") {
+            is_running = false;
+        }
+    }
+    return ends;
+}
+
+}  // namespace
+
+OccupationList read_occupation_table(const std::filesystem::path& file,
+                                     const std::vector<text::Site>& sites,
+                                     const std::optional<UtcTime>& from,
+                                     const std::optional<UtcTime>& to) {
+    const text::CsvTable table = text::read_csv(file);
+    OccupationList list;
+    for (std::size_t row = 0; row < table.row_count(); ++row) {
+        OccupationWindow window;
+        window.site = table.cell(row, "site");
+        if (text::find_site(sites, window.site) == nullptr) {
+            table.refuse(row, "site", "unknown", "a name of the table of sites");
+        }
+        const double number = table.number(row, "occupation", 1.0, 1e6);
+        window.number = static_cast<int>(number);
+        if (static_cast<double>(window.number) != number) {
+            table.refuse(row, "occupation", "not whole", "1, 2, ...");
+        }
+        window.start = instant(table, row, "start_utc");
+        window.end = instant(table, row, "end_utc");
+        const std::string used = table.has_column("used") ? table.cell(row, "used") : "";
+        if (!used.empty() && used != "0" && used != "1") {
+            table.refuse(row, "used", "not a mark", "1, 0 or empty");
+        }
+        window.is_flagged = used == "0";
+        if (table.has_column("earth_tide_mgal")) {
+            const auto tide = table.number_if_given(row, "earth_tide_mgal", -1.0, 1.0);
+            if (tide) window.given_tide = MilliGal(*tide);
+        }
+        list.windows.push_back(std::move(window));
+    }
+    sort_by_start(list.windows);
+    keep_between(list.windows, from, to, file);
+    return list;
+}
+
+OccupationList read_logged_occupations(const std::filesystem::path& events,
+                                       const std::optional<UtcTime>& from,
+                                       const std::optional<UtcTime>& to) {
+    const record::EventLog log = record::read_events(events);
+    OccupationList list;
+    for (const record::EventDamage& damage : log.damage) {
+        list.warnings.push_back(damage.file.filename().string() + ":" +
+                                std::to_string(damage.line) + ": not an event, passed over");
+    }
+    const std::set<UtcTime> ends = ends_without_stop(log.events);
+    auto occupations = record::occupations_of(log.events);
+    if (!from && !to) keep_last_day(occupations, list, events);
+    for (const record::Occupation& occupation : occupations) {
+        for (const record::Occupation::SetUp& set_up : occupation.set_ups) {
+            list.windows.push_back({occupation.site, occupation.number, set_up.start, set_up.end,
+                                    !occupation.used.value_or(true)});
+        }
+        OccupationWindow& last = list.windows.back();
+        if (ends.contains(last.end)) last.notes.emplace_back("no-stop");
+    }
+    sort_by_start(list.windows);
+    keep_between(list.windows, from, to, events);
+    for (const OccupationWindow& window : list.windows) {
+        if (!window.notes.empty())
+            list.warnings.push_back(named(window) +
+                                    " has no stop: it lasts to the next start, at " +
+                                    to_rfc3339(window.end));
+    }
+    if (const auto site = record::running_site(log.events); site && !to) {
+        list.warnings.push_back(events.string() + ": the last occupation, of " + *site +
+                                ", has no stop, left out");
+    }
+    return list;
+}
+
+OccupationList leave_out_impossible(OccupationList list, const std::vector<text::Site>& sites,
+                                    const std::filesystem::path& origin) {
+    std::vector<OccupationWindow> windows;
+    for (OccupationWindow& window : list.windows) {
+        const auto drop = [&](const std::string& reason, const std::string& detail) {
+            leave_out(list.left_out, list.warnings, window, reason, detail);
+        };
+        if (text::find_site(sites, window.site) == nullptr) {
+            drop("not in the table of sites", "");
+        } else if (window.end <= window.start) {
+            drop("ends before it starts", ", at " + to_rfc3339(window.end));
+        } else {
+            windows.push_back(std::move(window));
+        }
+    }
+    list.windows = std::move(windows);
+    sort_by_start(list.windows);
+    leave_out_overlapping(list);
+    if (list.windows.empty()) {
+        std::string message = origin.string() + ": no occupation";
+        for (const std::string& warning : list.warnings) message += "; " + warning;
+        throw InputError(message + "; allowed: at least one, with its end");
+    }
+    return list;
+}
+
+void leave_out(std::vector<LeftOut>& left_out, std::vector<std::string>& warnings,
+               const OccupationWindow& window, const std::string& reason,
+               const std::string& detail) {
+    left_out.push_back({window.site, window.number, window.start, window.end, reason});
+    warnings.push_back(named(window) + " is left out: " + reason + detail);
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,241 @@
+#include "corrector/reading/occupation_rows.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <tuple>
+
+#include "corrector/reading/occupation_window.hpp"
+#include "corrector/reading/on_all_cores.hpp"
+#include "protocol/archive/sds.hpp"
+#include "protocol/core/input_error.hpp"
+
+namespace a351::corrector {
+namespace {
+
+void add_axis(std::vector<SurveyRow::Detail>& details, const std::string& name,
+              const AxisSummary& axis) {
+    details.push_back({"mean_" + name + "_g", axis.mean.value()});
+    details.push_back({"rms_" + name + "_mgal", axis.rms.value()});
+}
+
+constexpr std::chrono::minutes kMargin(1);  // for the filters of the temperature
+constexpr std::chrono::hours kBefore(8);    // what the slowest response to it remembers
+
+UtcTime first_sample(bool is_axis, const std::vector<OccupationWindow>& windows) {
+    return windows.front().start - (is_axis ? Nanoseconds(kMargin) : Nanoseconds(kBefore));
+}
+
+/// Every file that read_samples() looks at.
+std::vector<text::InputFile> archive_files(const SurveySource& source,
+                                           const record::StationCodes& codes,
+                                           const SurveyChannels& channels,
+                                           const std::vector<OccupationWindow>& windows) {
+    std::vector<std::string> names{channels.temperature.code};
+    for (const record::ChannelScale& axis : channels.axes) names.push_back(axis.code);
+    std::sort(names.begin(), names.end());
+    std::vector<std::filesystem::path> files;
+    using std::chrono::days;
+    using std::chrono::floor;
+    const auto last_day = floor<days>(windows.back().end + kMargin);
+    for (const std::string& channel : names) {
+        const bool is_axis = channel != channels.temperature.code;
+        for (auto day = floor<days>(first_sample(is_axis, windows)); day <= last_day;
+             day += days(1)) {
+            const auto file = record::sds_file(source.root / "archive", codes, channel, day);
+            if (std::filesystem::exists(file)) files.push_back(file);
+        }
+    }
+    std::sort(files.begin(), files.end());
+    std::vector<text::InputFile> inputs;
+    inputs.reserve(files.size());
+    for (const auto& file : files) inputs.push_back(text::describe_input("archive", file));
+    return inputs;
+}
+
+/// All samples from the first window to the last, and the temperature before; each channel is read
+/// once.
+SurveySamples read_samples(const SurveySource& source, const record::StationCodes& codes,
+                           const SurveyChannels& channels,
+                           const std::vector<OccupationWindow>& windows) {
+    const UtcTime to = windows.back().end + kMargin;
+    SurveySamples samples;
+    const auto read = [&](std::size_t k) {
+        const bool is_axis = k < samples.axes.size();
+        (is_axis ? samples.axes[k] : samples.temperature) =
+            record::read_channel(source.root / "archive", codes,
+                                 is_axis ? channels.axes[k].code : channels.temperature.code,
+                                 first_sample(is_axis, windows), to);
+    };
+    on_all_cores(samples.axes.size() + 1, read);
+    return samples;
+}
+
+std::vector<text::InputFile> inputs_of(const SurveySource& source, const SurveyStays& stays) {
+    std::vector<text::InputFile> inputs;
+    inputs.push_back(text::describe_input("sites", source.sites));
+    inputs.push_back(text::describe_input("metadata", stays.metadata));
+    if (!source.occupations.empty()) {
+        inputs.push_back(text::describe_input("occupations", source.occupations));
+    } else {
+        std::vector<std::filesystem::path> logs;
+        for (const auto& entry : std::filesystem::directory_iterator(source.root / "events")) {
+            if (entry.path().extension() == ".jsonl") logs.push_back(entry.path());
+        }
+        std::sort(logs.begin(), logs.end());
+        for (const auto& log : logs) inputs.push_back(text::describe_input("events", log));
+    }
+    if (!source.amendments.empty()) {
+        inputs.push_back(text::describe_input("amendments", source.amendments));
+    }
+    const auto archive =
+        archive_files(source, stays.station.codes, stays.channels, stays.list.windows);
+    inputs.insert(inputs.end(), archive.begin(), archive.end());
+    return inputs;
+}
+
+/// The temperature from hours before the first occupation to the end of the last.
+std::optional<DayTemperature> temperature_of_day(const SurveySamples& samples,
+                                                 const SurveyChannels& channels,
+                                                 const std::vector<OccupationWindow>& windows) {
+    const auto& segments = samples.temperature.segments;
+    if (segments.empty()) return std::nullopt;
+    const auto grid = sampling_grid(segments, segments.front().time_of(0), windows.back().end);
+    if (!grid) return std::nullopt;
+    return day_temperature(TimeSeries<DegC>(grid->origin, Hertz(grid->rate_hz),
+                                            place_on_grid(segments, channels.temperature, *grid)));
+}
+
+std::pair<OccupationList, std::vector<Amendment>> read_occupations(
+    const SurveySource& source, const std::vector<text::Site>& sites) {
+    const bool is_logged = source.occupations.empty();
+    const auto origin = is_logged ? source.root / "events" : source.occupations;
+    OccupationList list = is_logged ? read_logged_occupations(origin, source.from, source.to)
+                                    : read_occupation_table(origin, sites, source.from, source.to);
+    std::vector<Amendment> amendments;
+    if (!source.amendments.empty()) amendments = amend(list.windows, source.amendments, sites);
+    return {leave_out_impossible(std::move(list), sites, origin), std::move(amendments)};
+}
+
+}  // namespace
+
+SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& value) {
+    const TemperatureSummary& temperature = value.temperature.value();
+    SurveyRow row;
+    row.site = window.site;
+    row.occupation = window.number;
+    row.start = value.interval_start;
+    row.end = value.interval_end;
+    row.time = value.interval_start + (value.interval_end - value.interval_start) / 2;
+    row.is_flagged = window.is_flagged;
+    row.is_excluded = window.is_excluded;
+    row.given_tide = window.given_tide;
+    row.notes = window.notes;
+    for (const OccupationFlag flag : value.flags) row.notes.emplace_back(flag_name(flag));
+    row.acceleration = value.acceleration;
+    row.temperature = temperature.mean;
+    row.rate_degc_per_h = temperature.slope_degc_per_h;
+
+    auto& details = row.details;
+    details.push_back({"series_mean_mgal", value.series_mean.value()});
+    details.push_back(
+        {"series_minus_curve_mgal", (value.series_mean - value.acceleration).value()});
+    details.push_back({"standard_error_mgal", std::nullopt});
+    if (value.standard_error) details.back().value = value.standard_error->value();
+    details.push_back({"temperature_range_degc", temperature.range.value()});
+    details.push_back(
+        {"temperature_is_monotone", temperature.shape == TemperatureShape::monotone ? 1.0 : 0.0});
+    details.push_back(
+        {"temperature_is_half_wave", temperature.shape == TemperatureShape::half_wave ? 1.0 : 0.0});
+    details.push_back({"valid_samples", static_cast<double>(value.counts.valid)});
+    details.push_back({"partial_samples", static_cast<double>(value.counts.partial)});
+    details.push_back({"missing_samples", static_cast<double>(value.counts.missing)});
+    add_axis(details, "x", value.x);
+    add_axis(details, "y", value.y);
+    add_axis(details, "z", value.z);
+    details.push_back({"rectification_mgal", value.rectification.value()});
+    details.push_back({"eemd_mgal", value.eemd_mean.value()});
+    details.push_back({"smoother_mgal", value.smoother_mean.value()});
+    details.push_back({"u_smoother_mgal", value.smoother_standard_error.value()});
+    details.push_back(
+        {"smoother_minus_eemd_mgal", (value.smoother_mean - value.eemd_mean).value()});
+    return row;
+}
+
+SurveyStays read_stays(const SurveySource& source) {
+    SurveyStays stays;
+    stays.sites = text::read_sites(source.sites);
+    std::tie(stays.list, stays.amendments) = read_occupations(source, stays.sites);
+    stays.metadata = source.root / "metadata" / "station.xml";
+    stays.station = record::read_station_xml(stays.metadata, stays.list.windows.front().start);
+    stays.channels = find_channels(stays.station, stays.metadata);
+    return stays;
+}
+
+OccupationRows average_occupations(const SurveySource& source, const SurveyStays& stays,
+                                   const Progress& progress) {
+    const auto& [sites, list, amendments, metadata, station, channels] = stays;
+    OccupationRows result;
+    result.serial_number = station.serial_number;
+    const SurveySamples samples = read_samples(source, station.codes, channels, list.windows);
+
+    std::vector<std::optional<SurveyRow>> rows(list.windows.size());
+    std::vector<std::optional<RepresentativeValue>> values(list.windows.size());
+    std::vector<std::string> troubles(list.windows.size());
+    std::vector<std::vector<DayBin>> bins(list.windows.size());
+    const auto average = [&](std::size_t i) {
+        const OccupationWindow& window = stays.list.windows[i];
+        const auto record = cut_occupation(samples, stays.channels, window.start, window.end);
+        auto& value = values[i];
+        if (record) value = representative_value(*record, source.averaging);
+        if (!record) {
+            troubles[i] = "no samples";
+        } else if (!value) {
+            troubles[i] = "too few samples in a row";
+        } else if (!value->temperature) {
+            troubles[i] = "no temperature";
+        } else {
+            rows[i] = row_of(window, *value);
+            bins[i] = bin_set_up(0, *record, source.averaging.disturbance_threshold);
+        }
+    };
+    on_all_cores(list.windows.size(), average, progress);
+
+    if (auto temperature = temperature_of_day(samples, channels, list.windows))
+        result.day = DayRecord{std::move(*temperature), {}};
+    result.left_out = list.left_out;
+    result.warnings.insert(result.warnings.end(), list.warnings.begin(), list.warnings.end());
+    result.amendments = amendments;
+    result.sites = sites;
+    for (const record::ChannelData& axis : samples.axes) add_damage(result.warnings, axis);
+    add_damage(result.warnings, samples.temperature);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const OccupationWindow& window = list.windows[i];
+        if (!rows[i]) {
+            leave_out(result.left_out, result.warnings, window, troubles[i]);
+            continue;
+        }
+        rows[i]->reference = text::find_site(sites, window.site)->gravity;
+        for (DayBin& bin : bins[i]) {
+            bin.set_up = result.rows.size();
+            if (result.day) result.day->bins.push_back(std::move(bin));
+        }
+        result.rows.push_back(std::move(*rows[i]));
+        result.records.push_back(std::move(*values[i]));
+    }
+    if (result.rows.empty()) {
+        throw InputError(source.path.string() + ": root = " + source.root.string() +
+                         ": no occupation has samples; last: " + result.warnings.back() +
+                         "; allowed: an archive of those hours");
+    }
+    std::stable_sort(result.left_out.begin(), result.left_out.end(),
+                     [](const LeftOut& a, const LeftOut& b) { return a.start < b.start; });
+    for (std::string& warning : position_warnings(result.rows, sites)) {
+        result.warnings.push_back(std::move(warning));
+    }
+    result.temperature_course =
+        temperature_course(samples.temperature.segments, channels.temperature);
+    result.inputs = inputs_of(source, stays);
+    return result;
+}
+
+}  // namespace a351::corrector

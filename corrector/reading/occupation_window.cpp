@@ -1,0 +1,147 @@
+#include "corrector/reading/occupation_window.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "protocol/core/input_error.hpp"
+
+namespace a351::corrector {
+namespace {
+
+/// More than both decimation filters reach: 41 + 10 x 41 samples.
+constexpr std::size_t kTemperatureMargin = 500;
+
+/// Over less than a minute the rounding of the time stamps outweighs the error of the header's rate.
+constexpr double kShortestForRate_s = 60.0;
+
+/// Offset of the first sample at or after `time`; the size when there is none.
+std::size_t first_at_or_after(const record::Segment& segment, UtcTime time) {
+    std::size_t low = 0;
+    std::size_t high = segment.counts.size();
+    while (low < high) {
+        const std::size_t middle = low + (high - low) / 2;
+        if (segment.time_of(middle) < time) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+/// Rate between the first and the last time stamp of samples [first, behind).
+double observed_rate_hz(const record::Segment& segment, std::size_t first, std::size_t behind) {
+    const record::Segment::Anchor* earliest = nullptr;
+    const record::Segment::Anchor* latest = nullptr;
+    for (const record::Segment::Anchor& anchor : segment.anchors) {
+        if (anchor.offset < first || anchor.offset >= behind) continue;
+        if (earliest == nullptr) earliest = &anchor;
+        latest = &anchor;
+    }
+    if (earliest == nullptr) return segment.rate_hz;
+    const double seconds = seconds_between(earliest->time, latest->time);
+    if (seconds < kShortestForRate_s) return segment.rate_hz;
+    return static_cast<double>(latest->offset - earliest->offset) / seconds;
+}
+
+TimeSeries<StandardGravity> axis_series(const std::vector<double>& values_mps2,
+                                        const SampleGrid& grid) {
+    constexpr double kMetresPerSecond2PerMilliGal = 1e-5;
+    constexpr double kMps2PerG = kMilliGalPerStandardGravity * kMetresPerSecond2PerMilliGal;
+    std::vector<double> values_g(values_mps2.size());
+    std::transform(values_mps2.begin(), values_mps2.end(), values_g.begin(),
+                   [](double value) { return value / kMps2PerG; });
+    return {grid.origin, Hertz(grid.rate_hz), std::move(values_g)};
+}
+
+record::ChannelScale channel_with(const record::StationMetadata& station, const std::string& ending,
+                                  const std::string& unit, const std::filesystem::path& file) {
+    std::string codes;
+    for (const record::ChannelScale& channel : station.channels) {
+        codes += (codes.empty() ? "" : ", ") + channel.code;
+        if (channel.code.size() != 3 || channel.code.substr(1) != ending) continue;
+        if (channel.code.front() == 'L') continue;  // derived, 1 Hz
+        if (channel.unit == unit) return channel;
+        throw InputError(file.string() + ": channel " + channel.code + ": unit = " + channel.unit +
+                         "; allowed: " + unit);
+    }
+    throw InputError(file.string() + ": no channel ?" + ending + "; there are: " + codes);
+}
+
+}  // namespace
+
+std::optional<SampleGrid> sampling_grid(const std::vector<record::Segment>& segments, UtcTime start,
+                                        UtcTime end) {
+    std::optional<UtcTime> origin;
+    double rate_hz = 0.0;
+    std::size_t longest = 0;
+    for (const record::Segment& segment : segments) {
+        const std::size_t first = first_at_or_after(segment, start);
+        const std::size_t behind = first_at_or_after(segment, end);
+        if (first == behind) continue;
+        const UtcTime first_time = segment.time_of(first);
+        if (!origin || first_time < *origin) origin = first_time;
+        if (behind - first <= longest) continue;
+        longest = behind - first;
+        rate_hz = observed_rate_hz(segment, first, behind);
+    }
+    if (!origin) return std::nullopt;
+    // The last sample lies before `end`; half a sample of tolerance for rounded stamps.
+    const double count = std::ceil(seconds_between(*origin, end) * rate_hz - 0.5);
+    return SampleGrid{*origin, rate_hz, static_cast<std::size_t>(std::max(count, 1.0))};
+}
+
+std::vector<double> place_on_grid(const std::vector<record::Segment>& segments,
+                                  const record::ChannelScale& scale, const SampleGrid& grid) {
+    std::vector<double> values(grid.count, std::numeric_limits<double>::quiet_NaN());
+    const UtcTime earliest = grid.origin - from_seconds(0.5 / grid.rate_hz);
+    for (const record::Segment& segment : segments) {
+        const std::size_t first = first_at_or_after(segment, earliest);
+        if (first == segment.counts.size()) continue;
+        const long long place =
+            std::llround(seconds_between(grid.origin, segment.time_of(first)) * grid.rate_hz);
+        if (place < 0) continue;
+        const auto begin = static_cast<std::size_t>(place);
+        for (std::size_t i = first; i < segment.counts.size(); ++i) {
+            const std::size_t at = begin + (i - first);
+            if (at >= values.size()) break;
+            values[at] = scale.offset + scale.gain * static_cast<double>(segment.counts[i]);
+        }
+    }
+    return values;
+}
+
+SurveyChannels find_channels(const record::StationMetadata& station,
+                             const std::filesystem::path& file) {
+    SurveyChannels channels;
+    for (std::size_t k = 0; k < channels.axes.size(); ++k) {
+        channels.axes[k] = channel_with(station, "N" + station.codes.axes[k], "m/s**2", file);
+    }
+    channels.temperature = channel_with(station, "K1", "degC", file);
+    return channels;
+}
+
+void add_damage(std::vector<std::string>& warnings, const record::ChannelData& channel) {
+    for (const record::ArchiveDamage& damage : channel.damage) warnings.push_back(to_text(damage));
+}
+
+std::optional<OccupationRecord> cut_occupation(const SurveySamples& samples,
+                                               const SurveyChannels& channels, UtcTime start,
+                                               UtcTime end) {
+    const auto grid = sampling_grid(samples.axes[2].segments, start, end);
+    if (!grid) return std::nullopt;
+    const auto axis = [&](std::size_t k) {
+        return axis_series(place_on_grid(samples.axes[k].segments, channels.axes[k], *grid), *grid);
+    };
+    const Nanoseconds margin =
+        from_seconds(static_cast<double>(kTemperatureMargin) / grid->rate_hz);
+    const SampleGrid wider{grid->origin - margin, grid->rate_hz,
+                           grid->count + 2 * kTemperatureMargin};
+    return OccupationRecord{
+        axis(0), axis(1), axis(2),
+        TimeSeries<DegC>(wider.origin, Hertz(wider.rate_hz),
+                         place_on_grid(samples.temperature.segments, channels.temperature, wider))};
+}
+
+}  // namespace a351::corrector

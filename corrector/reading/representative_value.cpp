@@ -1,0 +1,230 @@
+#include "corrector/reading/representative_value.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "corrector/reading/disturbance.hpp"
+#include "corrector/reading/lowered_rate.hpp"
+#include "corrector/reading/interval.hpp"
+#include "corrector/reading/smoother.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr std::size_t kShortestRun = 16;
+constexpr double kBlockSeconds = 60.0;
+
+void validate(const RepresentativeOptions& options) {
+    if (!(options.end_margin_s >= 0.0 && options.end_margin_s < 1e6)) {
+        throw std::invalid_argument("representative_value: end_margin_s = " +
+                                    std::to_string(options.end_margin_s) + ", must be 0 to 1e6");
+    }
+    if (!(options.disturbance_threshold > 0.0)) {
+        throw std::invalid_argument("representative_value: disturbance_threshold = " +
+                                    std::to_string(options.disturbance_threshold) +
+                                    ", must be > 0");
+    }
+    if (!(options.cutoff_s >= kShortestCutoff_s && options.cutoff_s <= kLongestCutoff_s)) {
+        throw std::invalid_argument("representative_value: cutoff_s = " +
+                                    std::to_string(options.cutoff_s) + ", must be 20 to 500");
+    }
+}
+
+/// Raw samples on either side of the centre that both stages together reach: 41 + 10 x 41.
+std::size_t reach_of(const DecimationFilter& filter) {
+    return filter.half_width() * (1 + filter.factor);
+}
+
+std::size_t samples_in(double seconds, Hertz rate) {
+    return static_cast<std::size_t>(std::lround(seconds * rate.value()));
+}
+
+struct Run {
+    std::size_t begin = 0;
+    std::size_t size = 0;
+};
+
+/// The longest run without NaN; the earliest of several.
+Run longest_valid_run(std::span<const double> values) {
+    Run longest;
+    Run current;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (std::isnan(values[i])) {
+            current = {i + 1, 0};
+        } else if (++current.size > longest.size) {
+            longest = current;
+        }
+    }
+    return longest;
+}
+
+/// present[i] = number of raw samples before i that have all three axes.
+std::vector<std::size_t> count_present(const OccupationRecord& record) {
+    std::vector<std::size_t> present(record.x.size() + 1);
+    for (std::size_t i = 0; i < record.x.size(); ++i) {
+        const double sum = record.x.values()[i] + record.y.values()[i] + record.z.values()[i];
+        present[i + 1] = present[i] + (std::isfinite(sum) ? 1 : 0);
+    }
+    return present;
+}
+
+SampleCounts count_samples(const std::vector<std::size_t>& present, std::size_t output_count,
+                           std::size_t reach) {
+    const std::size_t n = present.size() - 1;
+    SampleCounts counts;
+    for (std::size_t k = 0; k < output_count; ++k) {
+        const std::size_t centre = k * kRatio;
+        const std::size_t begin = centre - std::min(centre, reach);
+        const std::size_t end = std::min(n, centre + reach + 1);
+        const std::size_t there = present[end] - present[begin];
+        ++(there == 2 * reach + 1 ? counts.valid : there > 0 ? counts.partial : counts.missing);
+    }
+    return counts;
+}
+
+/// Decimated temperature on the grid of the decimated axes, using what was recorded beyond them.
+TimeSeries<DegC> decimate_temperature(const OccupationRecord& record,
+                                      const DecimationFilter& filter) {
+    const TimeSeries<DegC>& all = record.temperature;
+    if (all.rate() != record.x.rate()) {
+        throw std::invalid_argument("representative_value: temperature and axes differ in rate");
+    }
+    const double shift = seconds_between(all.start(), record.x.start()) * all.rate().value();
+    if (std::abs(shift - std::round(shift)) > 0.01) {
+        throw std::invalid_argument(
+            "representative_value: temperature and axes are not on one grid of instants");
+    }
+    const std::size_t lead = (reach_of(filter) + kRatio - 1) / kRatio;
+    const auto origin = static_cast<std::ptrdiff_t>(std::llround(shift)) -
+                        static_cast<std::ptrdiff_t>(lead * kRatio);
+    std::vector<double> around(record.x.size() + 2 * lead * kRatio,
+                               std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < around.size(); ++i) {
+        const std::ptrdiff_t source = origin + static_cast<std::ptrdiff_t>(i);
+        if (source >= 0 && source < static_cast<std::ptrdiff_t>(all.size())) {
+            around[i] = all.values()[static_cast<std::size_t>(source)];
+        }
+    }
+    const TimeSeries<DegC> decimated = decimate(
+        TimeSeries<DegC>(record.x.start(), all.rate(), std::move(around)), filter, kStages);
+    const std::size_t count = (record.x.size() + kRatio - 1) / kRatio;
+    const auto begin = decimated.values().begin() + static_cast<std::ptrdiff_t>(lead);
+    return {record.x.start(), decimated.rate(),
+            std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(count))};
+}
+
+std::vector<OccupationFlag> flags_of(const Part& part, const Interval& interval, bool has_gap,
+                                     bool has_temperature, bool is_settled) {
+    std::vector<OccupationFlag> flags;
+    const auto raise = [&](OccupationFlag flag, bool condition) {
+        if (condition) flags.push_back(flag);
+    };
+    raise(OccupationFlag::fallback, interval.fallback);
+    raise(OccupationFlag::disturbed_start, part.disturbed_first);
+    raise(OccupationFlag::disturbed_end, part.disturbed_last);
+    raise(OccupationFlag::pulse, part.split);
+    raise(OccupationFlag::gap, has_gap);
+    raise(OccupationFlag::no_temperature, !has_temperature);
+    raise(OccupationFlag::unsettled, !is_settled);
+    return flags;
+}
+
+}  // namespace
+
+std::string_view flag_name(OccupationFlag flag) noexcept {
+    switch (flag) {
+        case OccupationFlag::fallback:
+            return "fallback";
+        case OccupationFlag::disturbed_start:
+            return "disturbed_start";
+        case OccupationFlag::disturbed_end:
+            return "disturbed_end";
+        case OccupationFlag::pulse:
+            return "pulse";
+        case OccupationFlag::gap:
+            return "gap";
+        case OccupationFlag::no_temperature:
+            return "no_temperature";
+        case OccupationFlag::unsettled:
+            return "unsettled";
+    }
+    return "";
+}
+
+std::optional<RepresentativeValue> representative_value(const OccupationRecord& record,
+                                                        const RepresentativeOptions& options) {
+    validate(options);
+    const DecimationFilter filter = design_decimation(kFactor);
+    TimeSeries<MilliGal> series =
+        decimated_norm(record.x, record.y, record.z, options.norm, filter, kStages);
+    const TimeSeries<DegC> temperature = decimate_temperature(record, filter);
+    const Run run = longest_valid_run(series.values());
+    if (run.size < kShortestRun) return std::nullopt;
+    const auto valid = std::span(series.values()).subspan(run.begin, run.size);
+    const Disturbances found = find_disturbances(valid, options.disturbance_threshold);
+    const Part part = choose_part(found.disturbed, samples_in(options.end_margin_s, series.rate()));
+    const std::size_t part_size = part.last - part.first + 1;
+    if (part_size < kShortestRun) return std::nullopt;
+
+    EemdOptions decomposition;
+    decomposition.seed = options.seed;
+    decomposition.threads = options.threads;
+    if (options.curve != TrendCurve::paper) decomposition.ends = EndRule::mirror;
+    const std::vector<double> despiked = despike(valid, found);
+    const auto quiet = std::span(despiked).subspan(part.first, part_size);
+    const Trend trend = trend_curve(options.despike ? quiet : valid.subspan(part.first, part_size),
+                                    decomposition, options.curve);
+    const SmoothTrend smoothed = smooth(quiet, options.cutoff_s * series.rate().value());
+    std::vector<double> curve =
+        options.trend == TrendMethod::smoother ? smoothed.curve : trend.curve;
+    const Interval interval = choose_interval(curve, part.disturbed_first, part.disturbed_last);
+    const std::size_t part_begin = run.begin + part.first;
+    const std::size_t first = part_begin + interval.first;
+    const std::size_t last = part_begin + interval.last;
+    const std::size_t length = last - first + 1;
+    const auto in_interval = std::span(series.values()).subspan(first, length);
+    const auto mean_of = [&](const std::vector<double>& values) {
+        return MilliGal(mean(std::span(values).subspan(interval.first, length)));
+    };
+
+    const auto summarise = [&](const TimeSeries<StandardGravity>& axis) {
+        return summarise_axis(axis, decimate(axis, filter, kStages), kRatio, first, last);
+    };
+    const std::vector<std::size_t> present = count_present(record);
+    const auto temperature_summary = summarise_temperature(temperature, first, last);
+    const auto error = block_standard_error(in_interval, samples_in(kBlockSeconds, series.rate()));
+
+    RepresentativeValue value{
+        .acceleration = mean_of(curve),
+        .eemd_mean = mean_of(trend.curve),
+        .smoother_mean = mean_of(smoothed.curve),
+        .smoother_standard_error =
+            MilliGal(smoothed.standard_error_of_mean(interval.first, interval.last)),
+        .series_mean = MilliGal(mean(in_interval)),
+        .standard_error = error ? std::optional(MilliGal(*error)) : std::nullopt,
+        .temperature = temperature_summary,
+        .interval_start = series.time_of(static_cast<double>(first)),
+        .interval_end = series.time_of(static_cast<double>(last)),
+        .flags = flags_of(part, interval, present.back() < record.x.size(),
+                          temperature_summary.has_value(),
+                          options.trend == TrendMethod::eemd || smoothed.converged),
+        .counts = count_samples(present, series.size(), reach_of(filter)),
+        .x = summarise(record.x),
+        .y = summarise(record.y),
+        .z = summarise(record.z),
+        .rectification = {},
+        .noise_level = MilliGal(trend.noise_level),
+        .series = series,
+        .curve = TimeSeries<MilliGal>(series.time_of(static_cast<double>(part_begin)),
+                                      series.rate(), std::move(curve)),
+        .temperature_series = temperature,
+    };
+    value.rectification = rectification_bias(value.x.rms, value.y.rms, value.series_mean);
+    return value;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,142 @@
+#include "corrector/reading/survey_row.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "protocol/core/input_error.hpp"
+#include "protocol/core/units.hpp"
+#include "protocol/text/csv.hpp"
+
+namespace a351::corrector {
+namespace {
+
+using std::chrono::minutes;
+
+struct TimeColumn {
+    std::string_view name;
+    std::optional<minutes> zone;  ///< Of a cell that names none; absent: it must.
+};
+constexpr std::array<TimeColumn, 3> kTimeColumns{{
+    {"time_utc", minutes(0)},
+    {"time_jst", minutes(9 * 60)},  // Japan Standard Time, no daylight saving
+    {"time", std::nullopt},
+}};
+
+const TimeColumn& time_column(const text::CsvTable& table, const std::filesystem::path& file) {
+    const TimeColumn* found = nullptr;
+    for (const TimeColumn& column : kTimeColumns) {
+        if (!table.has_column(column.name)) continue;
+        if (found != nullptr) {
+            throw InputError(file.string() + ":1: columns " + std::string(found->name) + " and " +
+                             std::string(column.name) + "; allowed: one of them");
+        }
+        found = &column;
+    }
+    if (found == nullptr) {
+        throw InputError(file.string() +
+                         ":1: no column of time; allowed: time_utc, time_jst or time");
+    }
+    return *found;
+}
+
+UtcTime time_of(const text::CsvTable& table, std::size_t row, const TimeColumn& column) {
+    const std::string& cell = table.cell(row, column.name);
+    const auto time = column.zone ? parse_rfc3339_in_zone(cell, *column.zone) : parse_rfc3339(cell);
+    if (!time) table.refuse(row, column.name, "not an instant", "YYYY-MM-DDThh:mm:ss with zone");
+    return *time;
+}
+
+int whole_number(const text::CsvTable& table, std::size_t row, std::string_view column, int low,
+                 int high) {
+    const double value = table.number(row, column, low, high);
+    const int whole = static_cast<int>(value);
+    if (static_cast<double>(whole) != value) {
+        table.refuse(row, column, "not whole", "a whole number");
+    }
+    return whole;
+}
+
+}  // namespace
+
+void SurveyRow::set_detail(std::string_view name, std::optional<double> value) {
+    for (Detail& one : details) {
+        if (one.name != name) continue;
+        one.value = value;
+        return;
+    }
+    details.push_back({std::string(name), value});
+}
+
+std::optional<double> SurveyRow::detail(std::string_view name) const {
+    for (const Detail& known : details) {
+        if (known.name == name) return known.value;
+    }
+    return std::nullopt;
+}
+
+double SurveyRow::detail_for(std::string_view wanted_by, std::string_view name) const {
+    if (const std::optional<double> value = detail(name)) return *value;
+    throw InputError(std::string(wanted_by) + ": " + site + " (" + std::to_string(occupation) +
+                     ") has no " + std::string(name) + "; allowed: rows from records");
+}
+
+std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
+                                         const std::vector<text::Site>& sites) {
+    const text::CsvTable table = text::read_csv(file);
+    const TimeColumn& column = time_column(table, file);
+    std::vector<SurveyRow> rows;
+    for (std::size_t i = 0; i < table.row_count(); ++i) {
+        SurveyRow row;
+        row.site = table.cell(i, "site");
+        const text::Site* const site = text::find_site(sites, row.site);
+        if (site == nullptr) table.refuse(i, "site", "unknown", "a name of the table of sites");
+        row.reference = site->gravity;
+        row.occupation = whole_number(table, i, "occupation", 1, 1'000'000);
+        row.time = time_of(table, i, column);
+        if (table.has_column("outlier")) row.is_flagged = whole_number(table, i, "outlier", 0, 1);
+        if (table.has_column("earth_tide_mgal")) {
+            // No solid-Earth tide exceeds 0.3 mGal; 1 catches a wrong unit.
+            row.given_tide = MilliGal(table.number(i, "earth_tide_mgal", -1.0, 1.0));
+        }
+        // Gravity on Earth is 976000-984000 mGal, biases are some thousands.
+        row.acceleration = MilliGal(table.number(i, "acceleration_mgal", 900e3, 1100e3));
+        row.temperature = DegC(table.number(i, "temperature_degc", -60.0, 100.0));
+        const auto same_time = [&row](const SurveyRow& other) { return other.time == row.time; };
+        if (std::any_of(rows.begin(), rows.end(), same_time)) {
+            table.refuse(i, column.name, "stands twice", "one row per instant");
+        }
+        rows.push_back(std::move(row));
+    }
+    if (rows.empty()) throw InputError(file.string() + ": no rows; allowed: at least one");
+    std::sort(rows.begin(), rows.end(),
+              [](const SurveyRow& a, const SurveyRow& b) { return a.time < b.time; });
+    set_backward_rates(rows);
+    return rows;
+}
+
+void set_backward_rates(std::vector<SurveyRow>& rows) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].rate_degc_per_h =
+            i == 0 ? 0.0
+                   : (rows[i].temperature - rows[i - 1].temperature).value() /
+                         (seconds_between(rows[i - 1].time, rows[i].time) / kSecondsPerHour);
+    }
+}
+
+std::vector<std::string> position_warnings(const std::vector<SurveyRow>& rows,
+                                           const std::vector<text::Site>& sites) {
+    std::vector<std::string> warnings;
+    for (const SurveyRow& row : rows) {
+        const text::Site* const site = text::find_site(sites, row.site);
+        if (site == nullptr || site->is_placed) continue;
+        std::string warning = row.site;
+        warning += ": no position in the table of sites; the mean of the others is taken";
+        if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) {
+            warnings.push_back(std::move(warning));
+        }
+    }
+    return warnings;
+}
+
+}  // namespace a351::corrector

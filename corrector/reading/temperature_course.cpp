@@ -1,0 +1,49 @@
+#include "corrector/reading/temperature_course.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+
+namespace a351::corrector {
+namespace {
+
+struct Sum {
+    std::int64_t counts = 0;
+    std::int64_t samples = 0;
+};
+using MinuteSums = std::map<std::chrono::sys_time<std::chrono::minutes>, Sum>;
+
+/// Samples [begin, end) of a segment from the anchor at `begin` on.
+void add_record(MinuteSums& sums, const record::Segment& segment, std::size_t begin,
+                std::size_t end, UtcTime time) {
+    for (std::size_t i = begin; i < end; ++i) {
+        const UtcTime at = time + from_seconds(static_cast<double>(i - begin) / segment.rate_hz);
+        Sum& sum = sums[std::chrono::floor<std::chrono::minutes>(at)];
+        sum.counts += segment.counts[i];
+        ++sum.samples;
+    }
+}
+
+}  // namespace
+
+std::vector<MinuteTemperature> temperature_course(const std::vector<record::Segment>& segments,
+                                                  const record::ChannelScale& scale) {
+    MinuteSums sums;
+    for (const record::Segment& segment : segments) {
+        for (std::size_t k = 0; k < segment.anchors.size(); ++k) {
+            const bool is_last = k + 1 == segment.anchors.size();
+            add_record(sums, segment, segment.anchors[k].offset,
+                       is_last ? segment.counts.size() : segment.anchors[k + 1].offset,
+                       segment.anchors[k].time);
+        }
+    }
+    std::vector<MinuteTemperature> course;
+    for (const auto& [minute, sum] : sums) {
+        const double mean = static_cast<double>(sum.counts) / static_cast<double>(sum.samples);
+        course.push_back(
+            {minute + std::chrono::seconds(30), DegC(scale.offset + scale.gain * mean)});
+    }
+    return course;
+}
+
+}  // namespace a351::corrector

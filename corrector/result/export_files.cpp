@@ -1,0 +1,112 @@
+#include "corrector/result/export_files.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "protocol/text/aligned_text.hpp"
+#include "protocol/text/write_together.hpp"
+
+namespace a351::corrector {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Of an occupation whose fit says nothing: the published scatter of the sensor.
+constexpr MilliGal kUnknownScatter{2.0};
+
+/// Without digits that mean nothing: 1e-9 degrees is 0.1 mm.
+double rounded(double value) {
+    constexpr double kSteps = 1e9;
+    return std::round(value * kSteps) / kSteps;
+}
+
+Json mgal(const std::optional<MilliGal>& value) {
+    constexpr double kSteps = 1e6;
+    return value ? Json(std::round(value->value() * kSteps) / kSteps) : Json(nullptr);
+}
+
+Json feature(const StationValue& station, const text::Site& site) {
+    Json json;
+    json["type"] = "Feature";
+    json["geometry"] = nullptr;
+    if (site.is_placed) {
+        constexpr double kTurn_deg = 360.0;
+        json["geometry"] = {
+            {"type", "Point"},
+            {"coordinates",
+             Json::array({rounded(std::remainder(site.longitude.value(), kTurn_deg)),
+                          rounded(site.latitude.value()), rounded(site.altitude.value())})}};
+    }
+    json["properties"] = {{"site", station.site},
+                          {"n", station.row_count},
+                          {"gravity_mgal", mgal(station.gravity)},
+                          {"u_gravity_mgal", mgal(station.u_gravity)},
+                          {"reference_mgal", mgal(station.reference)},
+                          {"residual_mgal", mgal(station.residual)},
+                          {"flagged_only", station.is_flagged_only}};
+    return json;
+}
+
+/// Its reader cuts lines at '/' and ':' before it looks at commas, and takes '%' for a comment.
+std::string gsadjust_name(std::string name) {
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == '/' || c == ':' || c == '%'; }, '-');
+    return name;
+}
+
+std::string duration_s(const SurveyRow& row) {
+    if (!row.start || !row.end) return "0";
+    return text::fixed(seconds_between(*row.start, *row.end), 0);
+}
+
+}  // namespace
+
+std::string stations_geojson(const SurveyCorrection& result, const std::vector<text::Site>& sites) {
+    std::string text = "{\"type\": \"FeatureCollection\", \"features\": [";
+    for (const StationValue& station : result.stations) {
+        const text::Site* const site = text::find_site(sites, station.site);
+        if (site == nullptr) continue;
+        text += (text.back() == '[' ? "\n" : ",\n") +
+                feature(station, *site).dump(-1, ' ', false, Json::error_handler_t::replace);
+    }
+    return text + "\n]}\n";
+}
+
+std::string gsadjust_csv(const SurveyCorrection& result, const std::vector<text::Site>& sites) {
+    std::string csv =
+        "station,latitude_deg,longitude_deg,altitude_m,gravity_mgal,sd_mgal,tilt_x,tilt_y,"
+        "temperature_degc,tide_correction_mgal,duration_s,rejected,time_utc,decimal_date,"
+        "terrain_mgal,date_utc\n";
+    for (const CorrectedRow& row : result.rows) {
+        const text::Site* const site = text::find_site(sites, row.row.site);
+        if (site == nullptr) continue;
+        const std::string time = to_rfc3339(row.row.time);
+        const std::string date =
+            time.substr(5, 2) + '/' + time.substr(8, 2) + '/' + time.substr(0, 4);
+        const MilliGal u = row.u_corrected.value_or(kUnknownScatter);
+        const bool is_kept_out =
+            row.row.is_excluded || (row.row.is_flagged && result.options.use_flags);
+        const MilliGal gravity = row.row.acceleration - row.row.tide + row.temperature_correction +
+                                 row.rate_correction + row.tilt_correction;
+        for (const MilliGal value : {gravity - u, gravity + u}) {
+            if (is_kept_out) csv += "% ";
+            csv += gsadjust_name(row.row.site) + ',' + text::fixed(site->latitude.value(), 7) +
+                   ',' + text::fixed(site->longitude.value(), 7) + ',' +
+                   text::fixed(site->altitude.value(), 3) + ',' + text::fixed(value.value(), 6) +
+                   ',' + text::fixed(u.value(), 6) + ",0,0," +
+                   text::fixed(row.row.temperature.value(), 4) + ',' +
+                   text::fixed(-row.row.tide.value(), 6) + ',' + duration_s(row.row) + ",0," +
+                   time.substr(11, 8) + ",0,0," + date + '\n';
+        }
+    }
+    return csv;
+}
+
+std::vector<text::NamedText> export_files(const SurveyCorrection& result,
+                                          const std::vector<text::Site>& sites) {
+    return {{"stations.geojson", stations_geojson(result, sites)},
+            {"gsadjust.csv", gsadjust_csv(result, sites)}};
+}
+
+}  // namespace a351::corrector

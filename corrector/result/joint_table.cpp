@@ -1,0 +1,82 @@
+#include "corrector/result/joint_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector {
+namespace {
+
+JointStation join(const std::string& site, const std::vector<StationValue>& days) {
+    const bool is_weighted = std::all_of(days.begin(), days.end(), [](const StationValue& day) {
+        return day.u_gravity && day.u_gravity->value() > 0.0;
+    });
+    JointStation joint;
+    joint.site = site;
+    joint.day_count = days.size();
+    // About the first day: full values near 980000 keep their last digits.
+    const MilliGal origin = days.front().gravity;
+    double sum = 0.0;
+    double weights = 0.0;
+    for (const StationValue& day : days) {
+        const double u = is_weighted ? day.u_gravity->value() : 1.0;
+        sum += (day.gravity - origin).value() / (u * u);
+        weights += 1.0 / (u * u);
+        joint.row_count += day.row_count;
+        if (day.reference) joint.reference = day.reference;
+    }
+    joint.gravity = origin + MilliGal(sum / weights);
+    if (is_weighted) joint.u_gravity = MilliGal(1.0 / std::sqrt(weights));
+    if (joint.reference) joint.residual = *joint.reference - joint.gravity;
+    return joint;
+}
+
+}  // namespace
+
+std::vector<JointStation> join_days(const std::vector<SurveyCorrection>& days) {
+    std::vector<std::string> sites;
+    for (const SurveyCorrection& day : days) {
+        for (const StationValue& station : day.stations) {
+            if (std::find(sites.begin(), sites.end(), station.site) == sites.end()) {
+                sites.push_back(station.site);
+            }
+        }
+    }
+    std::vector<JointStation> joint;
+    for (const std::string& site : sites) {
+        std::vector<StationValue> values;
+        for (const SurveyCorrection& day : days) {
+            std::copy_if(day.stations.begin(), day.stations.end(), std::back_inserter(values),
+                         [&site](const StationValue& station) { return station.site == site; });
+        }
+        joint.push_back(join(site, values));
+    }
+    return joint;
+}
+
+std::string joint_csv(const std::vector<JointStation>& stations) {
+    std::string csv = "site,days,n,gravity_mgal,u_gravity_mgal,reference_mgal,residual_mgal\n";
+    for (const JointStation& station : stations) {
+        csv += station.site + ',' + std::to_string(station.day_count) + ',' +
+               std::to_string(station.row_count) + ',' + text::fixed(station.gravity.value(), 6) +
+               ',' + text::fixed_or(station.u_gravity, 6, "") + ',' +
+               text::fixed_or(station.reference, 6, "") + ',' +
+               text::fixed_or(station.residual, 6, "") + '\n';
+    }
+    return csv;
+}
+
+std::string joint_text(const std::vector<JointStation>& stations) {
+    std::vector<std::vector<std::string>> rows{
+        {"station", "days", "n", "gravity mGal", "u", "reference", "residual"}};
+    for (const JointStation& station : stations) {
+        rows.push_back(
+            {station.site, std::to_string(station.day_count), std::to_string(station.row_count),
+             text::fixed(station.gravity.value(), 3), text::fixed_or(station.u_gravity, 2, "-"),
+             text::fixed_or(station.reference, 3, "-"), text::fixed_or(station.residual, 3, "-")});
+    }
+    return text::aligned(rows);
+}
+
+}  // namespace a351::corrector

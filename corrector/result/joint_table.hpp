@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "corrector/model/survey_correction.hpp"
+
+namespace a351::corrector {
+
+/// A station over several survey days.
+struct JointStation {
+    std::string site;
+    std::size_t day_count = 0;
+    std::size_t row_count = 0;
+    /// Mean of the days by 1/u^2; the plain mean when a day has no u.
+    MilliGal gravity;
+    std::optional<MilliGal> u_gravity;  ///< 1 / sqrt(sum 1/u^2): days taken as independent.
+    std::optional<MilliGal> reference;
+    std::optional<MilliGal> residual;
+};
+
+/// Stations in the order of their first appearance.
+[[nodiscard]] std::vector<JointStation> join_days(const std::vector<SurveyCorrection>& days);
+
+[[nodiscard]] std::string joint_csv(const std::vector<JointStation>& stations);
+[[nodiscard]] std::string joint_text(const std::vector<JointStation>& stations);
+
+}  // namespace a351::corrector

@@ -1,0 +1,68 @@
+#include "corrector/tide/tide_series.hpp"
+
+#include <algorithm>
+
+#include "protocol/core/input_error.hpp"
+#include "protocol/text/csv.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr std::size_t kPoints = 4;  // of a cubic
+
+}  // namespace
+
+TideSeries TideSeries::read(const std::filesystem::path& file) {
+    const text::CsvTable table = text::read_csv(file);
+    TideSeries series;
+    for (std::size_t row = 0; row < table.row_count(); ++row) {
+        const auto time = parse_rfc3339(table.cell(row, "time"));
+        if (!time) table.refuse(row, "time", "not an instant", "YYYY-MM-DDThh:mm:ss with zone");
+        if (!series.times_.empty() && *time <= series.times_.back()) {
+            table.refuse(row, "time", "not after the row before it", "ascending times");
+        }
+        series.times_.push_back(*time);
+        // No solid-Earth tide exceeds 0.3 mGal; 1 catches a wrong unit.
+        series.values_mgal_.push_back(table.number(row, "tide_mgal", -1.0, 1.0));
+    }
+    if (series.times_.size() < kPoints) {
+        throw InputError(file.string() + ": too few rows; allowed: " + std::to_string(kPoints) +
+                         " or more");
+    }
+    return series;
+}
+
+std::optional<MilliGal> TideSeries::at(UtcTime time) const {
+    if (time < first() || time > last()) return std::nullopt;
+    const auto behind = std::upper_bound(times_.begin(), times_.end(), time);
+    const auto bracket = std::min(static_cast<std::size_t>(behind - times_.begin()) - 1,
+                                  times_.size() - 2);  // the row before `time`
+    for (const std::size_t before : {1U, 2U, 0U}) {
+        if (before > bracket || bracket - before + kPoints > times_.size()) continue;
+        if (!has_gap(bracket - before)) return cubic(bracket - before, time);
+    }
+    return std::nullopt;
+}
+
+bool TideSeries::has_gap(std::size_t first) const {
+    for (std::size_t i = first + 1; i < first + kPoints; ++i) {
+        if (times_[i] - times_[i - 1] > kLongestTideStep) return true;
+    }
+    return false;
+}
+
+/// Lagrange's form.
+MilliGal TideSeries::cubic(std::size_t first, UtcTime time) const {
+    double sum = 0.0;
+    for (std::size_t i = first; i < first + kPoints; ++i) {
+        double weight = 1.0;
+        for (std::size_t k = first; k < first + kPoints; ++k) {
+            if (k == i) continue;
+            weight *= seconds_between(times_[k], time) / seconds_between(times_[k], times_[i]);
+        }
+        sum += weight * values_mgal_[i];
+    }
+    return MilliGal(sum);
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,147 @@
+#include "corrector/whole_day/day_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "corrector/whole_day/day_problem.hpp"
+#include "protocol/linear_algebra/cholesky.hpp"
+#include "protocol/linear_algebra/normal_matrix.hpp"
+
+namespace a351::corrector {
+namespace {
+
+using Index = Eigen::Index;
+
+/// What is estimated, in the units of the terms.
+struct Estimates {
+    Eigen::VectorXd values, standard_errors;  ///< (estimated)
+    Eigen::VectorXd placement_mgal;           ///< (set-ups) expected, given all readings.
+    DayPriors::Vector shift;
+    DayPriors::Matrix shift_covariance;
+};
+
+/// Values by least squares at the point; errors with the lags as two more terms and the noise that is
+/// to be expected.
+Estimates estimate(const DayProblem& problem, const DayRecord& record, std::size_t set_ups,
+                   const DayProblem::Point& u) {
+    const DayNoise noise = problem.noise(u);
+    const Index estimated = problem.estimated();
+    Eigen::MatrixXd columns = problem.scaled(u);
+    whiten(record.bins, noise, columns);
+    const auto x = columns.rightCols(estimated);
+    const Eigen::VectorXd scaled = Cholesky(normal_matrix(x)).solve(x.transpose() * columns.col(0));
+    const Eigen::VectorXd left = columns.col(0) - x * scaled;
+
+    Estimates result;
+    result.values = problem.unscaled(u, scaled);
+
+    Eigen::MatrixXd all(x.rows(), 1 + estimated + kLags);
+    all << problem.scaled(u), problem.lag_columns(u, result.values);
+    whiten(record.bins, problem.expected_noise(u), all);
+    const Eigen::MatrixXd covariance =
+        Cholesky(normal_matrix(all.rightCols(estimated + kLags))).inverse();
+    const Eigen::MatrixXd unscaling = problem.unscaling();
+    result.standard_errors =
+        (unscaling * covariance * unscaling.transpose()).diagonal().cwiseSqrt();
+    result.shift << u[kFastLag], u[kSlowLag], scaled.head(kTerms);
+    // The lags stand last in `covariance` and first in the shift.
+    result.shift_covariance << covariance.bottomRightCorner(kLags, kLags),
+        covariance.bottomLeftCorner(kLags, kTerms), covariance.topRightCorner(kTerms, kLags),
+        covariance.topLeftCorner(kTerms, kTerms);
+
+    Eigen::MatrixXd members = Eigen::MatrixXd::Zero(x.rows(), static_cast<Index>(set_ups));
+    for (std::size_t i = 0; i < record.bins.size(); ++i)
+        members(static_cast<Index>(i), static_cast<Index>(record.bins[i].set_up)) = 1.0;
+    whiten(record.bins, noise, members);
+    result.placement_mgal =
+        noise.placement_mgal * noise.placement_mgal * (members.transpose() * left);
+    return result;
+}
+
+/// Means over the bins of every set-up, weighted by their samples.
+std::vector<DaySetUp> means_of_set_ups(const DayProblem& problem, const DayRecord& record,
+                                       std::size_t set_ups, const DayProblem::Point& u,
+                                       const Eigen::VectorXd& coefficients) {
+    std::vector<DaySetUp> means(set_ups);
+    std::vector<double> counts(set_ups);
+    for (const DayBin& bin : record.bins)
+        counts[bin.set_up] += static_cast<double>(bin.times.size());
+    const Eigen::MatrixXd x = problem.design(u);
+    const Eigen::VectorXd temperature = problem.means().of(record.temperature.series.values());
+    for (std::size_t i = 0; i < record.bins.size(); ++i) {
+        const DayBin& bin = record.bins[i];
+        DaySetUp& mean = means[bin.set_up];
+        const auto row = static_cast<Index>(i);
+        const double weight = static_cast<double>(bin.times.size()) / counts[bin.set_up];
+        mean.has_bins = true;
+        mean.reading = mean.reading + MilliGal(weight * problem.readings_mgal()(row));
+        mean.temperature = mean.temperature + DegC(weight * temperature(row));
+        mean.rate_degc_per_h += weight * x(row, static_cast<Index>(DayTerm::fast));
+        for (std::size_t k = 0; k < kDayTerms; ++k) {
+            const auto term = static_cast<Index>(k);
+            mean.effect_mgal.at(k) += weight * coefficients(term) * x(row, term);
+        }
+    }
+    return means;
+}
+
+}  // namespace
+
+std::string_view day_term_name(DayTerm term) {
+    constexpr std::array<std::string_view, kDayTerms> kNames{"constant_mgal",
+                                                             "temperature_mgal_per_degc",
+                                                             "slow_temperature_mgal_per_degc",
+                                                             "rate_mgal_per_degc_per_h",
+                                                             "time_mgal_per_h",
+                                                             "warm_up_mgal",
+                                                             "x_mgal_per_g",
+                                                             "y_mgal_per_g"};
+    return kNames.at(static_cast<std::size_t>(term));
+}
+
+std::optional<DayFit> fit_day(const DayRecord& record, const std::vector<DayStation>& stations,
+                              const DayFit* nearby, const DayPriors& priors) {
+    const bool is_held = std::any_of(record.bins.begin(), record.bins.end(), [&](const auto& bin) {
+        return stations[bin.set_up].gravity.has_value();
+    });
+    if (!is_held) return std::nullopt;
+    const DayProblem problem(record, stations, priors);
+    const DayProblem::Point u =
+        problem.most_likely(nearby != nullptr ? std::optional(nearby->point) : std::nullopt);
+    const Estimates estimates = estimate(problem, record, stations.size(), u);
+
+    DayFit fit;
+    fit.point = u;
+    fit.noise = problem.noise(u);
+    fit.shift = estimates.shift;
+    fit.shift_covariance = estimates.shift_covariance;
+    fit.fast_lag_s = problem.lag_s(u, kFastLag);
+    fit.slow_lag_s = problem.lag_s(u, kSlowLag);
+    fit.log_likelihood = -problem.cost(u);
+    for (std::size_t k = 0; k < kDayTerms; ++k) {
+        const auto term = static_cast<Index>(k);
+        fit.coefficients.at(k) = {estimates.values(term), estimates.standard_errors(term)};
+    }
+    for (std::size_t k = 0; k < problem.rough_mgal().size(); ++k) {
+        const auto at = static_cast<Index>(kDayTerms + k);
+        fit.unknown_mgal.push_back(
+            {problem.rough_mgal()[k] + estimates.values(at), estimates.standard_errors(at)});
+    }
+    fit.set_ups = means_of_set_ups(problem, record, stations.size(), u, estimates.values);
+    for (std::size_t s = 0; s < stations.size(); ++s) {
+        DaySetUp& set_up = fit.set_ups[s];
+        if (!set_up.has_bins) continue;
+        const DayStation& station = stations[s];
+        const double base =
+            station.gravity ? station.gravity->value() : problem.rough_mgal()[station.unknown];
+        const double gravity = station.gravity ? base : fit.unknown_mgal[station.unknown].value;
+        set_up.reading = MilliGal(base) + set_up.reading + station.tide;
+        set_up.corrected = MilliGal(gravity + estimates.placement_mgal(static_cast<Index>(s)));
+        double effects = 0.0;
+        for (const double effect : set_up.effect_mgal) effects += effect;
+        set_up.flicker = set_up.reading - station.tide - MilliGal(effects) - set_up.corrected;
+    }
+    return fit;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,57 @@
+#include "corrector/whole_day/day_noise.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace a351::corrector {
+namespace {
+
+double decay(double period_s, double lag_s) {
+    return std::exp(-2.0 * std::numbers::pi * std::abs(lag_s) / period_s);
+}
+
+}  // namespace
+
+double whiten(const std::vector<DayBin>& bins, const DayNoise& noise, Eigen::MatrixXd& columns) {
+    constexpr auto kFlicker = static_cast<Eigen::Index>(kFlickerPeriods_s.size());
+    constexpr Eigen::Index kStates = kFlicker + 1;  // the last: placement
+    using State = Eigen::Matrix<double, kStates, 1>;
+    const double flicker_part =
+        noise.flicker_mgal * noise.flicker_mgal / static_cast<double>(kFlicker);
+    const double placement = noise.placement_mgal * noise.placement_mgal;
+
+    Eigen::Matrix<double, kStates, kStates> covariance =
+        Eigen::Matrix<double, kStates, kStates>::Zero();
+    covariance.diagonal().setConstant(flicker_part);
+    Eigen::MatrixXd state = Eigen::MatrixXd::Zero(kStates, columns.cols());
+    double log_determinant = 0.0;
+    for (std::size_t i = 0; i < bins.size(); ++i) {
+        State keep = State::Ones();
+        if (i > 0) {
+            const double lag_s = seconds_between(bins[i - 1].time, bins[i].time);
+            for (Eigen::Index k = 0; k < kFlicker; ++k)
+                keep(k) = decay(kFlickerPeriods_s.at(static_cast<std::size_t>(k)), lag_s);
+        }
+        if (i == 0 || bins[i].set_up != bins[i - 1].set_up) keep(kFlicker) = 0.0;
+        state = keep.asDiagonal() * state;
+        covariance = keep.asDiagonal() * covariance * keep.asDiagonal();
+        for (Eigen::Index k = 0; k < kFlicker; ++k)
+            covariance(k, k) += flicker_part * (1.0 - keep(k) * keep(k));
+        if (keep(kFlicker) == 0.0) covariance(kFlicker, kFlicker) = placement;
+
+        const State gain = covariance.rowwise().sum();
+        const double white = noise.white_mgal * noise.white_mgal *
+                             static_cast<double>(kBinSamples) /
+                             static_cast<double>(bins[i].times.size());
+        const double variance = gain.sum() + white;
+        const auto row = static_cast<Eigen::Index>(i);
+        const Eigen::RowVectorXd innovation = columns.row(row) - state.colwise().sum();
+        state += gain / variance * innovation;
+        covariance -= gain * gain.transpose() / variance;
+        columns.row(row) = innovation / std::sqrt(variance);
+        log_determinant += std::log(variance);
+    }
+    return log_determinant;
+}
+
+}  // namespace a351::corrector

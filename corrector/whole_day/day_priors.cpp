@@ -1,0 +1,36 @@
+#include "corrector/whole_day/day_priors.hpp"
+
+#include <cmath>
+
+#include "protocol/linear_algebra/cholesky.hpp"
+
+namespace a351::corrector {
+
+void DayPriors::observe(const std::vector<Eigen::Index>& places, const Eigen::VectorXd& values,
+                        const Eigen::MatrixXd& covariance) {
+    const Matrix before = factor * factor.transpose();
+    const Eigen::MatrixXd innovation = before(places, places) + covariance;
+    const Eigen::MatrixXd gain = Cholesky(innovation).solve(before(places, Eigen::all)).transpose();
+    mean += gain * (values - Eigen::VectorXd(mean(places)));
+    // In Joseph's form, which stays a covariance however exact the measurement is.
+    Matrix left = Matrix::Identity();
+    for (std::size_t k = 0; k < places.size(); ++k)
+        left.col(places[k]) -= gain.col(static_cast<Eigen::Index>(k));
+    const Matrix after = left * before * left.transpose() + gain * covariance * gain.transpose();
+    factor = Cholesky(0.5 * (after + after.transpose())).lower();
+}
+
+// fit_day() documents the priors, methods.md where they come from.
+DayPriors usual_day_priors() {
+    constexpr double kAnything_mgal = 1e4;
+    constexpr double kLagFactor = 1.5;
+    DayPriors priors;
+    priors.mean << std::log(43.0), std::log(2700.0), 0.0, -12.0, -20.0, 11.3, 0.0, 0.0, 0.0, 0.0;
+    DayPriors::Vector deviations;
+    deviations << std::log(kLagFactor), std::log(kLagFactor), kAnything_mgal, 12.0, 20.0, 11.3, 1.0,
+        36.0, 2000.0, 2000.0;
+    priors.factor = deviations.asDiagonal();
+    return priors;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,243 @@
+#include "corrector/whole_day/day_problem.hpp"
+
+#include <nlopt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "corrector/whole_day/search_grid.hpp"
+#include "protocol/core/units.hpp"
+#include "protocol/linear_algebra/cholesky.hpp"
+#include "protocol/linear_algebra/normal_matrix.hpp"
+#include "protocol/signal/median.hpp"
+
+namespace a351::corrector {
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr double kReferenceTemperature_degc = 42.5;  // set point of the publication's oven
+constexpr double kWarmUp_h = 2.5;                    // of the publication's sensor, after power-on
+constexpr double kAnything_mgal = 1e4;               // of gravity: no prior
+
+// fit_day() documents them, methods.md where they come from.
+constexpr LogNormalPrior kPlacementPrior_mgal{1.2, 2.0}, kFlickerPrior_mgal{1.2, 2.0};
+constexpr double kWhiteFactor = 2.0;
+constexpr double kFarthest = 12.0;  // standard deviations of the priors: anything at all
+
+std::size_t unknown_count(const std::vector<DayStation>& stations) {
+    std::size_t count = 0;
+    for (const DayStation& station : stations)
+        if (!station.gravity) count = std::max(count, station.unknown + 1);
+    return count;
+}
+
+/// Of the difference of neighbouring bins, robustly; a bound for the white noise.
+double bin_scatter_mgal(const std::vector<DayBin>& bins) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < bins.size(); ++i)
+        if (bins[i].set_up == bins[i - 1].set_up)
+            steps.push_back(std::abs((bins[i].reading - bins[i - 1].reading).value()));
+    if (steps.empty()) return 1.0;
+    return std::max(kGaussianPerMad * median(std::move(steps)) / std::sqrt(2.0), 1e-3);
+}
+
+}  // namespace
+
+double LogNormalPrior::at(double u) const { return median * std::pow(factor, u); }
+
+DayProblem::DayProblem(const DayRecord& record, const std::vector<DayStation>& stations,
+                       const DayPriors& priors)
+    : record_(record),
+      stations_(stations),
+      priors_(priors),
+      unknowns_(static_cast<Index>(unknown_count(stations))),
+      means_(record.temperature.series, record.bins),
+      white_mgal_{bin_scatter_mgal(record.bins), kWhiteFactor} {
+    set_readings();
+    set_fixed_columns();
+}
+
+void DayProblem::set_readings() {
+    const auto count = static_cast<Index>(record_.bins.size());
+    readings_mgal_.resize(count);
+    double held_sum = 0.0, held_count = 0.0;
+    std::vector<double> sums(static_cast<std::size_t>(unknowns_)), counts(sums.size());
+    for (Index i = 0; i < count; ++i) {
+        const DayBin& bin = record_.bins[static_cast<std::size_t>(i)];
+        const DayStation& station = stations_[bin.set_up];
+        readings_mgal_(i) = (bin.reading - station.tide).value();
+        if (station.gravity) {
+            readings_mgal_(i) -= station.gravity->value();
+            held_sum += readings_mgal_(i);
+            held_count += 1.0;
+        } else {
+            sums[station.unknown] += readings_mgal_(i);
+            counts[station.unknown] += 1.0;
+        }
+    }
+    const double constant = held_sum / held_count;
+    rough_mgal_.resize(sums.size());
+    for (std::size_t k = 0; k < sums.size(); ++k)
+        rough_mgal_[k] = counts[k] > 0.0 ? sums[k] / counts[k] - constant : 0.0;
+    for (Index i = 0; i < count; ++i) {
+        const DayStation& station = stations_[record_.bins[static_cast<std::size_t>(i)].set_up];
+        if (!station.gravity) readings_mgal_(i) -= rough_mgal_[station.unknown];
+    }
+}
+
+void DayProblem::set_fixed_columns() {
+    const auto count = static_cast<Index>(record_.bins.size());
+    fixed_ = Eigen::MatrixXd::Zero(count, static_cast<Index>(kDayTerms) + unknowns_);
+    const auto column = [this](DayTerm term) { return fixed_.col(static_cast<Index>(term)); };
+    column(DayTerm::constant).setOnes();
+    column(DayTerm::level) =
+        means_.of(record_.temperature.series.values()).array() - kReferenceTemperature_degc;
+    const UtcTime begin = record_.temperature.series.start();
+    const UtcTime middle =
+        record_.bins.front().time + (record_.bins.back().time - record_.bins.front().time) / 2;
+    for (Index i = 0; i < count; ++i) {
+        const DayBin& bin = record_.bins[static_cast<std::size_t>(i)];
+        column(DayTerm::drift)(i) = seconds_between(middle, bin.time) / kSecondsPerHour;
+        column(DayTerm::warm_up)(i) =
+            std::exp(-seconds_between(begin, bin.time) / kSecondsPerHour / kWarmUp_h);
+        column(DayTerm::x)(i) = bin.x.value();
+        column(DayTerm::y)(i) = bin.y.value();
+        const DayStation& station = stations_[bin.set_up];
+        if (!station.gravity)
+            fixed_(i, static_cast<Index>(kDayTerms) + static_cast<Index>(station.unknown)) = 1.0;
+    }
+}
+
+Eigen::VectorXd DayProblem::fast_column(double lag_s) const {
+    const TimeSeries<DegC>& temperature = record_.temperature.series;
+    std::vector<double> rate = lagged(temperature, lag_s);
+    for (std::size_t i = 0; i < rate.size(); ++i)
+        rate[i] = (temperature.values()[i] - rate[i]) / lag_s * kSecondsPerHour;
+    return means_.of(rate);
+}
+
+Eigen::VectorXd DayProblem::slow_column(double lag_s) const {
+    return means_.of(lagged(record_.temperature.series, lag_s)).array() -
+           kReferenceTemperature_degc;
+}
+
+Eigen::VectorXd DayProblem::unscaled(const Point& u, const Eigen::VectorXd& scaled) const {
+    Eigen::VectorXd all(estimated() + kLags);
+    all << scaled, u[kFastLag], u[kSlowLag];
+    Eigen::VectorXd values = unscaling() * all;
+    values.head(kTerms) += priors_.mean.tail<kTerms>();
+    return values;
+}
+
+Eigen::MatrixXd DayProblem::unscaling() const {
+    Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(estimated(), estimated() + kLags);
+    derivative.topLeftCorner(kTerms, kTerms) = priors_.factor.bottomRightCorner<kTerms, kTerms>();
+    derivative.diagonal().tail(unknowns_).setConstant(kAnything_mgal);
+    derivative.topRightCorner(kTerms, kLags) = priors_.factor.bottomLeftCorner<kTerms, kLags>();
+    return derivative;
+}
+
+DayNoise DayProblem::noise(const Point& u) const {
+    return {kPlacementPrior_mgal.at(u[kPlacement]), kFlickerPrior_mgal.at(u[kFlicker]),
+            white_mgal_.at(u[kWhite])};
+}
+
+DayNoise DayProblem::expected_noise(const Point& u) const {
+    constexpr double kStep = 0.25;
+    const auto growth = [&](DayHyper place, double factor) {
+        Point more = u, less = u;
+        more.at(place) += kStep;
+        less.at(place) -= kStep;
+        const double curvature = (cost(more) - 2.0 * cost(u) + cost(less)) / (kStep * kStep);
+        // Of a quantity whose logarithm has the variance v about the mode, the root of the mean square.
+        const double variance = std::pow(std::log(factor), 2) / std::max(curvature, 1.0);
+        return std::exp(variance);
+    };
+    DayNoise noise = this->noise(u);
+    noise.placement_mgal *= growth(kPlacement, kPlacementPrior_mgal.factor);
+    noise.flicker_mgal *= growth(kFlicker, kFlickerPrior_mgal.factor);
+    return noise;
+}
+
+double DayProblem::lag_s(const Point& u, DayHyper lag) const {
+    const auto place = static_cast<Index>(lag);
+    return std::exp(priors_.mean(place) + priors_.factor(place, kFastLag) * u[kFastLag] +
+                    priors_.factor(place, kSlowLag) * u[kSlowLag]);
+}
+
+Eigen::MatrixXd DayProblem::design(const Point& u) const {
+    Eigen::MatrixXd columns = fixed_;
+    columns.col(static_cast<Index>(DayTerm::fast)) = fast_column(lag_s(u, kFastLag));
+    columns.col(static_cast<Index>(DayTerm::slow)) = slow_column(lag_s(u, kSlowLag));
+    return columns;
+}
+
+Eigen::MatrixXd DayProblem::scaled(const Point& u) const {
+    const Eigen::MatrixXd x = design(u);
+    Eigen::MatrixXd columns(x.rows(), x.cols() + 1);
+    columns.col(0) = readings_mgal_ - x * unscaled(u, Eigen::VectorXd::Zero(estimated()));
+    columns.middleCols(1, kTerms) =
+        x.leftCols(kTerms) * priors_.factor.bottomRightCorner<kTerms, kTerms>();
+    columns.rightCols(unknowns_) = kAnything_mgal * x.rightCols(unknowns_);
+    return columns;
+}
+
+Eigen::MatrixXd DayProblem::lag_columns(const Point& u, const Eigen::VectorXd& values) const {
+    constexpr double kStep = 0.1;
+    const auto lagged_effects = [&](const Point& at) -> Eigen::VectorXd {
+        return values(static_cast<Index>(DayTerm::fast)) * fast_column(lag_s(at, kFastLag)) +
+               values(static_cast<Index>(DayTerm::slow)) * slow_column(lag_s(at, kSlowLag));
+    };
+    Eigen::MatrixXd columns = design(u) * unscaling().rightCols(kLags);
+    for (const DayHyper lag : {kFastLag, kSlowLag}) {
+        Point more = u, less = u;
+        more.at(lag) += kStep;
+        less.at(lag) -= kStep;
+        columns.col(static_cast<Index>(lag)) +=
+            (lagged_effects(more) - lagged_effects(less)) / (2.0 * kStep);
+    }
+    return columns;
+}
+
+double DayProblem::cost(const Point& u) const {
+    Eigen::MatrixXd columns = scaled(u);
+    const double log_determinant = whiten(record_.bins, noise(u), columns);
+    const auto y = columns.col(0);
+    const auto x = columns.rightCols(estimated());
+    const Cholesky factor(normal_matrix(x));
+    if (!factor.is_positive_definite())
+        return HUGE_VAL;  // Numbers that overflow, far from the priors.
+    const Eigen::VectorXd half = factor.half_solve(x.transpose() * y);
+    double sum = log_determinant + factor.log_determinant() + y.squaredNorm() - half.squaredNorm();
+    for (const double value : u) sum += value * value;
+    return 0.5 * sum;
+}
+
+// From afar by subplexes, which no shape of the cost stops short; from nearby by parabolas, which need
+// a fifth of the time.
+DayProblem::Point DayProblem::most_likely(const std::optional<Point>& nearby) const {
+    constexpr auto kCount = static_cast<unsigned>(std::tuple_size_v<Point>);
+    const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> search(
+        nlopt_create(nearby ? NLOPT_LN_BOBYQA : NLOPT_LN_SBPLX, kCount), &nlopt_destroy);
+    const auto cost_of = [](unsigned, const double* u, double*, void* problem) {
+        Point point;
+        std::transform(u, u + kCount, point.begin(), search_point);
+        return search_cost(static_cast<const DayProblem*>(problem)->cost(point));
+    };
+    nlopt_set_min_objective(search.get(), cost_of, const_cast<DayProblem*>(this));
+    nlopt_set_lower_bounds1(search.get(), -kFarthest);
+    nlopt_set_upper_bounds1(search.get(), kFarthest);
+    nlopt_set_initial_step1(search.get(), 0.5);
+    nlopt_set_xtol_abs1(search.get(), 1e-3);
+    nlopt_set_maxeval(search.get(), 2000);
+    Point u = nearby.value_or(Point{});
+    double least = 0.0;
+    nlopt_optimize(search.get(), u.data(), &least);
+    for (double& value : u) value = search_point(value);
+    return u;
+}
+
+}  // namespace a351::corrector

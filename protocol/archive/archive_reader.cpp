@@ -1,0 +1,110 @@
+#include "protocol/archive/archive_reader.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <span>
+
+#include "protocol/archive/miniseed.hpp"
+#include "protocol/archive/sds.hpp"
+#include "protocol/files/file_bytes.hpp"
+
+namespace a351::record {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Collector {
+public:
+    Collector(ChannelData& data, UtcTime from, UtcTime to) : data_(data), from_(from), to_(to) {}
+
+    void take(const DecodedRecord& record) {
+        const double rate_hz = record.rate_hz();
+        const UtcTime start = record.header.start;
+        const auto time_of = [&](std::size_t i) {
+            return start + from_seconds(static_cast<double>(i) / rate_hz);
+        };
+        const std::size_t count = record.samples.size();
+        std::size_t first = 0;
+        while (first < count && time_of(first) < from_) ++first;
+        std::size_t last = count;
+        while (last > first && time_of(last - 1) >= to_) --last;
+        if (first == last) return;
+        if (!joins(start, rate_hz)) data_.segments.push_back({rate_hz, {}, {}});
+        Segment& segment = data_.segments.back();
+        segment.anchors.push_back({segment.counts.size(), time_of(first)});
+        segment.counts.insert(segment.counts.end(),
+                              record.samples.begin() + static_cast<std::ptrdiff_t>(first),
+                              record.samples.begin() + static_cast<std::ptrdiff_t>(last));
+        expected_ = time_of(count);
+    }
+
+private:
+    /// Whether a record continues the last segment: at the same rate, within half a sample.
+    [[nodiscard]] bool joins(UtcTime start, double rate_hz) const {
+        if (data_.segments.empty() || data_.segments.back().rate_hz != rate_hz) return false;
+        return std::chrono::abs(start - expected_) <= from_seconds(0.5 / rate_hz);
+    }
+
+    ChannelData& data_;
+    UtcTime from_, to_;
+    UtcTime expected_;  ///< Start of the record that would continue the last one.
+};
+
+}  // namespace
+
+UtcTime Segment::time_of(std::size_t i) const {
+    const auto behind =
+        std::upper_bound(anchors.begin(), anchors.end(), i,
+                         [](std::size_t n, const Anchor& anchor) { return n < anchor.offset; });
+    assert(behind != anchors.begin());
+    const Anchor& anchor = *std::prev(behind);
+    return anchor.time + from_seconds(static_cast<double>(i - anchor.offset) / rate_hz);
+}
+
+std::string to_text(const ArchiveDamage& damage) {
+    return damage.file.filename().string() + ": offset " + std::to_string(damage.offset) + ": " +
+           std::to_string(damage.byte_count) + " bytes are no record";
+}
+
+ChannelData read_channel(const fs::path& archive, const StationCodes& codes,
+                         const std::string& channel, UtcTime from, UtcTime to) {
+    ChannelData data;
+    if (from >= to) return data;
+    Collector collector(data, from, to);
+    // No record crosses midnight, and names sort by day.
+    const auto first = sds_file(archive, codes, channel, from).filename();
+    const auto last = sds_file(archive, codes, channel, to - Nanoseconds(1)).filename();
+    for (const auto& file : day_files(archive, codes, channel)) {
+        if (file.filename() < first || file.filename() > last) continue;
+        const auto bytes = read_bytes(file);
+        std::uint64_t damaged = 0;
+        std::uint64_t at = 0;
+        const auto report = [&] {
+            if (damaged > 0) data.damage.push_back({file, at - damaged, damaged});
+            damaged = 0;
+        };
+        while (at < bytes.size()) {
+            const auto rest = std::span(bytes).subspan(at);
+            const auto record = decode_record(rest.first(std::min(rest.size(), kRecordSize)));
+            if (record && record->header.channel == channel) {
+                report();
+                collector.take(*record);
+                at += kRecordSize;
+            } else {
+                // Stray bytes may have shifted all that follows, so every offset is tried.
+                ++damaged;
+                ++at;
+            }
+        }
+        report();
+    }
+    std::stable_sort(data.segments.begin(), data.segments.end(),
+                     [](const Segment& a, const Segment& b) {
+                         return a.anchors.front().time < b.anchors.front().time;
+                     });
+    return data;
+}
+
+}  // namespace a351::record

@@ -1,0 +1,176 @@
+#include "protocol/archive/archive_writer.hpp"
+
+#include <cerrno>
+#include <charconv>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "protocol/archive/miniseed_layout.hpp"
+
+namespace a351::record {
+namespace {
+
+constexpr int kLargestSequence = 999'999;
+constexpr std::size_t kSequenceDigits = 6;
+
+bool read_record(std::istream& in, std::array<std::byte, kRecordSize>& bytes) {
+    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    return in.good();
+}
+
+std::ifstream open_day_file(const std::filesystem::path& day_file) {
+    std::ifstream in(day_file, std::ios::binary);
+    if (!in) throw std::system_error(errno, std::generic_category(), "open " + day_file.string());
+    return in;
+}
+
+void stamp_sequence(PackedRecord& record, int sequence) {
+    for (std::size_t digit = kSequenceDigits; digit-- > 0; sequence /= 10)
+        record.bytes[kSequenceAt + digit] =
+            std::byte(static_cast<unsigned char>('0' + sequence % 10));
+}
+
+UtcTime last_sample_of(const DecodedRecord& record) {
+    return record.header.start +
+           from_seconds(static_cast<double>(record.samples.size() - 1) / record.rate_hz());
+}
+
+}  // namespace
+
+ArchiveWriter::ArchiveWriter(FileLayer& files, std::filesystem::path archive, StationCodes codes)
+    : files_(files),
+      archive_(std::move(archive)),
+      codes_(std::move(codes)),
+      sds_(std::make_unique<SdsWriter>(files_, archive_, codes_)) {}
+
+ArchiveWriter::Held ArchiveWriter::describe(const DecodedRecord& record) {
+    const std::string_view bytes(reinterpret_cast<const char*>(record.samples.data()),
+                                 record.samples.size() * sizeof(std::int32_t));
+    return {record.samples.size(), std::hash<std::string_view>()(bytes),
+            last_sample_of(record) + from_seconds(0.5 / record.rate_hz())};
+}
+
+void ArchiveWriter::begin_replay() { is_replaying_ = true; }
+
+void ArchiveWriter::end_replay() {
+    is_replaying_ = false;
+    for (auto& [name, channel] : channels_) {
+        channel.held.clear();
+        channel.days_read.clear();
+    }
+}
+
+/// With what the archive holds of the day of `start`, if it was not read before.
+ArchiveWriter::Channel& ArchiveWriter::replayed(const std::string& name, UtcTime start) const {
+    Channel& channel = channels_[name];
+    const auto day_file = sds_file(archive_, codes_, name, start);
+    if (is_replaying_ && channel.days_read.insert(day_file).second &&
+        std::filesystem::exists(day_file))
+        load(channel, day_file);
+    return channel;
+}
+
+void ArchiveWriter::load(Channel& channel, const std::filesystem::path& day_file) const {
+    files_.open_append(day_file)->sync();
+    for (auto directory = day_file.parent_path(); directory != archive_.parent_path();
+         directory = directory.parent_path())
+        files_.sync_directory(directory);
+    auto in = open_day_file(day_file);
+    std::array<std::byte, kRecordSize> bytes{};
+    while (read_record(in, bytes)) {
+        const auto record = decode_record(bytes);
+        if (record) channel.held.emplace(record->header.start, describe(*record));
+    }
+}
+
+void ArchiveWriter::begin_session() {
+    for (auto& [name, channel] : channels_) channel.newest.reset();
+}
+
+void ArchiveWriter::reopen() {
+    sds_ = std::make_unique<SdsWriter>(files_, archive_, codes_);
+    for (auto& [name, channel] : channels_) channel.sequence.reset();
+}
+
+std::optional<std::size_t> ArchiveWriter::samples_held(const std::string& name,
+                                                       UtcTime start) const {
+    if (!is_replaying_) return std::nullopt;
+    const Channel& channel = replayed(name, start);
+    const auto held = channel.held.find(start);
+    if (held == channel.held.end()) return std::nullopt;
+    return held->second.sample_count;
+}
+
+ArchiveWriter::Found ArchiveWriter::find(const std::string& name, const PackedRecord& record) {
+    if (!is_replaying_) return Found::nothing;
+    Channel& channel = replayed(name, record.start);
+    if (channel.held.empty()) return Found::nothing;
+    if (channel.held.rbegin()->second.end <= record.start) {
+        channel.held.clear();
+        return Found::nothing;
+    }
+    const Held made = describe(*decode_record(record.bytes));
+    const auto [begin, end] = channel.held.equal_range(record.start);
+    for (auto held = begin; held != end; ++held) {
+        if (held->second.sample_count != made.sample_count ||
+            held->second.samples_hash != made.samples_hash)
+            continue;
+        channel.held.erase(held);
+        return Found::same;
+    }
+    const bool overlaps =
+        begin != end || (end != channel.held.end() && end->first < made.end) ||
+        (begin != channel.held.begin() && std::prev(begin)->second.end > record.start);
+    return overlaps ? Found::other : Found::nothing;
+}
+
+int ArchiveWriter::newest_sequence(const std::string& channel) const {
+    const auto day_file = newest_day_file(archive_, codes_, channel);
+    if (!day_file) return 0;
+    const auto size = std::filesystem::file_size(*day_file);
+    if (size < kRecordSize) return 0;
+    auto in = open_day_file(*day_file);
+    in.seekg(static_cast<std::streamoff>((size / kRecordSize - 1) * kRecordSize));
+    std::array<char, kSequenceDigits> digits{};
+    in.read(digits.data(), digits.size());
+    int sequence = 0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), sequence);
+    return sequence;
+}
+
+void ArchiveWriter::record(const std::string& name, const PackedRecord& record,
+                           std::int64_t last_index) {
+    const Found found = find(name, record);
+    if (found == Found::other) {
+        ++replay_conflicts_;
+        return;
+    }
+    Channel& channel = channels_[name];
+    if (found == Found::same) {
+        ++records_passed_over_;
+    } else {
+        if (!channel.sequence) channel.sequence = newest_sequence(name);
+        const int sequence = *channel.sequence % kLargestSequence + 1;
+        PackedRecord numbered = record;
+        stamp_sequence(numbered, sequence);
+        sds_->append(name, numbered);
+        channel.sequence = sequence;
+        ++records_written_;
+    }
+    channel.newest = Newest{record, last_index};
+}
+
+std::vector<ChannelMark> ArchiveWriter::sync() {
+    sds_->sync();
+    std::vector<ChannelMark> marks;
+    for (const auto& [name, channel] : channels_) {
+        if (!channel.newest) continue;
+        const auto record = decode_record(channel.newest->record.bytes);
+        marks.push_back({name, channel.newest->last_index, last_sample_of(*record)});
+    }
+    return marks;
+}
+
+}  // namespace a351::record

@@ -1,0 +1,99 @@
+#include "protocol/archive/channel_packer.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace a351::record {
+namespace {
+
+constexpr Nanoseconds kQuestionable = std::chrono::milliseconds(10);
+
+}  // namespace
+
+bool IndexMarks::any_in(std::int64_t first, std::int64_t last) const {
+    const auto found = std::lower_bound(indices_.begin(), indices_.end(), first);
+    return found != indices_.end() && *found <= last;
+}
+
+void set_timing(RecordHeader& header, const timing::SampleTime& time) {
+    header.is_clock_locked = time.is_host_synchronised && time.state == timing::TimingState::locked;
+    header.is_time_questionable = !time.is_host_synchronised || time.uncertainty > kQuestionable;
+    header.timing_quality_percent = timing_quality_percent(time.uncertainty);
+}
+
+ChannelPacker::ChannelPacker(std::string code) : code_(std::move(code)) {
+    samples_.reserve(kMostSamplesPerRecord);
+}
+
+void ChannelPacker::add(const RecordContext& context, std::int64_t index, std::int32_t counts,
+                        bool is_clipped) {
+    assert(samples_.empty() || index == first_ + static_cast<std::int64_t>(samples_.size()));
+    if (samples_.empty()) first_ = index;
+    samples_.push_back(counts);
+    if (is_clipped) clipped_.add(index);
+    const auto age_samples = static_cast<double>(index - first_);
+    if (age_samples >= kMostRecordAge.count() * context.header.nominal_rate.value())
+        close(context, false);
+    else if (samples_.size() >= kMostSamplesPerRecord)
+        pack_one(context, false);
+}
+
+void ChannelPacker::close(const RecordContext& context, bool ends_series) {
+    while (!samples_.empty()) pack_one(context, ends_series);
+}
+
+// A record lies within one UTC day, that of its day file.
+std::size_t ChannelPacker::samples_before_midnight(const timing::SampleClock& clock,
+                                                   UtcTime start) const {
+    const UtcTime midnight = std::chrono::floor<std::chrono::days>(start) + std::chrono::days(1);
+    const auto is_before = [&](std::size_t i) {
+        return clock.time_of(first_ + static_cast<std::int64_t>(i))->utc < midnight;
+    };
+    std::size_t low = 0;
+    std::size_t high = samples_.size() - 1;
+    if (is_before(high)) return samples_.size();
+    while (low < high) {  // on the last sample before midnight; the first is
+        const std::size_t middle = high - (high - low) / 2;
+        if (is_before(middle))
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    return low + 1;
+}
+
+void ChannelPacker::pack_one(const RecordContext& context, bool ends_series) {
+    const auto time = *context.clock.time_of(first_);
+    RecordHeader header = context.header;
+    header.channel = code_;
+    header.start = std::chrono::floor<std::chrono::microseconds>(time.utc);
+    set_timing(header, time);
+
+    std::size_t available = samples_before_midnight(context.clock, header.start);
+    if (const auto held = context.sink.samples_held(code_, header.start))
+        available = std::min(available, *held);
+    const auto samples = std::span<const std::int32_t>(samples_).first(available);
+    PackedRecord packed = pack_record(header, samples);
+
+    // How much the record holds, and with it these flags, is known only when it is packed.
+    const std::int64_t end = first_ + static_cast<std::int64_t>(packed.sample_count);
+    header.starts_series = !has_started_;
+    header.ends_series = ends_series && packed.sample_count == samples_.size();
+    header.is_clipped = clipped_.any_in(first_, end - 1);
+    header.had_transmission_errors = context.errors.any_in(first_, end);
+    if (header.starts_series || header.ends_series || header.is_clipped ||
+        header.had_transmission_errors)
+        packed = pack_record(header, samples);
+
+    if (packed.is_integer_coded) ++context.counters.integer_records;
+    context.sink.record(code_, packed, end - 1);
+    has_started_ = true;
+    samples_.erase(samples_.begin(),
+                   samples_.begin() + static_cast<std::ptrdiff_t>(packed.sample_count));
+    first_ = end;
+    clipped_.forget_before(first_);
+}
+
+}  // namespace a351::record

@@ -1,0 +1,72 @@
+#pragma once
+/// @file
+/// The samples of one channel that are not in a record yet, and where records end.
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "protocol/archive/archiver.hpp"
+
+namespace a351::record {
+
+/// Sample indices something was noted at; they come in rising order.
+class IndexMarks {
+public:
+    void add(std::int64_t index) {
+        if (indices_.empty() || indices_.back() != index) indices_.push_back(index);
+    }
+    [[nodiscard]] bool any_in(std::int64_t first, std::int64_t last) const;
+    void forget_before(std::int64_t index) {
+        while (!indices_.empty() && indices_.front() < index) indices_.pop_front();
+    }
+
+private:
+    std::deque<std::int64_t> indices_;
+};
+
+/// A record is closed when its oldest sample is this old, so that slow channels become visible.
+inline constexpr std::chrono::seconds kMostRecordAge{60};
+
+/// What the records of all channels of a session share.
+struct RecordContext {
+    const timing::SampleClock& clock;
+    const RecordHeader& header;  ///< Codes and rates.
+    const IndexMarks& errors;    ///< Sample that was due when bytes were given up.
+    ArchiveSink& sink;
+    ArchiverCounters& counters;
+};
+
+/// What a record says of its time: clock locked, questionable, quality.
+void set_timing(RecordHeader& header, const timing::SampleTime& time);
+
+class ChannelPacker {
+public:
+    explicit ChannelPacker(std::string code);
+
+    /// Precondition: the channel is empty or `index` is the next one.
+    void add(const RecordContext& context, std::int64_t index, std::int32_t counts,
+             bool is_clipped);
+
+    /// Packs all that is left.
+    void close(const RecordContext& context, bool ends_series);
+
+    [[nodiscard]] const std::string& code() const noexcept { return code_; }
+    [[nodiscard]] bool is_empty() const noexcept { return samples_.empty(); }
+    [[nodiscard]] std::int64_t first() const noexcept { return first_; }
+
+private:
+    void pack_one(const RecordContext& context, bool ends_series);
+    [[nodiscard]] std::size_t samples_before_midnight(const timing::SampleClock& clock,
+                                                      UtcTime start) const;
+
+    std::string code_;
+    std::vector<std::int32_t> samples_;
+    std::int64_t first_ = 0;  // index of samples_.front()
+    IndexMarks clipped_;
+    bool has_started_ = false;
+};
+
+}  // namespace a351::record

@@ -1,0 +1,72 @@
+#include "protocol/archive/recovery.hpp"
+
+#include <algorithm>
+
+#include "protocol/core/input_error.hpp"
+
+namespace a351::record {
+namespace {
+
+/// Instant of the newest sample of a channel that survived whatever happened; std::nullopt when the
+/// mark does not speak of it: what stands there may come from sessions that are not replayed.
+std::optional<UtcTime> synced_until(const Replay& replay, const std::string& channel) {
+    if (!replay.mark) return UtcTime::min();
+    for (const ChannelMark& mark : replay.mark->channels)
+        if (mark.channel == channel) return mark.utc;
+    return std::nullopt;
+}
+
+std::vector<Replay> plan_replays(const std::filesystem::path& journal) {
+    std::vector<Replay> replays;  // the newest first
+    std::optional<MarkChunk> mark;
+    bool has_reached_oldest = false;
+    const auto segments = journal_segments(journal);
+    for (auto segment = segments.rbegin(); segment != segments.rend(); ++segment) {
+        const auto header = segment_header(*segment);
+        if (!header) continue;  // nothing in it can be read
+        if (has_reached_oldest && header->session != mark->session) break;
+        if (replays.empty() || header->codes != replays.back().codes)
+            replays.push_back({.segments = {}, .codes = header->codes, .mark = {}});
+        replays.back().segments.push_back(*segment);
+        if (!mark) mark = newest_mark(*segment);
+        has_reached_oldest = mark && header->session == mark->session;
+        if (has_reached_oldest) replays.back().mark = mark;
+    }
+    for (Replay& replay : replays) std::reverse(replay.segments.begin(), replay.segments.end());
+    std::reverse(replays.begin(), replays.end());
+    return replays;
+}
+
+}  // namespace
+
+RecoveryPlan begin_recovery(FileLayer& files, const std::filesystem::path& journal) {
+    auto cut = repair_newest_segment(files, journal);
+    return {plan_replays(journal), std::move(cut)};
+}
+
+bool replay_journal(FileLayer& files, const std::filesystem::path& archive, const Replay& replay,
+                    ArchiveWriter& writer, const std::function<bool(const JournalChunk&)>& take,
+                    RecoveryReport& report) {
+    for (const auto& channel : channels_in(archive, replay.codes)) {
+        const auto day_file = newest_day_file(archive, replay.codes, channel);
+        if (!day_file) continue;
+        const auto tail = repair_tail(files, *day_file, synced_until(replay, channel));
+        if (tail) report.archive.push_back(*tail);
+    }
+
+    writer.begin_replay();
+    JournalSequence chunks(replay.segments);
+    while (const auto chunk = chunks.next()) {
+        try {
+            if (!take(*chunk)) return false;
+        } catch (const InputError&) {
+            ++report.chunks_lost;
+        }
+    }
+    report.records_added += writer.records_written();
+    report.records_confirmed += writer.records_passed_over();
+    report.records_conflicting += writer.replay_conflicts();
+    return true;
+}
+
+}  // namespace a351::record

@@ -1,0 +1,206 @@
+#include "protocol/archive/sds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "protocol/files/file_bytes.hpp"
+
+namespace a351::record {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string zero_padded(int number, std::size_t width) {
+    std::string digits = std::to_string(number);
+    return digits.insert(0, digits.size() < width ? width - digits.size() : 0, '0');
+}
+
+bool is_number(std::string_view text, std::size_t width) {
+    return text.size() == width &&
+           std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// File name up to the year: `NET.STA.LOC.CHAN.D.`
+std::string name_stem(const StationCodes& codes, const std::string& channel) {
+    return codes.network + "." + codes.station + "." + codes.location + "." + channel + ".D.";
+}
+
+/// Directories of the station, one per year, ascending.
+std::vector<fs::path> station_directories(const fs::path& archive, const StationCodes& codes) {
+    std::vector<fs::path> directories;
+    if (!fs::is_directory(archive)) return directories;
+    for (const auto& year : fs::directory_iterator(archive)) {
+        const auto station = year.path() / codes.network / codes.station;
+        if (is_number(year.path().filename().string(), 4) && fs::is_directory(station)) {
+            directories.push_back(station);
+        }
+    }
+    std::sort(directories.begin(), directories.end());
+    return directories;
+}
+
+}  // namespace
+
+fs::path sds_file(const fs::path& archive, const StationCodes& codes, const std::string& channel,
+                  UtcTime start) {
+    const auto day = std::chrono::floor<std::chrono::days>(start);
+    const std::chrono::year_month_day date(day);
+    const std::chrono::sys_days new_year = date.year() / std::chrono::January / 1;
+    const std::string year = zero_padded(static_cast<int>(date.year()), 4);
+    const std::string day_of_year = zero_padded(static_cast<int>((day - new_year).count()) + 1, 3);
+    return archive / year / codes.network / codes.station / (channel + ".D") /
+           (name_stem(codes, channel) + year + "." + day_of_year);
+}
+
+std::vector<std::string> channels_in(const fs::path& archive, const StationCodes& codes) {
+    std::set<std::string> channels;
+    for (const auto& station : station_directories(archive, codes)) {
+        for (const auto& entry : fs::directory_iterator(station)) {
+            const auto& name = entry.path().filename();
+            if (name.extension() == ".D") channels.insert(name.stem().string());
+        }
+    }
+    return {channels.begin(), channels.end()};
+}
+
+std::vector<fs::path> day_files(const fs::path& archive, const StationCodes& codes,
+                                const std::string& channel) {
+    const std::string stem = name_stem(codes, channel);
+    std::vector<fs::path> files;
+    for (const auto& station : station_directories(archive, codes)) {
+        const auto directory = station / (channel + ".D");
+        if (!fs::is_directory(directory)) continue;
+        for (const auto& entry : fs::directory_iterator(directory)) {
+            const std::string name = entry.path().filename().string();
+            const bool is_day_file = name.starts_with(stem) && name.size() == stem.size() + 8 &&
+                                     name[stem.size() + 4] == '.' &&
+                                     is_number(std::string_view(name).substr(stem.size(), 4), 4) &&
+                                     is_number(std::string_view(name).substr(stem.size() + 5), 3);
+            if (is_day_file) files.push_back(entry.path());
+        }
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::optional<fs::path> newest_day_file(const fs::path& archive, const StationCodes& codes,
+                                        const std::string& channel) {
+    const auto files = day_files(archive, codes, channel);
+    if (files.empty()) return std::nullopt;
+    return files.back();
+}
+
+namespace {
+
+/// Where the records end that can be kept: whole ones, as far as the end of the file ...
+std::uint64_t end_of_whole_records(const fs::path& day_file) {
+    std::uint64_t whole = fs::file_size(day_file) / kRecordSize * kRecordSize;
+    while (whole > 0 && !decode_record(read_bytes(day_file, whole - kRecordSize, kRecordSize))) {
+        whole -= kRecordSize;
+    }
+    return whole;
+}
+
+/// ... or up to the first that a power cut spoilt, behind those that were synced.
+std::uint64_t end_of_good_records(const fs::path& day_file, UtcTime synced_until) {
+    const auto bytes = read_bytes(day_file);
+    std::uint64_t good = 0;
+    std::optional<std::uint64_t> spoilt;
+    for (; good + kRecordSize <= bytes.size(); good += kRecordSize) {
+        const auto record = decode_record(std::span(bytes).subspan(good, kRecordSize));
+        if (!record && !spoilt) spoilt = good;
+        if (record && record->header.start <= synced_until) spoilt.reset();
+    }
+    return spoilt.value_or(good);
+}
+
+}  // namespace
+
+std::optional<TornTail> repair_tail(FileLayer& files, const fs::path& day_file,
+                                    std::optional<UtcTime> synced_until) {
+    const std::uint64_t size = fs::file_size(day_file);
+    const std::uint64_t whole = synced_until ? end_of_good_records(day_file, *synced_until)
+                                             : end_of_whole_records(day_file);
+    if (whole == size && size > 0) return std::nullopt;
+    TornTail tail{day_file, whole, size - whole};
+    if (tail.byte_count > 0) {
+        // A day may see several crashes; the offset keeps what each of them left.
+        auto side = day_file;
+        side += '.';
+        side += std::to_string(whole);
+        side += ".torn";
+        replace_file(files, side, read_bytes(day_file, whole, tail.byte_count));
+    }
+    if (whole > 0) {
+        files.truncate(day_file, whole);
+    } else {
+        files.remove(day_file);
+        files.sync_directory(day_file.parent_path());
+    }
+    return tail;
+}
+
+SdsWriter::SdsWriter(FileLayer& files, fs::path archive, StationCodes codes)
+    : files_(files), archive_(std::move(archive)), codes_(std::move(codes)) {}
+
+void SdsWriter::append(const std::string& channel, const PackedRecord& record) {
+    const auto path = sds_file(archive_, codes_, channel, record.start);
+    if (open_.contains(channel) && open_.at(channel).path != path) close(channel);
+    if (!open_.contains(channel)) {
+        if (fs::exists(path)) repair_tail(files_, path);
+        if (!fs::exists(path)) {
+            // Comes into being whole: readers fail on a day file that is empty.
+            files_.create_directories(path.parent_path());
+            place_file(files_, path, record.bytes);
+            // All above it too: who made them may have been killed before their sync.
+            for (auto directory = path.parent_path(); directory != archive_.parent_path();
+                 directory = directory.parent_path())
+                new_entries_.insert(directory);
+            return;
+        }
+        open_[channel] = {path, files_.open_append(path), false};
+    }
+    Open& open = open_.at(channel);
+    open.is_dirty = true;
+    try {
+        open.file->append(record.bytes);
+    } catch (...) {
+        close(channel);  // Its tail is looked at again before the next append.
+        throw;
+    }
+}
+
+/// Syncs the file, since nobody will be able to later.
+void SdsWriter::close(const std::string& channel) {
+    const auto node = open_.extract(channel);
+    if (!node.mapped().is_dirty) return;
+    try {
+        node.mapped().file->sync();
+    } catch (...) {
+        may_have_lost_ = true;
+        throw;
+    }
+}
+
+void SdsWriter::sync() {
+    if (may_have_lost_) {
+        throw std::system_error(EIO, std::generic_category(),
+                                "sync " + archive_.string() + ": an earlier one failed");
+    }
+    may_have_lost_ = true;  // Unless all goes well.
+    for (const fs::path& directory : new_entries_) files_.sync_directory(directory);
+    new_entries_.clear();
+    for (auto& [channel, open] : open_) {
+        if (open.is_dirty) open.file->sync();
+        open.is_dirty = false;
+    }
+    may_have_lost_ = false;
+}
+
+}  // namespace a351::record

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "protocol/archive/archiver.hpp"
+
+namespace a351::record {
+
+/// Keeps records out of the archive whose times cannot be true: those of a host that started
+/// without a clock.  They stay in the journal, for a re-timing once a clock was known.
+class TimeGate final : public ArchiveSink {
+public:
+    /// Before the published survey with this sensor, of 2017; a host without a clock starts in 1970.
+    static constexpr UtcTime kEarliest =
+        std::chrono::sys_days(std::chrono::year(2015) / std::chrono::January / 1);
+
+    /// Both must outlive this.
+    TimeGate(ArchiveSink& sink, ArchiverCounters& counters) : sink_(sink), counters_(counters) {}
+
+    void record(const std::string& channel, const PackedRecord& record,
+                std::int64_t last_index) override {
+        if (record.start >= kEarliest)
+            sink_.record(channel, record, last_index);
+        else
+            ++counters_.records_withheld;
+    }
+    void sample(const Sample& sample) override { sink_.sample(sample); }
+    [[nodiscard]] std::optional<std::size_t> samples_held(const std::string& channel,
+                                                          UtcTime start) const override {
+        return sink_.samples_held(channel, start);
+    }
+
+private:
+    ArchiveSink& sink_;
+    ArchiverCounters& counters_;
+};
+
+}  // namespace a351::record

@@ -1,0 +1,138 @@
+#include "protocol/events/event_log.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+namespace a351::record {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+bool is_own_key(std::string_view key) {
+    return key == "type" || key == "utc" || key == "session" || key == "index";
+}
+
+const std::string* text_at(const Json& json, const char* key) {
+    const auto found = json.find(key);
+    return found == json.end() ? nullptr : found->get_ptr<const std::string*>();
+}
+
+/// "2026-03.jsonl"
+std::string month_file(UtcTime time) { return to_rfc3339(time).substr(0, 7) + ".jsonl"; }
+
+bool is_month_file(const std::string& name) {
+    constexpr std::string_view kPattern = "dddd-dd.jsonl";
+    return name.size() == kPattern.size() &&
+           std::equal(name.begin(), name.end(), kPattern.begin(), [](char c, char wanted) {
+               return wanted == 'd' && c >= '0' && c <= '9' ? true : c == wanted;
+           });
+}
+
+bool ends_without_newline(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary | std::ios::ate);
+    if (!in || in.tellg() == std::streampos(0)) return false;
+    in.seekg(-1, std::ios::end);
+    return in.get() != '\n';
+}
+
+/// What was refused must not be found later.
+void take_back(FileLayer& files, const fs::path& file, std::uint64_t size) {
+    try {
+        files.truncate(file, size);
+    } catch (const std::system_error&) {
+        // The first trouble is the one to be told.
+    }
+}
+
+}  // namespace
+
+std::string to_json(const Event& event) {
+    Json json = {{"type", event.type}, {"utc", to_rfc3339(event.utc, 9)}};
+    if (event.session) json["session"] = event.session->to_hex();
+    if (event.index) json["index"] = *event.index;
+    for (const auto& [key, value] : event.details) {
+        if (is_own_key(key)) throw std::invalid_argument("event: detail named " + key);
+        json[key] = value;
+    }
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::optional<Event> parse_event(std::string_view text) {
+    const Json json = Json::parse(text, nullptr, false);
+    if (!json.is_object()) return std::nullopt;
+    const std::string* type = text_at(json, "type");
+    const std::string* utc = text_at(json, "utc");
+    if (!type || type->empty() || !utc) return std::nullopt;
+    const auto time = parse_rfc3339(*utc);
+    if (!time) return std::nullopt;
+    Event event;
+    event.type = *type;
+    event.utc = *time;
+    if (json.contains("session")) {
+        const std::string* session = text_at(json, "session");
+        if (session) event.session = SessionId::from_hex(*session);
+        if (!event.session) return std::nullopt;
+    }
+    if (const auto index = json.find("index"); index != json.end()) {
+        const auto* number = index->get_ptr<const Json::number_integer_t*>();
+        if (!number) return std::nullopt;
+        event.index = *number;
+    }
+    for (const auto& [key, value] : json.items()) {
+        if (is_own_key(key)) continue;
+        if (!value.is_string()) return std::nullopt;
+        event.details[key] = value.get<std::string>();
+    }
+    return event;
+}
+
+void append_event(FileLayer& files, const fs::path& directory, const Event& event) {
+    const auto path = directory / month_file(event.utc);
+    const bool is_new = !fs::exists(path);
+    if (is_new) files.create_directories(directory);
+    // A line torn by a crash must not swallow this one.
+    std::string line = ends_without_newline(path) ? "\n" : "";
+    line += to_json(event);
+    line += '\n';
+    const auto file = files.open_append(path);
+    const std::uint64_t size_before = file->size();
+    try {
+        file->append(std::as_bytes(std::span(line)));
+        file->sync();
+        if (is_new) files.sync_directory(directory);
+    } catch (const std::system_error&) {
+        take_back(files, path, size_before);
+        throw;
+    }
+}
+
+EventLog read_events(const fs::path& directory) {
+    EventLog log;
+    if (!fs::is_directory(directory)) return log;
+    std::vector<fs::path> months;
+    for (const auto& entry : fs::directory_iterator(directory)) {
+        if (is_month_file(entry.path().filename().string())) months.push_back(entry.path());
+    }
+    std::sort(months.begin(), months.end());
+    for (const auto& month : months) {
+        std::ifstream in(month, std::ios::binary);
+        if (!in) throw std::system_error(errno, std::generic_category(), "open " + month.string());
+        std::string line;
+        for (std::size_t number = 1; std::getline(in, line); ++number) {
+            auto event = parse_event(line);
+            if (event) log.events.push_back(std::move(*event));
+            if (!event) log.damage.push_back({month, number});
+        }
+    }
+    return log;
+}
+
+}  // namespace a351::record

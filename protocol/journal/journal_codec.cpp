@@ -1,0 +1,353 @@
+#include "protocol/journal/journal_codec.hpp"
+
+#include <boost/crc.hpp>
+#include <concepts>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+#include "protocol/journal/journal_header_json.hpp"
+
+namespace a351::record {
+
+namespace {
+
+using timing::ClockReading;
+
+// CRC-32C: G. Castagnoli et al., IEEE Trans. Commun. 41(6), 883-892, 1993; reflected, inverted, as
+// in RFC 3720 appendix B.4, whose check values journal_codec_test.cpp repeats.
+using Crc32c = boost::crc_optimal<32, 0x1EDC6F41, 0xFFFFFFFF, 0xFFFFFFFF, true, true>;
+
+template <class Int>
+void put(std::vector<std::byte>& out, std::type_identity_t<Int> value) {
+    using Bits = std::make_unsigned_t<Int>;
+    const auto bits = static_cast<Bits>(value);
+    for (std::size_t i = 0; i < sizeof(Int); ++i) {
+        out.push_back(static_cast<std::byte>(bits >> (8 * i) & 0xFFU));
+    }
+}
+
+void put(std::vector<std::byte>& out, std::string_view text) {
+    const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+    out.insert(out.end(), bytes, bytes + text.size());
+}
+
+/// Takes fields from the front of a payload; once one is missing or out of range, all further ones
+/// are missing.
+class Fields {
+public:
+    explicit Fields(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+    template <class Int>
+    Int take() {
+        using Bits = std::make_unsigned_t<Int>;
+        Bits bits = 0;
+        const auto field = take_bytes(sizeof(Int));
+        for (std::size_t i = 0; i < field.size(); ++i) {
+            bits = static_cast<Bits>(
+                bits | static_cast<Bits>(Bits(std::to_integer<std::uint8_t>(field[i])) << (8 * i)));
+        }
+        return static_cast<Int>(bits);
+    }
+
+    std::span<const std::byte> take_bytes(std::size_t count) {
+        if (count > bytes_.size()) {
+            is_short_ = true;
+            bytes_ = {};
+            return {};
+        }
+        const auto front = bytes_.first(count);
+        bytes_ = bytes_.subspan(count);
+        return front;
+    }
+
+    std::int64_t take_within(std::int64_t low, std::int64_t high) {
+        const auto value = take<std::int64_t>();
+        if (low <= value && value <= high) return value;
+        is_short_ = true;
+        bytes_ = {};
+        return 0;
+    }
+
+    Nanoseconds take_instant() {
+        return Nanoseconds(take_within(kEarliestInstant.count(), kLatestInstant.count()));
+    }
+    RawTime take_raw_time() { return RawTime(take_instant()); }
+    UtcTime take_utc() { return UtcTime(take_instant()); }
+    Nanoseconds take_span() {
+        return Nanoseconds(take_within(-kLongestSpan.count(), kLongestSpan.count()));
+    }
+    std::int64_t take_index() { return take_within(-kLargestIndex, kLargestIndex); }
+    std::int64_t take_clock_error() { return take_within(-kMostClockError_us, kMostClockError_us); }
+
+    [[nodiscard]] std::size_t left() const noexcept { return bytes_.size(); }
+    [[nodiscard]] bool is_short() const noexcept { return is_short_; }
+    [[nodiscard]] bool is_used_up() const noexcept { return !is_short_ && bytes_.empty(); }
+
+private:
+    std::span<const std::byte> bytes_;
+    bool is_short_ = false;
+};
+
+std::string to_text(std::span<const std::byte> bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+bool do_reads_fit(const RxChunk& rx) {
+    std::uint32_t end = 0;
+    for (const ReadStamp& read : rx.reads) {
+        if (read.end <= end) return false;
+        end = read.end;
+    }
+    return end > 0 && end == rx.bytes.size();
+}
+
+bool has_registers_by_outcome(const OvenChunk& poll) {
+    return poll.registers.empty() == (poll.outcome != OvenOutcome::answered);
+}
+
+struct PayloadWriter {
+    std::vector<std::byte>& out;
+
+    ChunkType operator()(const JournalHeader& header) const {
+        put(out, header_to_json(header));
+        return ChunkType::head;
+    }
+    ChunkType operator()(const RxChunk& rx) const {
+        if (!do_reads_fit(rx)) {
+            throw std::invalid_argument("RxChunk: reads must ascend and end at the last byte");
+        }
+        const RawTime first = rx.reads.front().time;
+        put<std::int64_t>(out, first.time_since_epoch().count());
+        put<std::uint32_t>(out, static_cast<std::uint32_t>(rx.reads.size()));
+        for (const ReadStamp& read : rx.reads) {
+            put<std::uint32_t>(out, read.end);
+            put<std::int64_t>(out, (read.time - first).count());
+        }
+        out.insert(out.end(), rx.bytes.begin(), rx.bytes.end());
+        return ChunkType::rx;
+    }
+    ChunkType operator()(const TxChunk& tx) const {
+        put<std::int64_t>(out, tx.time.time_since_epoch().count());
+        out.insert(out.end(), tx.bytes.begin(), tx.bytes.end());
+        return ChunkType::tx;
+    }
+    ChunkType operator()(const ClockReading& clock) const {
+        put<std::int64_t>(out, clock.raw.time_since_epoch().count());
+        put<std::int64_t>(out, clock.boottime.count());
+        put<std::int64_t>(out, clock.realtime.time_since_epoch().count());
+        const auto leap = static_cast<unsigned>(clock.leap);
+        put<std::uint8_t>(
+            out, static_cast<std::uint8_t>((clock.is_synchronised ? 1U : 0U) | leap << 1U));
+        put<std::int64_t>(out, clock.max_error_us);
+        put<std::int64_t>(out, clock.estimated_error_us);
+        return ChunkType::clock;
+    }
+    ChunkType operator()(const ModelChunk& model) const {
+        put<std::int64_t>(out, model.index);
+        put<std::int64_t>(out, model.time.utc.time_since_epoch().count());
+        put<std::int64_t>(out, model.time.uncertainty.count());
+        put<std::uint8_t>(out, static_cast<std::uint8_t>(model.time.state));
+        return ChunkType::model;
+    }
+    ChunkType operator()(const EventChunk& event) const {
+        put(out, event.json);
+        return ChunkType::event;
+    }
+    ChunkType operator()(const MarkChunk& mark) const {
+        for (const std::uint8_t byte : mark.session.bytes) put<std::uint8_t>(out, byte);
+        for (const ChannelMark& channel : mark.channels) {
+            if (channel.channel.size() > 255) {
+                throw std::invalid_argument("ChannelMark: channel longer than 255 characters");
+            }
+            put<std::uint8_t>(out, static_cast<std::uint8_t>(channel.channel.size()));
+            put(out, channel.channel);
+            put<std::int64_t>(out, channel.index);
+            put<std::int64_t>(out, channel.utc.time_since_epoch().count());
+        }
+        return ChunkType::mark;
+    }
+    ChunkType operator()(const OvenChunk& poll) const {
+        if (!has_registers_by_outcome(poll) || poll.registers.size() > 255) {
+            throw std::invalid_argument("OvenChunk: 1-255 registers if answered, else none");
+        }
+        put<std::int64_t>(out, poll.time.time_since_epoch().count());
+        put<std::uint8_t>(out, static_cast<std::uint8_t>(poll.outcome));
+        put<std::uint8_t>(out, poll.decimals);
+        put<std::uint8_t>(out, static_cast<std::uint8_t>(poll.registers.size()));
+        for (const std::uint16_t word : poll.registers) put<std::uint16_t>(out, word);
+        return ChunkType::oven;
+    }
+};
+
+std::optional<JournalChunk> decode_rx(Fields fields) {
+    RxChunk rx;
+    const auto first = fields.take_raw_time();
+    const auto read_count = fields.take<std::uint32_t>();
+    // The count is checked against the payload before anything is allocated for it.
+    if (fields.is_short() || read_count > fields.left() / 12) return std::nullopt;
+    rx.reads.reserve(read_count);
+    for (std::uint32_t i = 0; i < read_count; ++i) {
+        const auto end = fields.take<std::uint32_t>();
+        rx.reads.push_back({end, first + fields.take_span()});
+    }
+    if (fields.is_short()) return std::nullopt;
+    const auto bytes = fields.take_bytes(fields.left());
+    rx.bytes.assign(bytes.begin(), bytes.end());
+    if (!do_reads_fit(rx)) return std::nullopt;
+    return rx;
+}
+
+std::optional<JournalChunk> decode_tx(Fields fields) {
+    TxChunk tx;
+    tx.time = fields.take_raw_time();
+    if (fields.is_short()) return std::nullopt;
+    const auto bytes = fields.take_bytes(fields.left());
+    tx.bytes.assign(bytes.begin(), bytes.end());
+    return tx;
+}
+
+std::optional<JournalChunk> decode_clock(Fields fields) {
+    ClockReading clock;
+    clock.raw = fields.take_raw_time();
+    clock.boottime = fields.take_instant();
+    clock.realtime = fields.take_utc();
+    const auto state = fields.take<std::uint8_t>();
+    clock.is_synchronised = (state & 1U) != 0;
+    clock.leap = static_cast<timing::LeapSecond>(state >> 1U);
+    clock.max_error_us = fields.take_clock_error();
+    clock.estimated_error_us = fields.take_clock_error();
+    if (!fields.is_used_up() || clock.leap > timing::LeapSecond::removed) return std::nullopt;
+    return clock;
+}
+
+std::optional<JournalChunk> decode_model(Fields fields) {
+    ModelChunk model;
+    model.index = fields.take_index();
+    model.time.utc = fields.take_utc();
+    model.time.uncertainty = fields.take_span();
+    const auto state = fields.take<std::uint8_t>();
+    if (!fields.is_used_up()) return std::nullopt;
+    if (state > static_cast<std::uint8_t>(timing::TimingState::holdover)) return std::nullopt;
+    model.time.state = static_cast<timing::TimingState>(state);
+    return model;
+}
+
+std::optional<JournalChunk> decode_mark(Fields fields) {
+    MarkChunk mark;
+    for (std::uint8_t& byte : mark.session.bytes) byte = fields.take<std::uint8_t>();
+    while (fields.left() > 0) {
+        ChannelMark channel;
+        channel.channel = to_text(fields.take_bytes(fields.take<std::uint8_t>()));
+        channel.index = fields.take_index();
+        channel.utc = fields.take_utc();
+        mark.channels.push_back(std::move(channel));
+    }
+    if (!fields.is_used_up()) return std::nullopt;
+    return mark;
+}
+
+std::optional<JournalChunk> decode_oven(Fields fields) {
+    OvenChunk poll;
+    poll.time = fields.take_raw_time();
+    const auto outcome = fields.take<std::uint8_t>();
+    poll.outcome = static_cast<OvenOutcome>(outcome);
+    poll.decimals = fields.take<std::uint8_t>();
+    poll.registers.resize(fields.take<std::uint8_t>());
+    for (std::uint16_t& word : poll.registers) word = fields.take<std::uint16_t>();
+    if (!fields.is_used_up() || !has_registers_by_outcome(poll)) return std::nullopt;
+    if (outcome >= kOvenOutcomeCount) return std::nullopt;
+    return poll;
+}
+
+std::vector<std::byte> encode_fields_before_crc(const ChunkHeader& header) {
+    std::vector<std::byte> out;
+    put<std::uint32_t>(out, header.length);
+    put<std::uint8_t>(out, header.type);
+    put<std::uint32_t>(out, header.sequence);
+    return out;
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_preamble() {
+    std::vector<std::byte> out;
+    out.reserve(kPreambleSize);
+    put(out, kJournalMagic);
+    put<std::uint32_t>(out, kJournalVersion);
+    return out;
+}
+
+bool is_preamble(std::span<const std::byte> bytes) noexcept {
+    if (bytes.size() != kPreambleSize) return false;
+    Fields version(bytes.subspan(kJournalMagic.size()));
+    return std::memcmp(bytes.data(), kJournalMagic.data(), kJournalMagic.size()) == 0 &&
+           version.take<std::uint32_t>() == kJournalVersion;
+}
+
+std::vector<std::byte> encode_chunk(const JournalChunk& chunk, std::uint32_t sequence) {
+    std::vector<std::byte> payload;
+    const ChunkType type = std::visit(PayloadWriter{payload}, chunk);
+    if (payload.size() > kMostPayloadBytes) {
+        throw std::invalid_argument("journal chunk: payload of " + std::to_string(payload.size()) +
+                                    " bytes; at most " + std::to_string(kMostPayloadBytes));
+    }
+    const ChunkHeader header{static_cast<std::uint32_t>(payload.size()),
+                             static_cast<std::uint8_t>(type), sequence, 0};
+    auto out = encode_fields_before_crc(header);
+    out.reserve(kChunkHeaderSize + payload.size());
+    put<std::uint32_t>(out, chunk_crc(header, payload));
+    out.insert(out.end(), payload.begin(), payload.end());
+    return out;
+}
+
+ChunkHeader decode_chunk_header(std::span<const std::byte> bytes) noexcept {
+    Fields fields(bytes);
+    ChunkHeader header;
+    header.length = fields.take<std::uint32_t>();
+    header.type = fields.take<std::uint8_t>();
+    header.sequence = fields.take<std::uint32_t>();
+    header.crc = fields.take<std::uint32_t>();
+    return header;
+}
+
+std::uint32_t chunk_crc(const ChunkHeader& header, std::span<const std::byte> payload) {
+    const auto front = encode_fields_before_crc(header);
+    Crc32c crc;
+    crc.process_bytes(front.data(), front.size());
+    crc.process_bytes(payload.data(), payload.size());
+    return crc.checksum();
+}
+
+bool is_known(std::uint8_t type) noexcept {
+    return type >= static_cast<std::uint8_t>(ChunkType::head) &&
+           type <= static_cast<std::uint8_t>(ChunkType::oven);
+}
+
+std::optional<JournalChunk> decode_payload(ChunkType type, std::span<const std::byte> payload) {
+    switch (type) {
+        case ChunkType::head: {
+            auto header = parse_header(to_text(payload));
+            if (!header) return std::nullopt;
+            return JournalChunk(std::move(*header));
+        }
+        case ChunkType::rx:
+            return decode_rx(Fields(payload));
+        case ChunkType::tx:
+            return decode_tx(Fields(payload));
+        case ChunkType::clock:
+            return decode_clock(Fields(payload));
+        case ChunkType::model:
+            return decode_model(Fields(payload));
+        case ChunkType::event:
+            return EventChunk{to_text(payload)};
+        case ChunkType::mark:
+            return decode_mark(Fields(payload));
+        case ChunkType::oven:
+            return decode_oven(Fields(payload));
+    }
+    return std::nullopt;
+}
+
+}  // namespace a351::record

@@ -1,0 +1,118 @@
+#include "protocol/journal/journal_header_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace a351::record {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json clock_to_json(const timing::ClockReading& clock) {
+    Json json = {{"raw_ns", clock.raw.time_since_epoch().count()},
+                 {"boottime_ns", clock.boottime.count()},
+                 {"realtime_ns", clock.realtime.time_since_epoch().count()},
+                 {"synchronised", clock.is_synchronised},
+                 {"max_error_us", clock.max_error_us},
+                 {"estimated_error_us", clock.estimated_error_us}};
+    if (clock.leap != timing::LeapSecond::none) json["leap"] = static_cast<int>(clock.leap);
+    return json;
+}
+
+timing::ClockReading clock_from_json(const Json& json) {
+    timing::ClockReading clock;
+    clock.raw = RawTime(Nanoseconds(json.at("raw_ns").get<std::int64_t>()));
+    clock.boottime = Nanoseconds(json.at("boottime_ns").get<std::int64_t>());
+    clock.realtime = UtcTime(Nanoseconds(json.at("realtime_ns").get<std::int64_t>()));
+    clock.is_synchronised = json.at("synchronised").get<bool>();
+    clock.max_error_us = json.at("max_error_us").get<std::int64_t>();
+    clock.estimated_error_us = json.at("estimated_error_us").get<std::int64_t>();
+    const int leap = json.value("leap", 0);
+    if (leap < 0 || leap > 2) throw std::invalid_argument("leap");
+    clock.leap = static_cast<timing::LeapSecond>(leap);
+    if (!is_in_range(clock)) throw std::invalid_argument("clock");
+    return clock;
+}
+
+JournalHeader header_from_json(const Json& json) {
+    JournalHeader header;
+    const auto session = SessionId::from_hex(json.at("session").get<std::string>());
+    if (!session) throw std::invalid_argument("session");
+    header.session = *session;
+    header.boot_id = json.at("boot_id").get<std::string>();
+    header.program_version = json.at("program_version").get<std::string>();
+    header.codes.network = json.at("network").get<std::string>();
+    header.codes.station = json.at("station").get<std::string>();
+    header.codes.location = json.at("location").get<std::string>();
+    header.codes.axes = json.at("axes").get<std::array<std::string, 3>>();
+    if (!are_valid(header.codes)) throw std::invalid_argument("codes");
+    header.profile = json.at("profile").get<std::string>();
+    header.product_id = json.at("product_id").get<std::string>();
+    header.serial_number = json.at("serial_number").get<std::string>();
+    header.firmware = json.at("firmware").get<std::uint16_t>();
+    header.is_device_assumed = json.value("device_assumed", false);
+    header.port = json.value("port", "");
+    header.output_rate_hz = json.at("output_rate_hz").get<int>();
+    header.filter = json.at("filter").get<std::string>();
+    header.burst_ctrl = json.at("burst_ctrl").get<std::uint16_t>();
+    header.baud = json.at("baud").get<int>();
+    if (json.contains("declared_rate_hz")) {
+        header.declared_rate_hz = json.at("declared_rate_hz").get<double>();
+    }
+    header.oven_interval = std::chrono::seconds(json.value("oven_interval_s", 1));
+    if (header.oven_interval < kShortestOvenInterval || header.oven_interval > kLongestOvenInterval)
+        throw std::invalid_argument("oven_interval_s");
+    header.clock = clock_from_json(json.at("clock"));
+    if (json.contains("repeats")) {
+        const Json& repeats = json.at("repeats");
+        header.repeats = {repeats.at("segment").get<std::uint64_t>(),
+                          repeats.at("sequence").get<std::uint32_t>()};
+    }
+    return header;
+}
+
+}  // namespace
+
+std::string header_to_json(const JournalHeader& header) {
+    Json json = {{"session", header.session.to_hex()},
+                 {"boot_id", header.boot_id},
+                 {"program_version", header.program_version},
+                 {"network", header.codes.network},
+                 {"station", header.codes.station},
+                 {"location", header.codes.location},
+                 {"axes", header.codes.axes},
+                 {"profile", header.profile},
+                 {"product_id", header.product_id},
+                 {"serial_number", header.serial_number},
+                 {"firmware", header.firmware},
+                 {"output_rate_hz", header.output_rate_hz},
+                 {"filter", header.filter},
+                 {"burst_ctrl", header.burst_ctrl},
+                 {"baud", header.baud}};
+    if (header.is_device_assumed) json["device_assumed"] = true;
+    if (!header.port.empty()) json["port"] = header.port;
+    if (header.declared_rate_hz) json["declared_rate_hz"] = *header.declared_rate_hz;
+    if (header.oven_interval != kShortestOvenInterval)
+        json["oven_interval_s"] = header.oven_interval.count();
+    json["clock"] = clock_to_json(header.clock);
+    if (header.repeats) {
+        json["repeats"] = {{"segment", header.repeats->segment},
+                           {"sequence", header.repeats->sequence}};
+    }
+    // Product and serial number come off a wire: a byte that is no UTF-8 must not stop the journal.
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::optional<JournalHeader> parse_header(std::string_view text) {
+    const Json json = Json::parse(text, nullptr, false);
+    if (!json.is_object()) return std::nullopt;
+    try {
+        return header_from_json(json);
+    } catch (const Json::exception&) {
+        return std::nullopt;
+    } catch (const std::invalid_argument&) {
+        return std::nullopt;
+    }
+}
+
+}  // namespace a351::record

@@ -1,0 +1,142 @@
+#include "protocol/journal/journal_writer.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cstdio>
+#include <system_error>
+#include <utility>
+
+#include "protocol/journal/journal_codec.hpp"
+#include "protocol/journal/journal_reader.hpp"
+
+namespace a351::record {
+
+namespace {
+
+constexpr std::chrono::hours kLongestSegment{1};
+constexpr std::uint64_t kLargestSegment = 64ULL << 20;
+
+std::string segment_name(std::uint64_t number, UtcTime time) {
+    // "2026-03-01T13:00:00Z" without its punctuation.
+    std::string stamp = to_rfc3339(time);
+    std::erase_if(stamp, [](char c) { return c == '-' || c == ':'; });
+    std::string digits = std::to_string(number);
+    digits.insert(0, digits.size() < 8 ? 8 - digits.size() : 0, '0');
+    return digits + "_" + stamp + ".a351j";
+}
+
+/// On a disk that is full or bad enough to refuse a header.
+void remove_if_possible(FileLayer& files, const std::filesystem::path& path) {
+    try {
+        files.remove(path);
+    } catch (const std::system_error&) {
+        // Readers pass over a segment without a header.
+    }
+}
+
+}  // namespace
+
+JournalWriter::JournalWriter(FileLayer& files, std::filesystem::path directory)
+    : files_(files), directory_(std::move(directory)) {
+    files_.create_directories(directory_);
+    for (const auto& entry : std::filesystem::directory_iterator(directory_)) {
+        // Compressed and torn segments keep their number, so every name counts.
+        if (const auto number = segment_number(entry.path())) number_ = std::max(number_, *number);
+    }
+}
+
+void JournalWriter::begin_segment(const JournalHeader& header) {
+    sync();
+    segment_.reset();
+    open_segment(header);
+    header_ = header;
+    newest_clock_ = header.clock;
+    forget_unsynced();
+}
+
+std::optional<JournalHeader> JournalWriter::append(const JournalChunk& chunk,
+                                                   const timing::ClockReading& clock) {
+    assert(header_);
+    if (!segment_) write_again();
+    const bool is_full =
+        clock.raw - header_->clock.raw >= kLongestSegment || segment_->size() >= kLargestSegment;
+    if (is_full) {
+        JournalHeader header = *header_;
+        header.clock = clock;
+        begin_segment(header);
+        untold_ = header;
+    }
+    write(chunk);
+    unsynced_.push_back(chunk);
+    if (const auto* reading = std::get_if<timing::ClockReading>(&chunk)) newest_clock_ = *reading;
+    return std::exchange(untold_, std::nullopt);
+}
+
+void JournalWriter::sync() {
+    if (!segment_ && unsynced_.empty()) return;
+    if (!segment_) write_again();
+    try {
+        segment_->sync();
+    } catch (...) {
+        give_up();
+        throw;
+    }
+    forget_unsynced();
+}
+
+// After a fault, in a segment of its own; not synced.
+void JournalWriter::write_again() {
+    JournalHeader header = *header_;
+    header.clock = synced_clock_;
+    open_segment(header);
+    for (const JournalChunk& chunk : unsynced_) write(chunk);
+}
+
+void JournalWriter::open_segment(const JournalHeader& header) {
+    JournalHeader head = header;
+    head.repeats = lost_from_;
+    const auto path = directory_ / segment_name(++number_, header.clock.realtime);
+    auto bytes = encode_preamble();
+    const auto chunk = encode_chunk(head, 0);
+    bytes.insert(bytes.end(), chunk.begin(), chunk.end());
+    auto segment = files_.open_append(path);
+    try {
+        segment->append(bytes);
+        segment->sync();
+        files_.sync_directory(directory_);
+    } catch (...) {
+        remove_if_possible(files_, path);
+        throw;
+    }
+    segment_ = std::move(segment);
+    next_sequence_ = first_unsynced_ = 1;
+    bytes_written_ += bytes.size();
+}
+
+void JournalWriter::write(const JournalChunk& chunk) {
+    const auto bytes = encode_chunk(chunk, next_sequence_);
+    try {
+        segment_->append(bytes);
+    } catch (...) {
+        give_up();
+        throw;
+    }
+    ++next_sequence_;
+    bytes_written_ += bytes.size();
+}
+
+// An attempt to write chunks again that fails does not change where they stood first.
+void JournalWriter::give_up() noexcept {
+    segment_.reset();
+    if (!lost_from_) lost_from_ = RepeatedChunks{number_, first_unsynced_};
+}
+
+void JournalWriter::forget_unsynced() {
+    unsynced_.clear();
+    lost_from_.reset();
+    first_unsynced_ = next_sequence_;
+    synced_clock_ = newest_clock_;
+}
+
+}  // namespace a351::record

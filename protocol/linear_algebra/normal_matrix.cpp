@@ -1,0 +1,11 @@
+#include "protocol/linear_algebra/normal_matrix.hpp"
+
+namespace a351::corrector {
+
+Eigen::MatrixXd normal_matrix(const Eigen::Ref<const Eigen::MatrixXd>& columns) {
+    Eigen::MatrixXd normal = columns.transpose() * columns;
+    normal.diagonal().array() += 1.0;
+    return normal;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,40 @@
+#pragma once
+/// @file
+/// From three axes to the magnitude of gravity.
+
+#include "protocol/core/time_series.hpp"
+#include "protocol/core/units.hpp"
+#include "protocol/signal/decimation.hpp"
+
+namespace a351::corrector {
+
+/// sqrt(x^2 + y^2 + z^2), NaN where an axis is.
+/// @throws std::invalid_argument  the axes differ in start, rate or length.
+[[nodiscard]] TimeSeries<StandardGravity> norm(const TimeSeries<StandardGravity>& x,
+                                               const TimeSeries<StandardGravity>& y,
+                                               const TimeSeries<StandardGravity>& z);
+
+/// What comes first.  The norm of samples that vibrate sideways is too large by
+/// rectification_bias(), and no later filter takes that away.
+enum class NormOrder {
+    decimate_first,  ///< Norm of the decimated axes: free of that bias.
+    as_published,    ///< Decimated norm of the raw axes.
+};
+
+/// Magnitude of gravity at rate / M^stages.
+/// @throws std::invalid_argument  the axes differ in start, rate or length.
+[[nodiscard]] TimeSeries<MilliGal> decimated_norm(const TimeSeries<StandardGravity>& x,
+                                                  const TimeSeries<StandardGravity>& y,
+                                                  const TimeSeries<StandardGravity>& z,
+                                                  NormOrder order, const DecimationFilter& filter,
+                                                  int stages);
+
+/// How much the mean of a norm of raw samples exceeds gravity, to second order in the vibration:
+///
+///     (sx^2 + sy^2) / (2 g)      1 Gal rms on both axes: 1.02 mGal
+///
+/// @param rms_x, rms_y  Rms of the horizontal axes about their trend.
+/// @param gravity       > 0
+[[nodiscard]] MilliGal rectification_bias(MilliGal rms_x, MilliGal rms_y, MilliGal gravity);
+
+}  // namespace a351::corrector

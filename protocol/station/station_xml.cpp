@@ -1,0 +1,257 @@
+#include "protocol/station/station_xml.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "protocol/archive/channel_code.hpp"
+#include "protocol/station/station_document.hpp"
+#include "protocol/wire/device_profile.hpp"
+
+namespace a351::record {
+
+namespace {
+
+constexpr const char* kAcceleration = "m/s**2";
+constexpr const char* kTemperature = "degC";
+/// The sensitivity is stated at this frequency; the response is flat up to the filter's edge.
+constexpr double kReferenceFrequency_hz = 1.0;
+/// That of a slow channel must lie below half its rate.
+constexpr double kSlowRatePerReferenceFrequency = 10.0;
+
+std::string to_text(double value) {
+    std::array<char, 32> buffer{};
+    // The shortest text that reads back as the same double.
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+    return {buffer.data(), end.ptr};
+}
+
+/// Device strings come off a wire; XML 1.0 has no place for control characters.
+std::string printable(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    return text;
+}
+
+void add(pugi::xml_node parent, const char* name, const std::string& text) {
+    parent.append_child(name).text().set(text.c_str());
+}
+
+void add(pugi::xml_node parent, const char* name, double value) {
+    add(parent, name, to_text(value));
+}
+
+void add_comment(pugi::xml_node parent, const std::string& text) {
+    add(parent.append_child("Comment"), "Value", text);
+}
+
+void add_units(pugi::xml_node parent, const char* input) {
+    add(parent.append_child("InputUnits"), "Name", input);
+    add(parent.append_child("OutputUnits"), "Name", "count");
+}
+
+/// counts = gain x value in `unit`
+void add_gain_response(pugi::xml_node channel, double gain, const char* unit, double frequency_hz) {
+    auto response = channel.append_child("Response");
+    auto sensitivity = response.append_child("InstrumentSensitivity");
+    add(sensitivity, "Value", gain);
+    add(sensitivity, "Frequency", frequency_hz);
+    add_units(sensitivity, unit);
+    auto stage = response.append_child("Stage");
+    stage.append_attribute("number").set_value(1);
+    auto flat = stage.append_child("PolesZeros");
+    add_units(flat, unit);
+    add(flat, "PzTransferFunctionType", "LAPLACE (RADIANS/SECOND)");
+    add(flat, "NormalizationFactor", 1.0);
+    add(flat, "NormalizationFrequency", frequency_hz);
+    auto stage_gain = stage.append_child("StageGain");
+    add(stage_gain, "Value", gain);
+    add(stage_gain, "Frequency", frequency_hz);
+}
+
+/// value = offset + slope x counts
+void add_polynomial(pugi::xml_node polynomial, double offset, double slope, double rate_hz) {
+    add_units(polynomial, kTemperature);
+    add(polynomial, "ApproximationType", "MACLAURIN");
+    add(polynomial, "FrequencyLowerBound", 0.0);
+    add(polynomial, "FrequencyUpperBound", rate_hz / 2.0);
+    add(polynomial, "ApproximationLowerBound", double{std::numeric_limits<std::int32_t>::min()});
+    add(polynomial, "ApproximationUpperBound", double{std::numeric_limits<std::int32_t>::max()});
+    add(polynomial, "MaximumError", 0.0);
+    int number = 1;
+    for (const double value : {offset, slope}) {
+        auto coefficient = polynomial.append_child("Coefficient");
+        coefficient.append_attribute("number").set_value(number++);
+        coefficient.text().set(to_text(value).c_str());
+    }
+}
+
+struct Orientation {
+    double azimuth_deg = 0.0;
+    double dip_deg = 0.0;
+    bool is_known = true;
+};
+
+/// By the channel's last letter (SEED reference manual 2.4, appendix A).
+Orientation orientation_of(const std::string& suffix) {
+    if (suffix == "Z") return {0.0, -90.0, true};
+    if (suffix == "N") return {0.0, 0.0, true};
+    if (suffix == "E") return {90.0, 0.0, true};
+    return {suffix == "2" ? 90.0 : 0.0, 0.0, false};
+}
+
+void add_position(pugi::xml_node parent, const StationDescription& description) {
+    add(parent, "Latitude", description.latitude.value());
+    add(parent, "Longitude", description.longitude.value());
+    add(parent, "Elevation", description.elevation.value());
+}
+
+/// What every channel says, up to its place.
+pugi::xml_node add_channel(pugi::xml_node station, const StationDescription& description,
+                           std::string_view code) {
+    auto channel = station.append_child("Channel");
+    channel.append_attribute("code").set_value(std::string(code).c_str());
+    channel.append_attribute("locationCode").set_value(description.codes.location.c_str());
+    channel.append_attribute("startDate").set_value(to_rfc3339(description.start, 6).c_str());
+    return channel;
+}
+
+void add_place(pugi::xml_node channel, const StationDescription& description,
+               const Orientation& orientation, double rate_hz) {
+    add_position(channel, description);
+    add(channel, "Depth", 0.0);
+    add(channel, "Azimuth", orientation.azimuth_deg);
+    add(channel, "Dip", orientation.dip_deg);
+    add(channel, "SampleRate", rate_hz);
+}
+
+void add_sensor(pugi::xml_node channel, const StationDescription& description) {
+    auto sensor = channel.append_child("Sensor");
+    add(sensor, "Manufacturer", "Seiko Epson");
+    add(sensor, "Model", printable(description.product_id));
+    add(sensor, "SerialNumber", printable(description.serial_number));
+}
+
+/// Up to its response.
+pugi::xml_node add_sampled_channel(pugi::xml_node station, const StationDescription& description,
+                                   const std::string& instrument_and_axis,
+                                   const std::string& content, const Orientation& orientation) {
+    const int rate_hz = description.output_rate_hz;
+    auto channel = add_channel(station, description, channel_code(rate_hz, instrument_and_axis));
+    add_comment(channel, content);
+    add_comment(channel, "device profile " + description.profile +
+                             (description.is_profile_verified ? " (verified)" : " (unverified)"));
+    add_comment(channel, "filter " + description.filter + ", group delay " +
+                             to_text(static_cast<double>(description.group_delay.count()) / 1e9) +
+                             " s, already subtracted from the time stamps");
+    add_comment(channel, "firmware " + std::to_string(description.firmware));
+    if (!orientation.is_known) add_comment(channel, "orientation not surveyed");
+    add_place(channel, description, orientation, rate_hz);
+    if (const auto declared_hz = description.declared_rate_hz)
+        add(channel, "ClockDrift", std::abs(1.0 / *declared_hz - 1.0 / rate_hz));
+    add_sensor(channel, description);
+    return channel;
+}
+
+/// A derived channel.
+struct SlowChannel {
+    std::string_view code;
+    const char* content;
+    const char* unit;
+    double counts_per_unit;
+    bool is_of_sensor;
+    bool is_of_oven;
+};
+
+constexpr SlowChannel kSlowChannels[] = {
+    {kSensorTemperature, "sensor temperature, mean over the second", kTemperature, 1000.0, true,
+     false},
+    {kOvenTemperature, "oven, process value", kTemperature, 1000.0, false, true},
+    {kOvenSetPoint, "oven, set point", kTemperature, 1000.0, false, true},
+    {kOvenHeating, "oven, heating", "%", 100.0, false, true},
+    {kClockError, "sample times less those by start and rate of a record", "s", 1e6, false, false},
+    {kTimingQuality, "timing quality", "%", 1.0, false, false},
+};
+
+void add_slow_channel(pugi::xml_node station, const StationDescription& description,
+                      const SlowChannel& slow) {
+    auto channel = add_channel(station, description, slow.code);
+    add_comment(channel, slow.content);
+    const double rate_hz =
+        slow.is_of_oven ? 1.0 / static_cast<double>(description.oven_interval.count()) : 1.0;
+    add_place(channel, description, Orientation{}, rate_hz);
+    if (slow.is_of_sensor) add_sensor(channel, description);
+    add_gain_response(channel, slow.counts_per_unit, slow.unit,
+                      rate_hz / kSlowRatePerReferenceFrequency);
+}
+
+}  // namespace
+
+std::string to_station_xml(const StationDescription& description) {
+    const auto* profile = wire::find_profile(description.profile);
+    if (!profile) {
+        throw std::invalid_argument("StationDescription: profile = " + description.profile +
+                                    ": unknown");
+    }
+    pugi::xml_document document;
+    auto declaration = document.append_child(pugi::node_declaration);
+    declaration.append_attribute("version").set_value("1.0");
+    declaration.append_attribute("encoding").set_value("UTF-8");
+    auto root = document.append_child("FDSNStationXML");
+    root.append_attribute("xmlns").set_value("http://www.fdsn.org/xml/station/1");
+    root.append_attribute("schemaVersion").set_value("1.2");
+    add(root, "Source", "a351");
+    // The schema demands an instant of creation; that of the epoch keeps the same input at the
+    // same bytes.
+    add(root, "Created", to_rfc3339(description.start, 6));
+    auto network = root.append_child("Network");
+    network.append_attribute("code").set_value(description.codes.network.c_str());
+    auto station = network.append_child("Station");
+    station.append_attribute("code").set_value(description.codes.station.c_str());
+    station.append_attribute("startDate").set_value(to_rfc3339(description.start, 6).c_str());
+    add_position(station, description);
+    add(station.append_child("Site"), "Name", description.codes.station);
+
+    // Counts per g over m/s2 per g.
+    const double gain =
+        std::ldexp(1.0, profile->acceleration_fraction_bits) / (kMilliGalPerStandardGravity / 1e5);
+    // The same words in all three: their epochs begin together, so their order is that of the axes.
+    const auto& axes = description.codes.axes;
+    const std::string names = "; x, y, z are " + axes[0] + ", " + axes[1] + ", " + axes[2];
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        add_gain_response(add_sampled_channel(station, description, "N" + axes[i],
+                                              "axis " + std::string(1, "xyz"[i]) + names,
+                                              orientation_of(axes[i])),
+                          gain, kAcceleration, kReferenceFrequency_hz);
+    }
+    auto response =
+        add_sampled_channel(station, description, "K1", "sensor temperature", Orientation{})
+            .append_child("Response");
+    const double offset_degc = profile->temperature_offset_degc;
+    const double slope_degc = profile->temperature_slope_degc;
+    add_polynomial(response.append_child("InstrumentPolynomial"), offset_degc, slope_degc,
+                   description.output_rate_hz);
+    auto stage = response.append_child("Stage");
+    stage.append_attribute("number").set_value(1);
+    add_polynomial(stage.append_child("Polynomial"), offset_degc, slope_degc,
+                   description.output_rate_hz);
+    for (const SlowChannel& slow : kSlowChannels) {
+        if (description.has_oven || !slow.is_of_oven) add_slow_channel(station, description, slow);
+    }
+    return xml_text(document);
+}
+
+std::string xml_text(const pugi::xml_document& document) {
+    std::ostringstream text;
+    document.save(text, "  ");
+    return text.str();
+}
+
+}  // namespace a351::record

@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "protocol/core/input_error.hpp"
+#include "protocol/station/station_document.hpp"
+
+namespace a351::record {
+
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& trouble) {
+    throw InputError(file.string() + ": " + trouble);
+}
+
+double number_in(const std::filesystem::path& file, const std::string& channel,
+                 pugi::xml_node node) {
+    const std::string_view text = node.text().get();
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+        refuse(file, "channel " + channel + ": " + node.name() + " = " + std::string(text) +
+                         ": not a number");
+    }
+    return value;
+}
+
+ChannelScale read_scale(const std::filesystem::path& file, pugi::xml_node channel) {
+    ChannelScale scale;
+    scale.code = channel.attribute("code").value();
+    const auto response = channel.child("Response");
+    const auto sensitivity = response.child("InstrumentSensitivity");
+    const auto polynomial = response.child("InstrumentPolynomial");
+    const auto described = sensitivity ? sensitivity : polynomial;
+    scale.unit = described.child("InputUnits").child("Name").text().get();
+    if (scale.unit.empty()) refuse(file, "channel " + scale.code + ": no response with a unit");
+    if (sensitivity) {
+        const double gain = number_in(file, scale.code, sensitivity.child("Value"));
+        if (!(gain > 0.0)) refuse(file, "channel " + scale.code + ": sensitivity must be > 0");
+        scale.gain = 1.0 / gain;
+        return scale;
+    }
+    std::vector<double> coefficients;
+    for (const auto node : polynomial.children("Coefficient")) {
+        coefficients.push_back(number_in(file, scale.code, node));
+    }
+    if (coefficients.size() != 2) {
+        refuse(file, "channel " + scale.code + ": " + std::to_string(coefficients.size()) +
+                         " polynomial coefficients; allowed: 2");
+    }
+    scale.offset = coefficients[0];
+    scale.gain = coefficients[1];
+    return scale;
+}
+
+/// Without an instant: the epoch that goes on.
+bool is_in_force(const std::filesystem::path& file, pugi::xml_node channel,
+                 std::optional<UtcTime> at) {
+    const auto end = date_of(file, channel, "endDate");
+    if (!at) return !end;
+    return date_of(file, channel, "startDate").value_or(UtcTime::min()) <= *at &&
+           *at < end.value_or(UtcTime::max());
+}
+
+StationMetadata channels_in_force(const std::filesystem::path& file,
+                                  const pugi::xml_document& document, std::optional<UtcTime> at) {
+    StationMetadata metadata;
+    for (const auto network : document.child("FDSNStationXML").children("Network")) {
+        for (const auto station : network.children("Station")) {
+            for (const auto channel : station.children("Channel")) {
+                if (!is_in_force(file, channel, at)) continue;
+                metadata.codes.network = network.attribute("code").value();
+                metadata.codes.station = station.attribute("code").value();
+                metadata.codes.location = channel.attribute("locationCode").value();
+                if (metadata.serial_number.empty())
+                    metadata.serial_number =
+                        channel.child("Sensor").child("SerialNumber").text().get();
+                auto scale = read_scale(file, channel);
+                // Where a clock was set back, epochs may overlap: the later one counts.
+                const auto known =
+                    std::ranges::find(metadata.channels, scale.code, &ChannelScale::code);
+                if (known != metadata.channels.end())
+                    *known = std::move(scale);
+                else
+                    metadata.channels.push_back(std::move(scale));
+            }
+            if (!metadata.channels.empty()) return metadata;
+        }
+    }
+    return metadata;
+}
+
+}  // namespace
+
+std::optional<UtcTime> date_of(const std::filesystem::path& file, pugi::xml_node node,
+                               const char* attribute) {
+    const std::string text = node.attribute(attribute).value();
+    if (text.empty()) return std::nullopt;
+    const auto date = parse_rfc3339(text);
+    if (!date) {
+        refuse(file, std::string(node.name()) + " " + node.attribute("code").value() + ": " +
+                         attribute + " = " + text + ": no instant");
+    }
+    return date;
+}
+
+pugi::xml_document load_station_document(const std::filesystem::path& file) {
+    pugi::xml_document document;
+    const auto result = document.load_file(file.c_str());
+    if (!result) refuse(file, std::string("cannot be read as XML: ") + result.description());
+    if (!document.child("FDSNStationXML").child("Network").child("Station"))
+        refuse(file, "not StationXML: no FDSNStationXML/Network/Station");
+    for (const auto network : document.child("FDSNStationXML").children("Network")) {
+        for (const auto station : network.children("Station")) {
+            for (const auto channel : station.children("Channel")) {
+                static_cast<void>(read_scale(file, channel));
+                static_cast<void>(date_of(file, channel, "startDate"));
+                static_cast<void>(date_of(file, channel, "endDate"));
+            }
+        }
+    }
+    return document;
+}
+
+StationMetadata read_station_xml(const std::filesystem::path& file, std::optional<UtcTime> at) {
+    const auto document = load_station_document(file);
+    StationMetadata metadata = channels_in_force(file, document, at);
+    if (at && metadata.channels.empty()) metadata = channels_in_force(file, document, {});
+    std::vector<std::string> axes;
+    for (const ChannelScale& channel : metadata.channels)
+        if (channel.code.size() == 3 && channel.code[1] == 'N')
+            axes.push_back(channel.code.substr(2));
+    if (axes.size() != metadata.codes.axes.size()) {
+        refuse(file, std::to_string(axes.size()) + " acceleration channels; allowed: 3");
+    }
+    std::copy(axes.begin(), axes.end(), metadata.codes.axes.begin());
+    return metadata;
+}
+
+}  // namespace a351::record

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+namespace a351::text {
+
+/// A file that appears under its name when it is complete, and leaves nothing behind otherwise.
+///
+/// All members throw std::system_error with the path when the machine fails.
+class NewFile {
+public:
+    /// Opens a temporary file beside `path`; the directory exists.
+    explicit NewFile(std::filesystem::path path);
+    NewFile(const NewFile&) = delete;
+    NewFile& operator=(const NewFile&) = delete;
+    ~NewFile();
+
+    void write(std::string_view text);
+
+    /// The content is complete.  What stands at `path` now must be a regular file or nothing.
+    void close();
+
+    /// Renames the closed file to `path`.
+    void publish();
+
+private:
+    void require_good();
+
+    std::filesystem::path path_;
+    std::filesystem::path temporary_;
+    std::ofstream out_;
+};
+
+}  // namespace a351::text

@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "protocol/linear_algebra/cholesky.hpp"
+#include "protocol/text/csv.hpp"
+#include "protocol/text/strict_toml.hpp"
+#include "protocol/text/text_file.hpp"
+#include "protocol/unit/calibration.hpp"
+
+namespace a351::corrector {
+namespace {
+
+/// Of any covariance here; beyond, it says nothing.
+constexpr double kGreatestCovariance = 1e12;
+constexpr double kLongestWarmUp_h = 1000.0;
+
+struct Range {
+    double low, high;
+};
+
+/// A tenth of g along the axis, fifty times what was seen.
+constexpr Range kBiasRange{-1e5, 1e5};
+constexpr std::array<Range, 2> kAxisBiasRanges{kBiasRange, kBiasRange};
+
+/// A thousand times what was seen; lags from 1 s to two days.
+constexpr Range kSlopeRange{-1e4, 1e4}, kLagRange{0.0, 12.0};
+constexpr std::array<Range, 5> kThermalRanges{kSlopeRange, kSlopeRange, kSlopeRange, kLagRange,
+                                              kLagRange};
+
+std::string required(text::TomlTable& table, std::string_view key) {
+    std::string value = table.string_or(key, "");
+    if (value.empty()) table.refuse(key, "missing or empty", "a text");
+    return value;
+}
+
+std::optional<UtcTime> time_of(text::TomlTable& table, std::string_view key) {
+    const std::string text = table.string_or(key, "");
+    if (text.empty()) return std::nullopt;
+    const auto time = parse_rfc3339(text);
+    if (!time) table.refuse(key, "not an instant", "YYYY-MM-DDThh:mm:ss with Z or +hh:mm");
+    return time;
+}
+
+double required_number(text::TomlTable& table, std::string_view key, double low, double high) {
+    const auto value = table.number(key, low, high);
+    if (!value) table.refuse(key, "missing", "a number");
+    return *value;
+}
+
+template <std::size_t kSize>
+void require_in_range(const text::TomlTable& table, const std::vector<double>& values,
+                      const std::array<std::string_view, kSize>& names,
+                      const std::array<Range, kSize>& ranges) {
+    for (std::size_t k = 0; k < kSize; ++k) {
+        const auto [low, high] = ranges.at(k);
+        if (values[k] >= low && values[k] <= high) continue;
+        std::string trouble(names.at(k));
+        trouble += " = " + text::shortest(values[k]) + ": out of range";
+        table.refuse("values", trouble, text::shortest(low) + " to " + text::shortest(high));
+    }
+}
+
+template <int kCount, std::size_t kSize>
+std::optional<CalibratedCoefficients<kCount>> coefficients_of(
+    text::TomlTable& document, std::string_view name,
+    const std::array<std::string_view, kSize>& names, const std::array<Range, kSize>& ranges) {
+    static_assert(kSize == std::size_t{kCount});
+    if (!document.has(name)) return std::nullopt;
+    text::TomlTable table = document.table(name);
+    const std::vector<std::string> found = table.strings("coefficients");
+    if (!std::equal(found.begin(), found.end(), names.begin(), names.end())) {
+        std::string allowed;
+        for (const std::string_view one : names)
+            allowed += (allowed.empty() ? "" : ", ") + std::string(one);
+        table.refuse("coefficients", "not those of this table, in this order", allowed);
+    }
+    constexpr double kAny = std::numeric_limits<double>::max();
+    const auto values = table.numbers("values", -kAny, kAny);
+    const auto covariance = table.numbers("covariance", -kGreatestCovariance, kGreatestCovariance);
+    table.require_all_read();
+    const auto require_count = [&table](std::string_view key, std::size_t has, std::size_t wants) {
+        if (has != wants)
+            table.refuse(key, std::to_string(has) + " numbers", std::to_string(wants) + " numbers");
+    };
+    require_count("values", values.size(), kSize);
+    require_count("covariance", covariance.size(), kSize * kSize);
+    require_in_range(table, values, names, ranges);
+
+    CalibratedCoefficients<kCount> part;
+    using Matrix = Eigen::Matrix<double, kCount, kCount, Eigen::RowMajor>;
+    part.values = Eigen::Map<const Eigen::Matrix<double, kCount, 1>>(values.data());
+    part.covariance = Eigen::Map<const Matrix>(covariance.data());
+    if (part.covariance != part.covariance.transpose() ||
+        !Cholesky(part.covariance).is_positive_definite())
+        table.refuse("covariance", "no covariance", "a symmetric, positive definite matrix");
+    return part;
+}
+
+std::vector<CalibrationData> data_of(text::TomlTable& document) {
+    constexpr std::size_t kDigits = 64;
+    std::vector<CalibrationData> list;
+    for (text::TomlTable& table : document.tables("data")) {
+        CalibrationData data{required(table, "name"), required(table, "sha256")};
+        if (data.sha256.size() != kDigits ||
+            data.sha256.find_first_not_of("0123456789abcdef") != std::string::npos)
+            table.refuse("sha256", "no SHA-256", "64 lower-case hexadecimal digits");
+        table.require_all_read();
+        list.push_back(std::move(data));
+    }
+    return list;
+}
+
+}  // namespace
+
+Calibration parse_calibration(std::string_view text, std::filesystem::path origin) {
+    text::TomlTable document = text::parse_toml(text, std::move(origin));
+    if (!document.has("format")) document.refuse("format", "missing", "1");
+    static_cast<void>(document.integer_or("format", 1, 1, 1));
+    Calibration calibration;
+    calibration.serial_number = required(document, "serial_number");
+    calibration.program = required(document, "program");
+    const auto from = time_of(document, "valid_from_utc");
+    if (!from) document.refuse("valid_from_utc", "missing", "an instant");
+    calibration.valid_from = *from;
+    calibration.valid_to = time_of(document, "valid_to_utc");
+    if (calibration.valid_to && *calibration.valid_to <= *from)
+        document.refuse("valid_to_utc", "not after valid_from_utc", "a later instant");
+    calibration.data = data_of(document);
+    calibration.axis_bias =
+        coefficients_of<2>(document, "axis_bias", kAxisBiasNames, kAxisBiasRanges);
+    calibration.thermal = coefficients_of<5>(document, "thermal", kThermalNames, kThermalRanges);
+    if (document.has("warm_up")) {
+        text::TomlTable table = document.table("warm_up");
+        calibration.warm_up = {required_number(table, "within_mgal", 1e-3, 1e3),
+                               required_number(table, "after_power_on_h", 0.0, kLongestWarmUp_h)};
+        table.require_all_read();
+    }
+    document.require_all_read();
+    if (!calibration.axis_bias && !calibration.thermal && !calibration.warm_up)
+        document.refuse("axis_bias", "missing, and so are the other parts",
+                        "axis_bias, thermal or warm_up");
+    return calibration;
+}
+
+Calibration read_calibration(const std::filesystem::path& file) {
+    return parse_calibration(text::read_text_file(file), file);
+}
+
+}  // namespace a351::corrector

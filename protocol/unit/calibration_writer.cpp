@@ -1,0 +1,68 @@
+#include <nlohmann/json.hpp>
+
+#include "protocol/text/csv.hpp"
+#include "protocol/unit/calibration.hpp"
+
+namespace a351::corrector {
+namespace {
+
+/// A TOML string: JSON's escapes are TOML's, but DEL has to be escaped too.
+std::string quoted(const std::string& text) {
+    std::string result;
+    for (const char c :
+         nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) {
+        if (c == '\x7f')
+            result += "\\u007F";
+        else
+            result += c;
+    }
+    return result;
+}
+
+std::string time_line(std::string_view key, UtcTime time) {
+    constexpr int kNanosecondDecimals = 9;
+    return std::string(key) + " = \"" + to_rfc3339(time, kNanosecondDecimals) + "\"\n";
+}
+
+std::string number_line(std::string_view key, double value) {
+    return std::string(key) + " = " + text::shortest(value) + '\n';
+}
+
+template <typename Names, int kCount>
+std::string table(std::string_view name, const Names& names,
+                  const CalibratedCoefficients<kCount>& part) {
+    std::string list, values, covariance;
+    for (Eigen::Index i = 0; i < kCount; ++i) {
+        const std::string comma = i == 0 ? "" : ", ";
+        list += comma + '"' + std::string(names.at(static_cast<std::size_t>(i))) + '"';
+        values += comma + text::shortest(part.values(i));
+        covariance += "\n ";
+        for (Eigen::Index j = 0; j < kCount; ++j)
+            covariance += ' ' + text::shortest(part.covariance(i, j)) + ',';
+    }
+    return "\n[" + std::string(name) + "]\ncoefficients = [" + list + "]\nvalues = [" + values +
+           "]\ncovariance = [" + covariance + "\n]\n";
+}
+
+}  // namespace
+
+std::string to_toml(const Calibration& calibration) {
+    std::string text =
+        "# Calibration of one unit; format: calibration-format.md of a351.\nformat = 1\n";
+    text += "serial_number = " + quoted(calibration.serial_number) + '\n';
+    text += "program = " + quoted(calibration.program) + '\n';
+    text += time_line("valid_from_utc", calibration.valid_from);
+    if (calibration.valid_to) text += time_line("valid_to_utc", *calibration.valid_to);
+    if (calibration.axis_bias) text += table("axis_bias", kAxisBiasNames, *calibration.axis_bias);
+    if (calibration.thermal) text += table("thermal", kThermalNames, *calibration.thermal);
+    if (calibration.warm_up) {
+        text += "\n[warm_up]\n" + number_line("within_mgal", calibration.warm_up->within_mgal) +
+                number_line("after_power_on_h", calibration.warm_up->after_power_on_h);
+    }
+    for (const CalibrationData& data : calibration.data)
+        text +=
+            "\n[[data]]\nname = " + quoted(data.name) + "\nsha256 = " + quoted(data.sha256) + '\n';
+    return text;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,182 @@
+#include "protocol/archive/archive_reader.hpp"
+
+#include <numeric>
+#include "tests/support/catch.hpp"
+
+#include "protocol/archive/miniseed.hpp"
+#include "protocol/archive/sds.hpp"
+#include "tests/support/file_bytes.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace a351::record {
+namespace {
+
+using namespace std::chrono_literals;
+
+const UtcTime kBegin = *parse_rfc3339("2026-03-01T12:00:00Z");
+constexpr Nanoseconds kStep = 20ms;
+
+class Archive {
+public:
+    /// Writes a record of 100 samples first, first + 1, ...
+    void add(UtcTime start, std::int32_t first, const char* channel = "BNZ",
+             std::optional<double> rate_hz = std::nullopt) {
+        RecordHeader header;
+        header.network = "XX";
+        header.station = "A351";
+        header.location = "00";
+        header.channel = channel;
+        header.start = start;
+        header.nominal_rate = Hertz(50.0);
+        header.declared_rate_hz = rate_hz;
+        std::vector<std::int32_t> samples(100);
+        std::iota(samples.begin(), samples.end(), first);
+        const auto record = pack_record(header, samples);
+        REQUIRE(record.sample_count == 100);
+        writer_.append(channel, record);
+    }
+
+    [[nodiscard]] ChannelData read(UtcTime from = kBegin - 48h, UtcTime to = kBegin + 48h) const {
+        return read_channel(directory_.path(), StationCodes{}, "BNZ", from, to);
+    }
+
+    [[nodiscard]] std::filesystem::path day_file(UtcTime time = kBegin) const {
+        return sds_file(directory_.path(), StationCodes{}, "BNZ", time);
+    }
+
+private:
+    test::TemporaryDirectory directory_;
+    SdsWriter writer_{posix_files(), directory_.path(), StationCodes{}};
+};
+
+}  // namespace
+
+TEST_CASE("records that follow each other are one segment", "[record][archive_reader]") {
+    Archive archive;
+    for (int i = 0; i < 5; ++i) archive.add(kBegin + i * 100 * kStep, i * 100);
+    const auto data = archive.read();
+    CHECK(data.damage.empty());
+    REQUIRE(data.segments.size() == 1);
+    const auto& segment = data.segments[0];
+    REQUIRE(segment.counts.size() == 500);
+    CHECK(segment.rate_hz == 50.0);
+    CHECK(segment.anchors.size() == 5);
+    for (int i = 0; i < 500; ++i) {
+        CHECK(segment.counts[std::size_t(i)] == i);
+        CHECK(segment.time_of(std::size_t(i)) == kBegin + i * kStep);
+    }
+}
+
+TEST_CASE("each record keeps its own time", "[record][archive_reader]") {
+    Archive archive;
+    archive.add(kBegin, 0);
+    archive.add(kBegin + 100 * kStep + 3ms, 100);
+    const auto data = archive.read();
+    REQUIRE(data.segments.size() == 1);
+    CHECK(data.segments[0].time_of(99) == kBegin + 99 * kStep);
+    CHECK(data.segments[0].time_of(100) == kBegin + 100 * kStep + 3ms);
+    CHECK(data.segments[0].time_of(101) == kBegin + 101 * kStep + 3ms);
+}
+
+TEST_CASE("a gap or overlap of more than half a sample begins a segment",
+          "[record][archive_reader]") {
+    for (const auto& [shift, segments] :
+         {std::pair(10ms, 1U), std::pair(-10ms, 1U), std::pair(11ms, 2U), std::pair(-11ms, 2U)}) {
+        Archive archive;
+        archive.add(kBegin, 0);
+        archive.add(kBegin + 100 * kStep + shift, 100);
+        CHECK(archive.read().segments.size() == segments);
+    }
+}
+
+TEST_CASE("a change of rate begins a segment", "[record][archive_reader]") {
+    Archive archive;
+    archive.add(kBegin, 0, "BNZ", 50.0);
+    archive.add(kBegin + 100 * kStep, 100, "BNZ", 50.0005);
+    const auto data = archive.read();
+    REQUIRE(data.segments.size() == 2);
+    CHECK(data.segments[1].rate_hz == static_cast<double>(50.0005F));
+}
+
+TEST_CASE("segments go on over midnight", "[record][archive_reader]") {
+    Archive archive;
+    const auto midnight = kBegin + 12h;
+    archive.add(midnight - 100 * kStep, 0);
+    archive.add(midnight, 100);
+    CHECK(archive.day_file(midnight - 1ns) != archive.day_file(midnight));
+    CHECK(archive.read().segments.size() == 1);
+    CHECK(archive.read(kBegin - 48h, midnight).segments[0].counts.size() == 100);
+    CHECK(archive.read(midnight, kBegin + 48h).segments[0].counts.front() == 100);
+}
+
+TEST_CASE("only samples within the half-open interval are given", "[record][archive_reader]") {
+    Archive archive;
+    for (int i = 0; i < 3; ++i) archive.add(kBegin + i * 100 * kStep, i * 100);
+    const auto data = archive.read(kBegin + 150 * kStep, kBegin + 250 * kStep);
+    REQUIRE(data.segments.size() == 1);
+    CHECK(data.segments[0].counts.front() == 150);
+    CHECK(data.segments[0].counts.back() == 249);
+    CHECK(data.segments[0].time_of(0) == kBegin + 150 * kStep);
+    CHECK(data.segments[0].time_of(99) == kBegin + 249 * kStep);
+    CHECK(archive.read(kBegin + 1ns, kBegin + 20ms).segments.empty());
+    CHECK(archive.read(kBegin, kBegin).segments.empty());
+}
+
+TEST_CASE("days, channels and archives that are not there are simply absent",
+          "[record][archive_reader]") {
+    Archive archive;
+    CHECK(archive.read().segments.empty());
+    archive.add(kBegin, 0, "BN1");
+    CHECK(archive.read().segments.empty());
+    CHECK(read_channel("/nonexistent", {}, "BNZ", kBegin, kBegin + 1h).segments.empty());
+    CHECK(archive.read(UtcTime::min(), UtcTime::max()).segments.empty());
+}
+
+TEST_CASE("damage in the middle costs its records only and is reported",
+          "[record][archive_reader]") {
+    Archive archive;
+    for (int i = 0; i < 4; ++i) archive.add(kBegin + i * 100 * kStep, i * 100);
+    auto bytes = test::read_bytes(archive.day_file());
+    SECTION("a record is overwritten") {
+        std::fill_n(bytes.begin() + 512, 512, std::byte{0});
+        test::write_bytes(archive.day_file(), bytes);
+        const auto data = archive.read();
+        REQUIRE(data.segments.size() == 2);
+        CHECK(data.segments[0].counts.size() == 100);
+        CHECK(data.segments[1].counts.front() == 200);
+        REQUIRE(data.damage.size() == 1);
+        CHECK(data.damage[0].offset == 512);
+        CHECK(data.damage[0].byte_count == 512);
+    }
+    SECTION("stray bytes shift what follows") {
+        bytes.insert(bytes.begin() + 1024, 200, std::byte{0xAA});
+        test::write_bytes(archive.day_file(), bytes);
+        const auto data = archive.read();
+        REQUIRE(data.segments.size() == 1);
+        CHECK(data.segments[0].counts.size() == 400);
+        REQUIRE(data.damage.size() == 1);
+        CHECK(data.damage[0].offset == 1024);
+        CHECK(data.damage[0].byte_count == 200);
+    }
+    SECTION("the tail is torn") {
+        bytes.resize(bytes.size() - 1);
+        test::write_bytes(archive.day_file(), bytes);
+        const auto data = archive.read();
+        CHECK(data.segments[0].counts.size() == 300);
+        REQUIRE(data.damage.size() == 1);
+        CHECK(data.damage[0].offset == 1536);
+        CHECK(data.damage[0].byte_count == 511);
+    }
+}
+
+TEST_CASE("after a backward step of the clock segments are still in time order",
+          "[record][archive_reader]") {
+    Archive archive;
+    archive.add(kBegin, 0);
+    archive.add(kBegin - 10s, 100);
+    const auto data = archive.read();
+    REQUIRE(data.segments.size() == 2);
+    CHECK(data.segments[0].counts.front() == 100);
+}
+
+}  // namespace a351::record

@@ -1,0 +1,111 @@
+#include "protocol/archive/archive_writer.hpp"
+
+#include "tests/support/catch.hpp"
+
+#include "tests/unit/archive/data_root.hpp"
+
+using namespace a351;
+using namespace a351::record;
+using namespace std::chrono_literals;
+
+namespace {
+
+PackedRecord record_at(UtcTime start, std::vector<std::int32_t> samples) {
+    RecordHeader header;
+    header.network = "XX";
+    header.station = "A351";
+    header.location = "00";
+    header.channel = "BNZ";
+    header.start = start;
+    header.nominal_rate = Hertz(50);
+    return pack_record(header, samples);
+}
+
+std::vector<int> sequences(const DataRoot& root) {
+    std::vector<int> all;
+    for (const auto& record : root.records("BNZ")) all.push_back(record.header.sequence);
+    return all;
+}
+
+}  // namespace
+
+TEST_CASE("records are numbered on per channel, over day files and restarts",
+          "[record][archive_writer]") {
+    DataRoot root;
+    for (int run = 0; run < 3; ++run) {
+        ArchiveWriter writer(posix_files(), root.archive(), {});
+        for (int i = 0; i < 2; ++i) {
+            const auto start = kStart + run * 24h + i * 1min;
+            writer.record("BNZ", record_at(start, {1, 2, 3}), 3 * i + 2);
+        }
+        CHECK(writer.records_written() == 2);
+    }
+    CHECK(sequences(root) == std::vector{1, 2, 3, 4, 5, 6});
+}
+
+TEST_CASE("record numbers go from 999999 to 1", "[record][archive_writer]") {
+    DataRoot root;
+    RecordHeader header = decode_record(record_at(kStart, {1}).bytes)->header;
+    header.sequence = 999'998;
+    const std::vector<std::int32_t> samples{1};
+    SdsWriter(posix_files(), root.archive(), {}).append("BNZ", pack_record(header, samples));
+    ArchiveWriter writer(posix_files(), root.archive(), {});
+    writer.record("BNZ", record_at(kStart + 1min, {1}), 1);
+    writer.record("BNZ", record_at(kStart + 2min, {1}), 2);
+    CHECK(sequences(root) == std::vector{999'998, 999'999, 1});
+}
+
+TEST_CASE("sync says which sample of each channel is safe", "[record][archive_writer]") {
+    DataRoot root;
+    ArchiveWriter writer(posix_files(), root.archive(), {});
+    CHECK(writer.sync().empty());
+    writer.record("BNZ", record_at(kStart, {1, 2, 3}), 102);
+    const auto marks = writer.sync();
+    REQUIRE(marks.size() == 1);
+    CHECK(marks[0].channel == "BNZ");
+    CHECK(marks[0].index == 102);
+    CHECK(marks[0].utc == kStart + 40ms);
+}
+
+TEST_CASE("a replayed record that the archive holds is passed over", "[record][archive_writer]") {
+    DataRoot root;
+    const auto held = record_at(kStart, {1, 2, 3});
+    const auto next = record_at(kStart + 60ms, {4, 5});
+    ArchiveWriter(posix_files(), root.archive(), {}).record("BNZ", held, 2);
+    const auto before = root.files();
+
+    ArchiveWriter writer(posix_files(), root.archive(), {});
+    writer.begin_replay();
+    CHECK(writer.samples_held("BNZ", kStart) == 3);
+    CHECK_FALSE(writer.samples_held("BNZ", kStart + 60ms));
+    CHECK_FALSE(writer.samples_held("BN1", kStart));
+    writer.record("BNZ", held, 2);
+    CHECK(root.files() == before);
+    CHECK(writer.records_passed_over() == 1);
+    writer.record("BNZ", next, 4);
+    CHECK(writer.records_written() == 1);
+    CHECK(sequences(root) == std::vector{1, 2});
+    CHECK(writer.sync().at(0).index == 4);
+}
+
+TEST_CASE("a replayed record that disagrees with the archive, or overlaps it, is a conflict",
+          "[record][archive_writer]") {
+    DataRoot root;
+    ArchiveWriter(posix_files(), root.archive(), {}).record("BNZ", record_at(kStart, {1, 2, 3}), 2);
+    const auto before = root.files();
+    ArchiveWriter writer(posix_files(), root.archive(), {});
+    writer.begin_replay();
+    writer.record("BNZ", record_at(kStart, {1, 2, 4}), 2);
+    writer.record("BNZ", record_at(kStart, {1, 2}), 1);
+    writer.record("BNZ", record_at(kStart + 20ms, {2, 3}), 2);
+    writer.record("BNZ", record_at(kStart - 20ms, {0, 1}), 0);
+    CHECK(root.files() == before);
+    CHECK(writer.replay_conflicts() == 4);
+    CHECK(writer.records_written() == 0);
+
+    CHECK(writer.sync().empty());  // It speaks of nothing that is not there.
+
+    writer.end_replay();
+    writer.record("BNZ", record_at(kStart + 20ms, {2, 3}), 2);
+    CHECK(writer.records_written() == 1);
+}

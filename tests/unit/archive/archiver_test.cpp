@@ -1,0 +1,238 @@
+#include "protocol/archive/archiver.hpp"
+
+#include <utility>
+#include "tests/support/catch.hpp"
+
+#include "protocol/archive/channel_code.hpp"
+#include "tests/unit/archive/collector.hpp"
+
+using namespace a351;
+using namespace a351::record;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// The same bytes with the same stamp for each byte's read, cut into chunks elsewhere.
+std::vector<JournalChunk> recut(const std::vector<JournalChunk>& chunks, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::vector<JournalChunk> cut;
+    for (const auto& chunk : chunks) {
+        const auto* rx = std::get_if<RxChunk>(&chunk);
+        if (!rx) {
+            cut.push_back(chunk);
+            continue;
+        }
+        std::size_t read = 0;
+        while (read < rx->reads.size()) {  // whole reads per chunk
+            const std::size_t from = read == 0 ? 0 : rx->reads[read - 1].end;
+            const std::size_t reads =
+                std::min<std::size_t>(1 + random() % 20, rx->reads.size() - read);
+            RxChunk part;
+            for (std::size_t i = 0; i < reads; ++i, ++read) {
+                part.reads.push_back(
+                    {static_cast<std::uint32_t>(rx->reads[read].end - from), rx->reads[read].time});
+            }
+            const auto begin = rx->bytes.begin() + static_cast<std::ptrdiff_t>(from);
+            part.bytes.assign(begin, begin + part.reads.back().end);
+            cut.emplace_back(std::move(part));
+        }
+    }
+    return cut;
+}
+
+}  // namespace
+
+TEST_CASE("every sample of a stream comes back from the records bit for bit, each once",
+          "[record][archiver]") {
+    JournalStream stream;
+    stream.frames(0, 20'000);
+    const auto run = archive(stream.chunks);
+    CHECK(run.sink.counts("BN1") == expected(0, 0, 20'000));
+    CHECK(run.sink.counts("BN2") == expected(1, 0, 20'000));
+    CHECK(run.sink.counts("BNZ") == expected(2, 0, 20'000));
+    std::vector<std::int32_t> temperature;
+    for (std::int64_t k = 0; k < 20'000; ++k) temperature.push_back(values_of(k).temperature);
+    CHECK(run.sink.counts("BK1") == temperature);
+    REQUIRE(run.sink.samples.size() == 20'000);
+    for (std::int64_t k = 0; k < 20'000; ++k) {
+        REQUIRE(run.sink.samples[static_cast<std::size_t>(k)].index == k);
+        REQUIRE(run.sink.samples[static_cast<std::size_t>(k)].values == values_of(k));
+    }
+    CHECK(run.sink.last.at("BNZ") == 19'999);
+    CHECK(run.counters.frames == 20'000);
+    CHECK(run.counters.bytes == 20'000 * 24);
+    CHECK(run.counters.sessions == 1);
+    CHECK(run.counters.gaps + run.counters.anomalies + run.counters.bytes_skipped == 0);
+}
+
+TEST_CASE("records carry the instants of their samples and the header's codes",
+          "[record][archiver]") {
+    JournalStream stream;
+    std::get<JournalHeader>(stream.chunks.front()).declared_rate_hz = 50.0006;
+    stream.frames(0, 5'000);
+    const auto run = archive(stream.chunks);
+    // k512_fc9: 511 / 2 / 4000 Hz = 63.875 ms; data ready after 430 us; 24 bytes at 460 800
+    // baud = 520.833 us.
+    const Nanoseconds delay = 63'875us + 430us + Nanoseconds(520'833);
+    std::int64_t index = 0;
+    for (const auto& record : run.sink.decoded.at("BNZ")) {
+        const Nanoseconds error = record.header.start - (kStart + due(index) - delay);
+        CHECK(std::chrono::abs(error) <= Nanoseconds(1us));
+        CHECK(record.header.network == "XX");
+        CHECK(record.header.station == "A351");
+        CHECK(record.header.location == "00");
+        CHECK(record.header.starts_series == (index == 0));
+        CHECK_FALSE(record.header.ends_series);
+        CHECK_FALSE(record.header.is_clipped);
+        CHECK_FALSE(record.header.had_transmission_errors);
+        CHECK(record.header.declared_rate_hz == double(50.0006F));
+        index += static_cast<std::int64_t>(record.samples.size());
+    }
+}
+
+TEST_CASE("where the journal cuts the stream into chunks changes no record", "[record][archiver]") {
+    JournalStream stream;
+    std::mt19937_64 random(7);
+    for (std::int64_t k = 0; k < 3'000; ++k) {
+        auto frame = frame_of(values_of(k));
+        if (k % 211 == 100) frame[random() % frame.size()] ^= std::byte{0x10};
+        const auto middle = frame.begin() + static_cast<std::ptrdiff_t>(1 + random() % 23);
+        stream.bytes({frame.begin(), middle}, due(k) - 1ms);
+        stream.bytes({middle, frame.end()}, due(k));
+        if (k % 50 == 49) stream.second(due(k));
+    }
+    const auto whole = archive(stream.chunks);
+    CHECK(whole.counters.checksum_errors + whole.counters.framing_errors > 0);
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const auto cut = archive(recut(stream.chunks, seed));
+        CHECK(cut.sink.packed == whole.sink.packed);
+        CHECK(cut.counters.frames == whole.counters.frames);
+    }
+}
+
+TEST_CASE("frames that one read delivered together are stamped by their place in it",
+          "[record][archiver]") {
+    JournalStream apart, together;
+    for (std::int64_t k = 0; k < 3'000; k += 2) {
+        const auto first = frame_of(values_of(k)), second = frame_of(values_of(k + 1));
+        auto both = first;
+        both.insert(both.end(), second.begin(), second.end());
+        together.bytes(both, due(k + 1));
+        apart.bytes(first, due(k + 1) - 520'833ns);  // 24 bytes at 460 800 baud
+        apart.bytes(second, due(k + 1));
+        if (k % 50 != 48) continue;
+        together.second(due(k + 1));
+        apart.second(due(k + 1));
+    }
+    together.flush();
+    apart.flush();
+    CHECK(archive(together.chunks).sink.packed == archive(apart.chunks).sink.packed);
+}
+
+TEST_CASE("no record reaches over UTC midnight", "[record][archiver]") {
+    const auto before = 12h - 100s;
+    JournalStream stream(1, before);
+    for (std::int64_t k = 0; k < 10'000; ++k) {
+        stream.bytes(frame_of(values_of(k)), before + due(k));
+        if (k % 50 == 49) stream.second(before + due(k));
+    }
+    stream.flush();
+    const auto run = archive(stream.chunks);
+    const UtcTime midnight = *parse_rfc3339("2026-03-02T00:00:00Z");
+    CHECK(run.sink.counts("BNZ") == expected(2, 0, 10'000));
+    for (const auto& [channel, records] : run.sink.decoded) {
+        int before_count = 0;
+        for (const auto& record : records) {
+            if (record.header.start >= midnight) {
+                CHECK(before_count > 0);
+                continue;
+            }
+            ++before_count;
+            const double last_s = static_cast<double>(record.samples.size() - 1) / record.rate_hz();
+            CHECK(record.header.start + from_seconds(last_s) < midnight);
+        }
+        const auto& first_after = records[static_cast<std::size_t>(before_count)];
+        CHECK(first_after.header.start - midnight < Nanoseconds(20ms));
+    }
+}
+
+TEST_CASE("samples that nothing follows are in a record after 60 s", "[record][archiver]") {
+    JournalStream stream;
+    stream.frames(0, 300);
+    Collector sink;
+    Archiver archiver(sink);
+    for (const auto& chunk : stream.chunks) archiver.take(chunk);
+    archiver.take(clock_at(66s));  // the last frame came at 6 s
+    CHECK(sink.decoded.count("BNZ") == 0);
+    archiver.take(clock_at(66s + 1ms));
+    CHECK(sink.counts("BNZ") == expected(2, 0, 300));
+}
+
+TEST_CASE("values that Steim-2 cannot hold pass as integers", "[record][archiver]") {
+    JournalStream stream;
+    for (std::int64_t k = 0; k < 2'000; ++k) {
+        auto values = values_of(k);
+        if (k == 500) values.axes[2] = -2'147'483'647;
+        if (k == 501) values.axes[2] = 2'147'483'647;
+        stream.bytes(frame_of(values), due(k));
+    }
+    stream.flush();
+    const auto run = archive(stream.chunks);
+    auto counts = expected(2, 0, 2'000);
+    counts[500] = -2'147'483'647;
+    counts[501] = 2'147'483'647;
+    CHECK(run.sink.counts("BNZ") == counts);
+    CHECK(run.counters.integer_records > 0);
+    CHECK(run.counters.gaps == 0);
+    int clipped = 0;
+    for (const auto& record : run.sink.decoded.at("BNZ"))
+        clipped += record.header.is_clipped ? 1 : 0;
+    CHECK(clipped >= 1);
+    for (const auto& record : run.sink.decoded.at("BN1")) CHECK_FALSE(record.header.is_clipped);
+}
+
+TEST_CASE("an alarm flag marks the records of its axis as clipped", "[record][archiver]") {
+    JournalStream stream;
+    for (std::int64_t k = 0; k < 3'000; ++k) {
+        auto values = values_of(k);
+        if (k == 1'000) values.flag |= 0x0008;  // YALARM_ERR
+        stream.bytes(frame_of(values), due(k));
+    }
+    stream.flush();
+    const auto run = archive(stream.chunks);
+    CHECK(run.counters.error_flags == 1);
+    std::int64_t index = 0;
+    for (const auto& record : run.sink.decoded.at("BN2")) {
+        const auto end = index + static_cast<std::int64_t>(record.samples.size());
+        CHECK(record.header.is_clipped == (index <= 1'000 && 1'000 < end));
+        index = end;
+    }
+    for (const auto& record : run.sink.decoded.at("BNZ")) CHECK_FALSE(record.header.is_clipped);
+}
+
+TEST_CASE("band code and channels follow rate and layout", "[record][archiver]") {
+    for (const auto& [rate_hz, band] :
+         {std::pair(50, 'B'), std::pair(100, 'H'), std::pair(500, 'C'), std::pair(1000, 'F')}) {
+        const auto layout = *wire::BurstLayout::from_burst_ctrl(0x0103);  // z, COUNT, CHKSM
+        auto header = header_at(0s);
+        header.output_rate_hz = rate_hz;
+        header.burst_ctrl = layout.burst_ctrl();
+        JournalStream stream;
+        stream.chunks.front() = header;
+        for (std::int64_t k = 0; k < 500; ++k) {
+            auto values = values_of(k);
+            values.count = static_cast<std::uint16_t>(4000 / rate_hz * (k + 1));
+            std::vector<std::byte> bytes;
+            wire::append_frame(layout, values, bytes);
+            stream.bytes(bytes, Nanoseconds(1s) / rate_hz * (k + 1));
+        }
+        stream.flush();
+        const auto run = archive(stream.chunks);
+        std::string channels;
+        for (const auto& [channel, records] : run.sink.decoded)
+            if (!is_derived(channel)) channels += channel;
+        CHECK(channels == std::string(1, band) + "NZ");
+        CHECK(run.sink.decoded.count("LK1") == 0);
+        CHECK(run.sink.counts(std::string(1, band) + "NZ") == expected(2, 0, 500));
+    }
+}

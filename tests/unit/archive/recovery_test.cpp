@@ -1,0 +1,313 @@
+#include "protocol/archive/recovery.hpp"
+
+#include "tests/support/catch.hpp"
+
+#include "tests/unit/archive/collector.hpp"
+#include "tests/unit/archive/data_root.hpp"
+#include "tests/unit/files/failing_files.hpp"
+
+using namespace a351;
+using namespace a351::record;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Two minutes over midnight in three segments, with a gap, a flipped bit, clock readings and polls
+/// of an oven.
+std::vector<JournalChunk> eventful_session() {
+    const auto before = 12h - 60s;
+    JournalStream stream(1, before);
+    std::mt19937_64 random(5);
+    for (std::int64_t k = 0; k < 6'000; ++k) {
+        if (k >= 4'000 && k < 4'003) continue;
+        auto frame = frame_of(values_of(k));
+        if (k == 1'234) frame[7] ^= std::byte{0x40};
+        const auto late = Nanoseconds(static_cast<std::int64_t>(random() % 16'000'000));
+        stream.bytes(frame, before + due(k) + late);
+        if (k % 50 == 49) stream.second(before + due(k) + 17ms);
+        if (k % 50 == 24) {
+            stream.oven(before + due(k), static_cast<std::uint16_t>(420 + random() % 5));
+        }
+        if (k == 2'024 || k == 4'525) {
+            stream.flush();
+            stream.chunks.emplace_back(header_at(before + due(k) + 17ms));
+        }
+    }
+    stream.flush();
+    return stream.chunks;
+}
+
+struct Recovered : RecoveryReport {
+    ArchiverCounters replayed;
+};
+
+/// As the daemon does at start, when no more samples come.
+Recovered recover(FileLayer& files, const std::filesystem::path& root) {
+    Recovered report;
+    const RecoveryPlan plan = begin_recovery(files, root / "journal");
+    report.journal = plan.cut;
+    for (const Replay& replay : plan.replays) {
+        ArchiveWriter writer(files, root / "archive", replay.codes);
+        Archiver archiver(writer);
+        const auto take = [&](const JournalChunk& chunk) {
+            archiver.take(chunk);
+            return true;
+        };
+        RecoveryReport part;
+        const bool is_whole = replay_journal(files, root / "archive", replay, writer, take, part);
+        CHECK(is_whole);
+        archiver.close_records();
+        static_cast<void>(writer.sync());
+        report.archive.insert(report.archive.end(), part.archive.begin(), part.archive.end());
+        report.records_added += writer.records_written();
+        report.records_confirmed += writer.records_passed_over();
+        report.records_conflicting += writer.replay_conflicts();
+        report.replayed = archiver.counters();
+    }
+    return report;
+}
+
+void cut_archive(const DataRoot& root, std::mt19937_64& random, bool with_torn_bytes) {
+    for (const auto& channel : channels_in(root.archive(), {})) {
+        const auto days = day_files(root.archive(), {}, channel);
+        const auto day = days.back();
+        const auto records = std::filesystem::file_size(day) / kRecordSize;
+        const auto kept = random() % (records + 1);
+        auto size = kept * kRecordSize;
+        if (with_torn_bytes && kept < records) size += random() % kRecordSize;
+        std::filesystem::resize_file(day, size);
+        if (size == 0) std::filesystem::remove(day);
+    }
+}
+
+std::vector<std::int32_t> expected(std::int64_t first, std::int64_t end) {
+    std::vector<std::int32_t> counts;
+    for (std::int64_t k = first; k < end; ++k) counts.push_back(values_of(k).axes[2]);
+    return counts;
+}
+
+}  // namespace
+
+TEST_CASE("recovery of an empty data root does nothing", "[record][recovery]") {
+    DataRoot root;
+    const auto report = recover(posix_files(), root.path());
+    CHECK(report.records_added == 0);
+    CHECK(root.files().empty());
+}
+
+TEST_CASE("an archive cut at any record, torn or not, comes back to the same bytes",
+          "[record][recovery]") {
+    const auto chunks = eventful_session();
+    DataRoot whole;
+    whole.write_journal(chunks);
+    archive_all(whole, chunks);
+    const auto reference = whole.files();
+    REQUIRE(reference.size() == 20);  // four channels and six derived ones, two days
+    std::mt19937_64 random(1);
+    for (int round = 0; round < 16; ++round) {
+        DataRoot root;
+        root.copy_from(whole);
+        cut_archive(root, random, round % 2 == 1);
+        const auto report = recover(posix_files(), root.path());
+        REQUIRE(root.files() == reference);
+        CHECK(report.records_conflicting == 0);
+        const auto again = recover(posix_files(), root.path());
+        CHECK(again.records_added == 0);
+        CHECK(again.records_confirmed == report.records_added + report.records_confirmed);
+        REQUIRE(root.files() == reference);
+    }
+    DataRoot root;
+    root.copy_from(whole);
+    std::filesystem::remove_all(root.archive());
+    recover(posix_files(), root.path());
+    CHECK(root.files() == reference);
+}
+
+TEST_CASE("a journal torn at any byte gives what an uninterrupted run up to there would have",
+          "[record][recovery]") {
+    const auto chunks = eventful_session();
+    DataRoot whole;
+    whole.write_journal(chunks);
+    std::mt19937_64 random(2);
+    for (int round = 0; round < 12; ++round) {
+        DataRoot root, fresh;
+        root.copy_from(whole);
+        const auto newest = journal_segments(root.journal()).back();
+        std::filesystem::resize_file(newest, random() % std::filesystem::file_size(newest));
+        fresh.copy_from(root);
+        // What a run that saw the same chunks would have written ...
+        std::vector<JournalChunk> seen;
+        for (const auto& segment : journal_segments(fresh.journal())) {
+            JournalReader reader(segment);
+            while (auto chunk = reader.next()) seen.push_back(std::move(*chunk));
+        }
+        archive_all(fresh, seen);
+        const auto reference = fresh.files();
+        // ... of which some was on disk.
+        std::filesystem::copy(fresh.archive(), root.archive(),
+                              std::filesystem::copy_options::recursive);
+        cut_archive(root, random, true);
+        recover(posix_files(), root.path());
+        REQUIRE(root.files() == reference);
+        CHECK(recover(posix_files(), root.path()).records_added == 0);
+    }
+}
+
+TEST_CASE("a recovery killed at any change to the disk, twice, ends with the same bytes",
+          "[record][recovery]") {
+    const auto chunks = eventful_session();
+    DataRoot whole;
+    whole.write_journal(chunks);
+    archive_all(whole, chunks);
+    const auto reference = whole.files();
+    std::mt19937_64 random(3);
+    DataRoot crashed;
+    crashed.copy_from(whole);
+    for (const auto& channel : channels_in(crashed.archive(), {}))
+        std::filesystem::remove(day_files(crashed.archive(), {}, channel).back());
+    cut_archive(crashed, random, true);
+    test::FailingFiles unharmed;
+    {
+        DataRoot root;
+        root.copy_from(crashed);
+        recover(unharmed, root.path());
+        REQUIRE(root.files() == reference);
+    }
+    for (int change = 1; change <= unharmed.operations(); change += 2) {
+        DataRoot root;
+        root.copy_from(crashed);
+        INFO("killed at change " << change);
+        for (const int at : {change, 1 + change / 2}) {
+            test::FailingFiles files(at);
+            try {
+                recover(files, root.path());
+            } catch (const std::system_error&) {
+            }
+        }
+        recover(posix_files(), root.path());
+        REQUIRE(root.files() == reference);
+    }
+}
+
+TEST_CASE("records that a shutdown ended early are run into by a later replay",
+          "[record][recovery]") {
+    // The daemon stops after sample 1499, comes back, adopts the stream in the same session, and is
+    // killed later: the journal alone would give other records.
+    JournalStream before, after;
+    before.frames(0, 1'510);
+    after.frames(1'510, 3'700);
+    after.chunks.front() = header_at(due(1'509));
+    DataRoot root;
+    auto chunks = before.chunks;
+    chunks.insert(chunks.end(), after.chunks.begin(), after.chunks.end());
+    root.write_journal(chunks);
+    {
+        ArchiveWriter writer(posix_files(), root.archive(), {});
+        Archiver archiver(writer);
+        for (const auto& chunk : before.chunks) archiver.take(chunk);
+        archiver.close_records();
+        for (const auto& chunk : after.chunks) archiver.take(chunk);
+    }
+    const auto report = recover(posix_files(), root.path());
+    CHECK(report.records_conflicting == 0);
+    CHECK(report.records_added > 0);
+    CHECK(root.counts("BNZ") == expected(0, 3'700));
+    CHECK(recover(posix_files(), root.path()).records_added == 0);
+}
+
+TEST_CASE("a shutdown at any age of the slow records is run into by later replays",
+          "[record][recovery]") {
+    // LCE has its seconds when a record of BN1 ends: at a shutdown sooner than in a replay, where
+    // it may be old before it has them.
+    const auto stop_s = GENERATE(range(48, 75));
+    const auto away_s = GENERATE(0, 8);
+    CAPTURE(stop_s, away_s);
+    const std::int64_t stopped = 50 * stop_s + 10, back = stopped + 50 * away_s;
+    JournalStream before, after;
+    before.frames(0, stopped);
+    after.frames(back, 10'000);
+    after.chunks.front() = header_at(due(back - 1));
+    DataRoot root;
+    root.write_journal(before.chunks);
+    archive_all(root, before.chunks);
+    {
+        // The second life: adopts the stream, and stops too.
+        ArchiveWriter writer(posix_files(), root.archive(), {});
+        Archiver archiver(writer);
+        writer.begin_replay();
+        for (const auto* chunks : {&before.chunks, &after.chunks})
+            for (const auto& chunk : *chunks) archiver.take(chunk);
+        archiver.close_records();
+        CHECK(writer.replay_conflicts() == 0);
+    }
+    const auto archived = root.files();
+    auto chunks = before.chunks;
+    chunks.insert(chunks.end(), after.chunks.begin(), after.chunks.end());
+    std::filesystem::remove_all(root.journal());
+    root.write_journal(chunks);
+    const auto report = recover(posix_files(), root.path());
+    CHECK(report.records_conflicting == 0);
+    CHECK(report.records_added == 0);
+    CHECK(root.files() == archived);
+    std::size_t seconds = 0;
+    for (const auto& record : root.records("LCE")) seconds += record.samples.size();
+    const auto whole = archive(chunks).sink.counts("LCE");
+    CHECK(seconds == whole.size());
+}
+
+TEST_CASE("an archive ahead of the journal keeps what it has and nothing comes twice",
+          "[record][recovery]") {
+    JournalStream stream;
+    stream.frames(0, 3'000);
+    DataRoot root;
+    archive_all(root, stream.chunks);
+    const auto reference = root.files();
+    stream.chunks.resize(stream.chunks.size() / 2);
+    root.write_journal(stream.chunks);
+    recover(posix_files(), root.path());
+    CHECK(root.files() == reference);
+}
+
+TEST_CASE("sessions that were not archived and synced before the newest mark are replayed too",
+          "[record][recovery]") {
+    JournalStream first(1), second(2, 100s), third(3, 200s);
+    first.frames(0, 2'000);
+    const auto append = [](JournalStream& stream, std::int64_t seconds, MarkChunk mark) {
+        for (std::int64_t k = 0; k < 2'000; ++k) {
+            stream.bytes(frame_of(values_of(k)), seconds * 1s + due(k));
+            if (k % 50 == 49) stream.second(seconds * 1s + due(k));
+        }
+        if (!mark.channels.empty()) stream.chunks.emplace_back(std::move(mark));
+    };
+    append(second, 100, {header_at(0s, 2).session, {{"BNZ", 10, kStart}}});
+    append(third, 200, {});
+    auto chunks = first.chunks;
+    for (const auto* more : {&second, &third})
+        chunks.insert(chunks.end(), more->chunks.begin(), more->chunks.end());
+    DataRoot root;
+    root.write_journal(chunks);
+    const auto report = recover(posix_files(), root.path());
+    CHECK(report.replayed.sessions == 2);
+    auto counts = expected(0, 2'000);
+    const auto again = counts;
+    counts.insert(counts.end(), again.begin(), again.end());
+    CHECK(root.counts("BNZ") == counts);
+}
+
+TEST_CASE("sessions under other codes are recovered too, each into its archive",
+          "[record][recovery]") {
+    JournalStream first(1), second(2, 100s);
+    first.frames(0, 2'000);
+    StationCodes other;
+    other.station = "B351";
+    std::get<JournalHeader>(second.chunks.front()).codes = other;
+    for (std::int64_t k = 0; k < 1'000; ++k) second.bytes(frame_of(values_of(k)), 100s + due(k));
+    second.flush();
+    DataRoot root;
+    auto chunks = first.chunks;
+    chunks.insert(chunks.end(), second.chunks.begin(), second.chunks.end());
+    root.write_journal(chunks);
+    CHECK(recover(posix_files(), root.path()).records_conflicting == 0);
+    CHECK(root.counts("BNZ") == expected(0, 2'000));
+    CHECK(root.counts("BNZ", other) == expected(0, 1'000));
+}

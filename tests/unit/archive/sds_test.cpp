@@ -1,0 +1,206 @@
+#include "protocol/archive/sds.hpp"
+
+#include <algorithm>
+#include <system_error>
+#include "tests/support/catch.hpp"
+
+#include "tests/support/file_bytes.hpp"
+#include "tests/support/temporary_directory.hpp"
+#include "tests/unit/files/failing_files.hpp"
+
+namespace a351::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+UtcTime at(const char* time) { return *parse_rfc3339(time); }
+
+PackedRecord record_at(const char* time, int sequence = 1) {
+    RecordHeader header;
+    header.network = "XX";
+    header.station = "A351";
+    header.location = "00";
+    header.channel = "BNZ";
+    header.sequence = sequence;
+    header.start = at(time);
+    header.nominal_rate = Hertz(50.0);
+    return pack_record(header, std::vector<std::int32_t>(100, sequence));
+}
+
+fs::path day_file(const fs::path& archive, const char* time) {
+    return sds_file(archive, StationCodes{}, "BNZ", at(time));
+}
+
+/// Size of the file, and every 512 bytes of it must decode; their sequence numbers.
+std::vector<int> sequences_in(const fs::path& file) {
+    std::vector<int> sequences;
+    const auto bytes = test::read_bytes(file);
+    REQUIRE(bytes.size() % kRecordSize == 0);
+    for (std::size_t i = 0; i < bytes.size(); i += kRecordSize) {
+        const auto decoded = decode_record(std::span(bytes).subspan(i, kRecordSize));
+        REQUIRE(decoded);
+        sequences.push_back(decoded->header.sequence);
+    }
+    return sequences;
+}
+
+}  // namespace
+
+TEST_CASE("a day file is named by the SDS rules", "[record][sds]") {
+    StationCodes codes;
+    CHECK(sds_file("archive", codes, "BNZ", at("2026-03-01T13:00:00Z")) ==
+          "archive/2026/XX/A351/BNZ.D/XX.A351.00.BNZ.D.2026.060");
+    codes.location = "";  // The dots stay.
+    CHECK(sds_file("archive", codes, "LK1", at("2026-01-01T00:00:00Z")) ==
+          "archive/2026/XX/A351/LK1.D/XX.A351..LK1.D.2026.001");
+}
+
+TEST_CASE("the UTC day of the first sample decides, leap days counted", "[record][sds]") {
+    const auto name = [](const char* time) {
+        return day_file("", time).filename().string().substr(17);
+    };
+    CHECK(name("2026-12-31T23:59:59.999999Z") == "2026.365");
+    CHECK(name("2027-01-01T00:00:00Z") == "2027.001");
+    CHECK(name("2024-02-29T12:00:00Z") == "2024.060");
+    CHECK(name("2024-03-01T00:00:00Z") == "2024.061");
+    CHECK(name("2024-12-31T23:59:59Z") == "2024.366");
+    CHECK(name("2026-03-01T08:59:59+09:00") == "2026.059");
+}
+
+TEST_CASE("records go to the day they start on", "[record][sds]") {
+    const test::TemporaryDirectory directory;
+    const auto archive = directory.path() / "archive";
+    SdsWriter writer(posix_files(), archive, StationCodes{});
+    writer.append("BNZ", record_at("2026-12-31T23:59:50Z", 1));
+    writer.append("BNZ", record_at("2026-12-31T23:59:52Z", 2));
+    writer.append("BNZ",
+                  record_at("2026-12-31T23:59:59.999999Z", 3));  // Reaches into the new year.
+    writer.append("BNZ", record_at("2027-01-01T00:00:00Z", 4));
+    writer.append("BNZ", record_at("2027-01-01T00:00:02Z", 5));
+    writer.sync();
+    CHECK(sequences_in(day_file(archive, "2026-12-31T00:00:00Z")) == std::vector{1, 2, 3});
+    CHECK(sequences_in(day_file(archive, "2027-01-01T00:00:00Z")) == std::vector{4, 5});
+    CHECK(day_files(archive, StationCodes{}, "BNZ").size() == 2);
+    CHECK(newest_day_file(archive, StationCodes{}, "BNZ") ==
+          day_file(archive, "2027-01-01T00:00:00Z"));
+}
+
+TEST_CASE("writing goes on in the file of an earlier run", "[record][sds]") {
+    const test::TemporaryDirectory directory;
+    for (int run = 0; run < 3; ++run) {
+        SdsWriter writer(posix_files(), directory.path(), StationCodes{});
+        writer.append("BNZ", record_at("2026-03-01T12:00:00Z", 2 * run + 1));
+        writer.append("BNZ", record_at("2026-03-01T12:00:02Z", 2 * run + 2));
+    }
+    CHECK(sequences_in(day_file(directory.path(), "2026-03-01T00:00:00Z")) ==
+          std::vector{1, 2, 3, 4, 5, 6});
+}
+
+TEST_CASE("channels are those with a directory, over all years, of this station only",
+          "[record][sds]") {
+    const test::TemporaryDirectory directory;
+    for (const char* path : {"2026/XX/A351/BNZ.D", "2026/XX/A351/BN1.D", "2027/XX/A351/BNZ.D",
+                             "2027/XX/A351/LK1.D", "2027/XX/OTHER/LCE.D", "notes/XX/A351/BN2.D"}) {
+        fs::create_directories(directory.path() / path);
+    }
+    CHECK(channels_in(directory.path(), StationCodes{}) ==
+          std::vector<std::string>{"BN1", "BNZ", "LK1"});
+    CHECK(channels_in(directory.path() / "absent", StationCodes{}).empty());
+    CHECK_FALSE(newest_day_file(directory.path(), StationCodes{}, "BNZ"));
+}
+
+TEST_CASE("side files and other locations are no day files", "[record][sds]") {
+    const test::TemporaryDirectory directory;
+    const auto channel = directory.path() / "2026/XX/A351/BNZ.D";
+    fs::create_directories(channel);
+    for (const char* name : {"XX.A351.00.BNZ.D.2026.060", "XX.A351.00.BNZ.D.2026.061.512.torn",
+                             "XX.A351.00.BNZ.D.2026.062.tmp", "XX.A351.10.BNZ.D.2026.063",
+                             "XX.A351.00.BNZ.D.2026.06x"}) {
+        test::write_bytes(channel / name, {});
+    }
+    CHECK(day_files(directory.path(), StationCodes{}, "BNZ") ==
+          std::vector<fs::path>{channel / "XX.A351.00.BNZ.D.2026.060"});
+}
+
+TEST_CASE("a tail torn at any byte is cut back to whole records", "[record][sds]") {
+    const test::TemporaryDirectory directory;
+    const auto file = directory.path() / "XX.A351.00.BNZ.D.2026.060";
+    std::vector<std::byte> three;
+    for (int i = 1; i <= 3; ++i) {
+        const auto record = record_at("2026-03-01T12:00:00Z", i);
+        three.insert(three.end(), record.bytes.begin(), record.bytes.end());
+    }
+    for (std::size_t size = 1; size <= three.size();
+         size += (size % 512 < 2 || size % 512 > 509) ? 1u : 51u) {
+        test::write_bytes(file, std::span(three).first(size));
+        const auto tail = repair_tail(posix_files(), file);
+        const std::size_t whole = size / kRecordSize * kRecordSize;
+        REQUIRE(tail.has_value() == (whole != size));
+        REQUIRE(fs::exists(file) == (whole > 0));
+        if (!tail) continue;
+        CHECK(tail->offset == whole);
+        CHECK(tail->byte_count == size - whole);
+        const auto side = file.string() + "." + std::to_string(whole) + ".torn";
+        CHECK(test::read_bytes(side).size() == size - whole);
+        if (whole > 0) {
+            REQUIRE(fs::file_size(file) == whole);
+            CHECK_FALSE(repair_tail(posix_files(), file));
+        }
+    }
+}
+
+TEST_CASE("a tail of whole size that does not decode is cut too", "[record][sds]") {
+    const test::TemporaryDirectory directory;
+    const auto file = directory.path() / "day";
+    const auto record = record_at("2026-03-01T12:00:00Z");
+    std::vector<std::byte> bytes(record.bytes.begin(), record.bytes.end());
+    bytes.resize(4 * kRecordSize);  // Zeros, as a file system may leave after a power cut.
+    test::write_bytes(file, bytes);
+    const auto tail = repair_tail(posix_files(), file);
+    REQUIRE(tail);
+    CHECK(tail->byte_count == 3 * kRecordSize);
+    CHECK(fs::file_size(file) == kRecordSize);
+}
+
+TEST_CASE("an empty day file is removed", "[record][sds]") {
+    const test::TemporaryDirectory directory;
+    const auto file = directory.path() / "day";
+    test::write_bytes(file, {});
+    REQUIRE(repair_tail(posix_files(), file));
+    CHECK(fs::is_empty(directory.path()));
+}
+
+TEST_CASE("whichever file operation fails, readers find whole records only and writing goes on",
+          "[record][sds]") {
+    int operations = 1000;
+    for (int fail_at = 1; fail_at <= operations; ++fail_at) {
+        const test::TemporaryDirectory directory;
+        test::FailingFiles files(fail_at);
+        SdsWriter writer(files, directory.path(), StationCodes{});
+        std::vector<int> written;
+        const char* times[] = {"2026-03-01T23:59:50Z", "2026-03-01T23:59:55Z",
+                               "2026-03-02T00:00:00Z", "2026-03-02T00:00:05Z"};
+        for (int i = 0; i < 4; ++i) {
+            // As recovery does: a record that failed is written again.
+            for (bool is_done = false; !is_done;) {
+                try {
+                    writer.append("BNZ", record_at(times[i], i + 1));
+                    is_done = true;
+                    writer.sync();
+                } catch (const std::system_error&) {
+                }
+            }
+        }
+        operations = files.operations();
+        std::vector<int> found;
+        for (const auto& file : day_files(directory.path(), StationCodes{}, "BNZ")) {
+            CHECK(fs::file_size(file) > 0);
+            for (const int sequence : sequences_in(file)) found.push_back(sequence);
+        }
+        CHECK(found == std::vector{1, 2, 3, 4});
+    }
+    CHECK(operations >= 10);
+    CHECK(operations < 1000);
+}
+
+}  // namespace a351::record

@@ -1,0 +1,157 @@
+// A survey day whose event log has slips, corrected by the program: they are said, the rest is computed.
+#include <array>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
+
+#include "protocol/events/event_log.hpp"
+#include "protocol/text/csv.hpp"
+#include "tests/unit/command/run_command.hpp"
+#include "tests/unit/reading/morning.hpp"
+
+using namespace a351;
+
+namespace {
+
+record::Event start(std::size_t i) {
+    return {"start", Morning::start_of(i), {}, {}, {{"site", Morning::kSites[i]}}};
+}
+
+record::Event stop(std::size_t i) {
+    return {"stop", Morning::start_of(i) + Morning::kStay, {}, {}, {}};
+}
+
+/// Corrects a morning of which these events were logged, in this order.
+Outcome correct(const Morning& morning, const std::vector<record::Event>& events) {
+    for (const record::Event& event : events)
+        record::append_event(record::posix_files(), morning.folder().path() / "data/events", event);
+    morning.folder().write("day.toml", "[survey]\nmodel = 't'\n");
+    return run(morning.folder(), "survey day.toml");
+}
+
+/// "site (occupation) flags" of each row, with a star where it has no value.
+std::vector<std::string> rows_of(const Morning& morning) {
+    const auto table = text::read_csv(morning.folder().path() / "result/occupations.csv");
+    std::vector<std::string> rows;
+    for (std::size_t row = 0; row < table.row_count(); ++row) {
+        rows.push_back(table.cell(row, "site") + " (" + table.cell(row, "occupation") + ") " +
+                       table.cell(row, "flags"));
+        if (table.cell(row, "corrected_mgal").empty()) rows.back() += '*';
+    }
+    return rows;
+}
+
+using Rows = std::vector<std::string>;
+
+std::vector<record::Event> whole_morning() {
+    std::vector<record::Event> events;
+    for (std::size_t i = 0; i < Morning::kSites.size(); ++i) {
+        events.push_back(start(i));
+        events.push_back(stop(i));
+    }
+    return events;
+}
+
+}  // namespace
+
+TEST_CASE("a stop logged before its start costs that occupation, by its number", "[logged]") {
+    const Morning morning;
+    auto late = start(0), early = stop(0);
+    std::swap(late.utc, early.utc);
+    const Outcome outcome =
+        correct(morning, {late, early, start(1), stop(1), start(2), stop(2), start(3), stop(3)});
+    CHECK(outcome.status == 0);
+    CHECK_THAT(
+        outcome.errors,
+        ContainsSubstring("B (1) at 2020-05-01T23:52:50Z is left out: ends before it starts, "
+                          "at 2020-05-01T23:50:20Z"));
+    CHECK(rows_of(morning) == Rows{"B (1) ends-before-it-starts*", "S1 (1) ", "S2 (1) ", "B (2) "});
+}
+
+TEST_CASE("a start before the stop of another is said and flags what it ended", "[logged]") {
+    const Morning morning;
+    const Outcome outcome =
+        correct(morning, {start(0), stop(0), start(1), start(2), stop(2), start(3), stop(3)});
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.errors,
+               ContainsSubstring("S1 (1) at 2020-05-01T23:54:20Z has no stop: it "
+                                 "lasts to the next start, at 2020-05-01T23:58:20Z"));
+    CHECK_THAT(rows_of(morning)[1], StartsWith("S1 (1) no-stop"));
+    CHECK_THAT(text::read_text_file(morning.folder().path() / "result/report.html"),
+               ContainsSubstring("the way there included"));
+}
+
+TEST_CASE("events logged in another order than they happened are the same survey", "[logged]") {
+    const Morning morning;
+    const Outcome outcome = correct(
+        morning, {start(3), stop(3), start(1), stop(1), start(0), stop(0), start(2), stop(2)});
+    CHECK(outcome.status == 0);
+    CHECK(outcome.errors.empty());
+    CHECK(rows_of(morning) == Rows{"B (1) ", "S1 (1) ", "S2 (1) ", "B (2) "});
+}
+
+TEST_CASE("of a recorder's log the last day is corrected, or the time that is asked for",
+          "[logged]") {
+    const Morning morning;
+    std::vector<record::Event> events = whole_morning();
+    for (std::size_t i = 0; i < 2; ++i) events[i].utc -= std::chrono::hours(24);
+    const Outcome last = correct(morning, events);
+    CHECK(last.status == 0);
+    CHECK_THAT(last.errors,
+               ContainsSubstring("from 2020-05-01T23:54:20Z on; occupations of earlier days: 1; "));
+    CHECK(rows_of(morning) == Rows{"S1 (1) ", "S2 (1) ", "B (2) "});
+
+    const Outcome timed = run(
+        morning.folder(), "survey day.toml --from 2020-05-01T23:58:20Z --to 2020-05-02T00:02:21Z");
+    CAPTURE(timed.errors);
+    CHECK(timed.status == 0);
+    CHECK(rows_of(morning) == Rows{"S2 (1) ", "B (2) "});
+    morning.folder().write("day.toml",
+                           "[survey]\nmodel = 't'\nfrom_utc = '2020-05-02T00:00:00Z'\n");
+    const Outcome swapped = run(morning.folder(), "survey day.toml --to 2020-05-01T00:00:00Z");
+    CHECK(swapped.status == 2);
+    CHECK_THAT(
+        swapped.errors,
+        ContainsSubstring("day.toml: to_utc = 2020-05-01T00:00:00Z; allowed: an instant after "
+                          "from_utc = 2020-05-02T00:00:00Z"));
+}
+
+TEST_CASE("an option stands above the survey file, and the result says which held", "[logged]") {
+    const Morning morning;
+    morning.folder().write(
+        "day.toml", "[survey]\noccupations = 'occupations.csv'\nmodel = 't'\ntrend = 'smoother'\n");
+    for (const auto& [options, trend, curve] :
+         std::vector<std::array<std::string, 3>>{{"", "smoother", "slow"},
+                                                 {" --trend eemd --curve paper", "eemd", "paper"},
+                                                 {" --trend eemd --curve slow", "eemd", "slow"}}) {
+        CAPTURE(options);
+        const Outcome outcome = run(morning.folder(), "survey day.toml" + options);
+        CAPTURE(outcome.errors);
+        REQUIRE(outcome.status == 0);
+        const auto settings = nlohmann::json::parse(
+            text::read_text_file(morning.folder().path() / "result/result.json"))["settings"];
+        CHECK(settings["trend"] == trend);
+        CHECK(settings["curve"] == curve);
+        const auto table = text::read_csv(morning.folder().path() / "result/occupations.csv");
+        CHECK(table.cell(0, "acceleration_mgal") == table.cell(0, trend + "_mgal"));
+        CHECK(table.cell(0, "eemd_mgal") != table.cell(0, "smoother_mgal"));
+    }
+}
+
+TEST_CASE("a damaged record of the archive is told by file and offset, and the day is corrected",
+          "[logged]") {
+    const Morning morning;
+    const auto file =
+        morning.folder().path() / "data/archive/2020/XX/A351/BNZ.D/XX.A351.00.BNZ.D.2020.122";
+    std::fstream(file, std::ios::in | std::ios::out | std::ios::binary).seekp(512 * 4)
+        << std::string(512, '\0');
+    const Outcome outcome = correct(morning, whole_morning());
+    CAPTURE(outcome.errors);
+    CHECK(outcome.status == 0);
+    CHECK_THAT(
+        outcome.errors,
+        ContainsSubstring("XX.A351.00.BNZ.D.2020.122: offset 2048: 512 bytes are no record"));
+    const Rows rows = rows_of(morning);
+    REQUIRE(rows.size() == 4);
+    CHECK(Rows(rows.begin() + 1, rows.end()) == Rows{"S1 (1) ", "S2 (1) ", "B (2) "});
+}

@@ -1,0 +1,171 @@
+// Networks by the program: what the readings determine comes back, what they leave open is said.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
+
+#include "protocol/core/utc_time.hpp"
+#include "protocol/text/csv.hpp"
+#include "protocol/text/text_file.hpp"
+#include "tests/unit/command/run_command.hpp"
+
+using namespace a351;
+
+namespace {
+
+using Loop = std::vector<std::string>;
+
+const std::vector<std::string> kStations{"B", "S1", "S2", "S3", "S4"};
+const Loop kDay{"B", "S1", "S2", "S3", "B", "S4", "S2", "S1", "B", "S4", "S3", "B"};
+constexpr double kQuadratic_mgal_per_h2 = 0.08;
+constexpr double kDrift_mgal_per_h = 0.4;
+constexpr double kSlope_mgal_per_degc = -29.0;
+
+double gravity_mgal(const std::string& site) {
+    return 979800.0 + 7.0 * (site == "B" ? 0.0 : site.back() - '0');
+}
+
+/// Only B is known, unless there is no datum.
+void write_sites(const test::TemporaryDirectory& folder, bool has_datum = true) {
+    std::string csv = "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\n";
+    for (const std::string& site : kStations)
+        csv += site + ",140,36,100," +
+               (site == "B" && has_datum ? text::shortest(gravity_mgal(site)) : "") + "\n";
+    folder.write("sites.csv", csv);
+}
+
+/// A stay every 45 min; one loop per day, temperature and drift of the instrument going on.
+void write_readings(const test::TemporaryDirectory& folder, const std::vector<Loop>& loops,
+                    bool is_steady = false) {
+    std::string csv =
+        "site,occupation,time_utc,earth_tide_mgal,acceleration_mgal,temperature_degc\n";
+    std::map<std::string, int> stays;
+    for (std::size_t day = 0; day < loops.size(); ++day) {
+        for (std::size_t i = 0; i < loops[day].size(); ++i) {
+            const std::string& site = loops[day][i];
+            const UtcTime time = parse_rfc3339("2020-05-01T00:00:00Z").value() +
+                                 std::chrono::minutes(45 * i) + std::chrono::days(day);
+            const double h = 24.0 * static_cast<double>(day) + 0.75 * static_cast<double>(i);
+            const double degc = is_steady ? 42.5 : 42.5 + 0.3 * std::sin(1.7 * h);
+            const double reading =
+                gravity_mgal(site) + 1850.0 + kSlope_mgal_per_degc * (degc - 42.6) +
+                kDrift_mgal_per_h * (h - 5.0) + kQuadratic_mgal_per_h2 * (h - 5.0) * (h - 5.0);
+            csv += site + ',' + std::to_string(++stays[site]) + ',' + to_rfc3339(time) + ",0," +
+                   text::shortest(reading) + ',' + text::shortest(degc) + '\n';
+        }
+    }
+    folder.write("readings.csv", csv);
+}
+
+Outcome adjust(const test::TemporaryDirectory& folder, const std::string& options = "") {
+    return run(folder,
+               "table --sites sites.csv --observations readings.csv --model network " + options);
+}
+
+}  // namespace
+
+TEST_CASE("a known quadratic drift and the unknown stations come back from the command line",
+          "[network_command]") {
+    const test::TemporaryDirectory folder;
+    write_sites(folder);
+    write_readings(folder, {kDay});
+    const Outcome outcome = adjust(folder, "--drift-degree 2");
+    CHECK(outcome.status == 0);
+    CHECK(outcome.errors.empty());
+    const auto json =
+        nlohmann::json::parse(text::read_text_file(folder.path() / "result/result.json"));
+    std::map<std::string, double> found;
+    for (const auto& one : json["coefficients"]) found[one["name"]] = one["value"];
+    // Readings of 1e6 mGal are rounded to 1.2e-10, over eight hours.
+    CHECK(found["time2_mgal_per_h2"] == Approx(kQuadratic_mgal_per_h2).epsilon(0).margin(1e-8));
+    CHECK(found["time_mgal_per_h"] == Approx(kDrift_mgal_per_h).epsilon(0).margin(1e-8));
+    CHECK(found["temperature_mgal_per_degc"] ==
+          Approx(kSlope_mgal_per_degc).epsilon(0).margin(1e-8));
+    const auto stations = text::read_csv(folder.path() / "result/stations.csv");
+    REQUIRE(stations.row_count() == kStations.size());
+    for (std::size_t row = 0; row < stations.row_count(); ++row)
+        CHECK(stations.number(row, "gravity_mgal") ==
+              Approx(gravity_mgal(stations.cell(row, "site"))).epsilon(0).margin(1e-6));
+
+    // A line through the same drift leaves its bend in the stations.
+    CHECK(adjust(folder, "--out line").status == 0);
+    const auto bent = text::read_csv(folder.path() / "line/stations.csv");
+    CHECK(std::abs(bent.number(1, "gravity_mgal") - gravity_mgal("S1")) > 0.1);
+}
+
+TEST_CASE("a network with something open is refused in one line that says what",
+          "[network_command]") {
+    const test::TemporaryDirectory folder;
+    bool has_datum = true;
+    std::vector<Loop> loops;
+    std::vector<std::string> parts;
+    SECTION("no datum") {
+        has_datum = false;
+        loops = {kDay};
+        parts = {"no datum", "allowed: gravity_mgal of at least one station occupied"};
+    }
+    SECTION("two groups") {
+        loops = {{"B", "S1", "B", "S1"}, {"S2", "S3", "S2", "S3"}};
+        parts = {"unconnected", "joins a datum to S2, S3", "a datum in every group"};
+    }
+    SECTION("every station once, with drift") {
+        loops = {{"B", "S1", "S2", "S3", "S4"}};
+        parts = {"every station is occupied only once", "time_mgal_per_h", "smaller drift_degree"};
+    }
+    write_sites(folder, has_datum);
+    write_readings(folder, loops);
+    const Outcome outcome = adjust(folder);
+    CHECK(outcome.status == 2);
+    CHECK_THAT(outcome.errors, StartsWith("a351-correct: model = network: "));
+    for (const std::string& part : parts) CHECK_THAT(outcome.errors, ContainsSubstring(part));
+    CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
+    CHECK(outcome.output.empty());
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "result"));
+}
+
+TEST_CASE("a network with something weak is adjusted and says what, in text and report",
+          "[network_command]") {
+    const test::TemporaryDirectory folder;
+    std::string words;
+    SECTION("groups of a day that only the drift joins") {
+        write_readings(folder, {{"B", "S1", "B", "S1", "S2", "S3", "S2", "S3"}});
+        words = "not connected with a datum but by the instrument's constant and drift";
+    }
+    SECTION("one base occupation, with drift") {
+        write_readings(folder, {{"B", "S1", "S2", "S3", "S4", "S1", "S2", "S3", "S4"}});
+        words =
+            "practically uncontrolled (redundancy below 0.1), a blunder there cannot be found: B "
+            "(1)";
+    }
+    SECTION("constant temperature") {
+        write_readings(folder, {kDay}, true);
+        words = "the temperature does not vary between the readings";
+    }
+    write_sites(folder);
+    const Outcome outcome = adjust(folder);
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.output, ContainsSubstring(words));
+    CHECK_THAT(text::read_text_file(folder.path() / "result/report.html"),
+               ContainsSubstring(words.substr(0, 40)));
+}
+
+TEST_CASE(
+    "a constant temperature and a drift of one base occupation are refused by the other models",
+    "[network_command]") {
+    const test::TemporaryDirectory folder;
+    write_sites(folder);
+    write_readings(folder, {{"B", "S1", "S2", "B", "S3", "B"}}, true);
+    const std::string table = "table --sites sites.csv --observations readings.csv --model ";
+    for (const std::string model : {"auto", "t-drift"}) {
+        const Outcome outcome = run(folder, table + model);
+        CAPTURE(model);
+        CHECK(outcome.status == 2);
+        CHECK_THAT(outcome.errors,
+                   ContainsSubstring("temperature, rate and time vary independently"));
+    }
+    write_readings(folder, {{"B", "S1", "S2", "S3", "S1"}});
+    const Outcome outcome = run(folder, table + "t-drift");
+    CHECK(outcome.status == 2);
+    CHECK_THAT(outcome.errors, ContainsSubstring("1 rows with a reference do not determine it"));
+}

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "protocol/files/file_layer.hpp"
+
+namespace a351::test {
+
+/// The real files: what a test makes of them overrides the rest.
+class ForwardingFiles : public record::FileLayer {
+public:
+    std::unique_ptr<record::AppendFile> open_append(const std::filesystem::path& file) override {
+        return files_.open_append(file);
+    }
+    void create_directories(const std::filesystem::path& directory) override {
+        files_.create_directories(directory);
+    }
+    void sync_directory(const std::filesystem::path& directory) override {
+        files_.sync_directory(directory);
+    }
+    void truncate(const std::filesystem::path& file, std::uint64_t size) override {
+        files_.truncate(file, size);
+    }
+    void rename(const std::filesystem::path& from, const std::filesystem::path& to) override {
+        files_.rename(from, to);
+    }
+    void remove(const std::filesystem::path& file) override { files_.remove(file); }
+    void allocate(const std::filesystem::path& file, std::uint64_t size) override {
+        files_.allocate(file, size);
+    }
+    [[nodiscard]] std::optional<std::uint64_t> free_bytes(
+        const std::filesystem::path& directory) const override {
+        return files_.free_bytes(directory);
+    }
+
+protected:
+    record::FileLayer& files_ = record::posix_files();
+};
+
+/// Likewise one of them.
+class ForwardingFile : public record::AppendFile {
+public:
+    explicit ForwardingFile(std::unique_ptr<record::AppendFile> file) : file_(std::move(file)) {}
+    void append(std::span<const std::byte> bytes) override { file_->append(bytes); }
+    void sync() override { file_->sync(); }
+    [[nodiscard]] std::uint64_t size() const override { return file_->size(); }
+
+protected:
+    std::unique_ptr<record::AppendFile> file_;
+};
+
+}  // namespace a351::test

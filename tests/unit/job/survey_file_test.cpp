@@ -1,0 +1,132 @@
+#include "corrector/job/survey_file.hpp"
+
+#include "tests/support/catch.hpp"
+
+#include "corrector/reading/representative_value.hpp"
+#include "protocol/core/input_error.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+/// A folder with a data root and two sites.
+struct Desk {
+    test::TemporaryDirectory folder;
+
+    Desk() {
+        folder.write("data/metadata/station.xml", "");
+        folder.write("sites.csv",
+                     "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\n"
+                     "No.0,140.1,36.2,532,979860.21\nNo.1,140.0,36.1,185,\n");
+    }
+    [[nodiscard]] SurveyFile read(const std::string& toml) const {
+        return read_survey_file(folder.write("day.toml", toml));
+    }
+};
+
+}  // namespace
+
+TEST_CASE("an empty survey file has the documented defaults", "[survey][survey_file]") {
+    const Desk desk;
+    const SurveyFile survey = desk.read("[survey]\n");
+    CHECK(survey.name == "day");
+    CHECK(survey.root == desk.folder.path() / "data");
+    CHECK(survey.sites == desk.folder.path() / "sites.csv");
+    CHECK(survey.occupations.empty());
+    CHECK(survey.survey.model == "auto");
+    CHECK(survey.survey.use_flags);
+    CHECK(survey.tide.source == "direct");
+    CHECK(survey.tide.factors.delta2 == 1.16);
+    CHECK(survey.tide.factors.delta3 == 1.07);
+    CHECK(survey.norm == NormOrder::decimate_first);
+    CHECK(survey.seed == 1);
+    CHECK(survey.trend == TrendMethod::eemd);
+    CHECK(survey.cutoff_s == RepresentativeOptions().cutoff_s);
+}
+
+TEST_CASE("every key of a survey file is read", "[survey][survey_file]") {
+    const Desk desk;
+    const SurveyFile survey = desk.read(
+        "[survey]\nname='first'\nroot='data'\nsites='sites.csv'\noccupations='o.csv'\n"
+        "base='No.0'\ndatum=['No.0','No.1']\nmodel='t-rate'\nflags='ignore'\ntide='longman'\n"
+        "delta2=1.2\ndelta3=1.2\ncurve='slow'\ncalibration=''\nseed=9\nnorm='as-published'\n"
+        "trend='smoother'\ncutoff_s=240\n");
+    CHECK(survey.name == "first");
+    CHECK(survey.occupations == desk.folder.path() / "o.csv");
+    CHECK(survey.survey.base == "No.0");
+    CHECK(survey.survey.datum == std::vector<std::string>{"No.0", "No.1"});
+    CHECK(survey.survey.model == "t-rate");
+    CHECK_FALSE(survey.survey.use_flags);
+    CHECK(survey.tide.source == "longman");
+    CHECK(survey.tide.factors.delta2 == 1.2);
+    CHECK(survey.curve == TrendCurve::slow);
+    CHECK(survey.seed == 9);
+    CHECK(survey.trend == TrendMethod::smoother);
+    CHECK(survey.cutoff_s == 240.0);
+    CHECK(survey.norm == NormOrder::as_published);
+}
+
+TEST_CASE("priors are read with mean and standard deviation", "[survey][survey_file]") {
+    const Desk desk;
+    const ModelPriors priors =
+        desk.read("[survey]\nreading_sd_mgal=1.5\n[prior]\nrate_mgal_per_degc_per_h=[10,6]\n")
+            .survey.priors;
+    REQUIRE(priors.find("rate_mgal_per_degc_per_h") != nullptr);
+    CHECK(priors.find("rate_mgal_per_degc_per_h")->mean == 10.0);
+    CHECK(priors.find("rate_mgal_per_degc_per_h")->sd == 6.0);
+    CHECK(priors.find("time_mgal_per_h") == nullptr);
+    CHECK(priors.reading_sd_mgal == 1.5);
+}
+
+TEST_CASE("the model paper has the publication's trend and curve whatever is asked for",
+          "[survey][survey_file]") {
+    const Desk desk;
+    CHECK(trend_curve_of(desk.read("[survey]\nmodel='paper'\ncurve='slow'\n")) ==
+          TrendCurve::paper);
+    CHECK(trend_curve_of(desk.read("[survey]\nmodel='t'\ncurve='slow'\n")) == TrendCurve::slow);
+    CHECK(trend_method_of(desk.read("[survey]\nmodel='paper'\ntrend='smoother'\n")) ==
+          TrendMethod::eemd);
+    CHECK(trend_method_of(desk.read("[survey]\nmodel='t'\ntrend='smoother'\n")) ==
+          TrendMethod::smoother);
+}
+
+TEST_CASE("the tide may be a file beside the survey file", "[survey][survey_file]") {
+    const Desk desk;
+    desk.folder.write("tide.csv", "");
+    const SurveyFile survey = desk.read("[survey]\ntide='tide.csv'\n");
+    CHECK(survey.tide.source == "tide.csv");
+    CHECK(survey.tide.series == desk.folder.path() / "tide.csv");
+}
+
+TEST_CASE("a bad survey file is refused with line, key and value", "[survey][survey_file]") {
+    const Desk desk;
+    const auto [toml, message] = GENERATE(table<std::string, std::string>({
+        {"[survey]\nbasis='No.0'\n", ":2: survey.basis = 'No.0': unknown key"},
+        {"[surveys]\n", "unknown key"},
+        {"[survey]\nbase='No.9'\n", "no such site; allowed: No.0, No.1"},
+        {"[survey]\ndatum=['No.0','No.9']\n", "survey.datum"},
+        {"[survey]\nmodel='kriging'\n",
+         "allowed: auto, paper, day, t, t-rate, t-drift, t-rate-drift, "
+         "t-rate-drift-axes, network, robust"},
+        {"[survey]\ntide='moon'\n", ":2: survey.tide = 'moon': neither a source nor a file"},
+        {"[survey]\nroot='nowhere'\n", "no such directory"},
+        {"[survey]\ncalibration='unit.toml'\n", "survey.calibration"},
+        {"[survey]\ndelta2=116\n", "survey.delta2 = 116"},
+        {"[survey]\ncutoff_s=10\n", "survey.cutoff_s = 10"},
+        {"[survey]\ntrend='spline'\n", "allowed: eemd, smoother"},
+        {"[survey]\nseed=-1\n", "survey.seed = -1"},
+        {"[survey]\nname=''\n", "survey.name"},
+        {"[survey]\nreading_sd_mgal=0\n", "survey.reading_sd_mgal = 0"},
+        {"[survey]\n[prior]\nbeta=[1,2]\n",
+         ":3: prior.beta = [ 1, 2 ]: unknown key; allowed: rate_mgal_per_degc_per_h, temperature_"},
+        {"[survey]\n[prior]\ntime_mgal_per_h=[0]\n", "1 numbers; allowed: [mean, sd]"},
+        {"[survey]\n[prior]\ntime_mgal_per_h=[0,0]\n", "out of range; allowed: mean from -"},
+        {"[survey]\n[prior]\ntime_mgal_per_h=1\n", "prior.time_mgal_per_h = 1: wrong type"},
+        {"[survey]\nsites='none.csv'\n", "none.csv: cannot be read"},
+    }));
+    CAPTURE(toml);
+    CHECK_THROWS_WITH(desk.read(toml), ContainsSubstring(message));
+    CHECK_THROWS_AS(desk.read(toml), InputError);
+}

@@ -1,0 +1,246 @@
+#include "protocol/journal/journal_codec.hpp"
+
+#include <functional>
+#include <vector>
+#include "tests/support/catch.hpp"
+
+#include "protocol/journal/journal_header_json.hpp"
+#include "tests/unit/journal/journal_samples.hpp"
+
+namespace a351::record {
+namespace {
+
+std::span<const std::byte> payload_of(const std::vector<std::byte>& chunk) {
+    return std::span(chunk).subspan(kChunkHeaderSize);
+}
+
+std::uint32_t crc32c_of(std::span<const std::byte> nine_or_more) {
+    // chunk_crc() covers length, type and sequence, little-endian, then the payload.
+    const auto header = decode_chunk_header(nine_or_more.first(9));
+    return chunk_crc(header, nine_or_more.subspan(9));
+}
+
+}  // namespace
+
+TEST_CASE("a session identifier survives as 32 hexadecimal digits", "[record][journal]") {
+    const std::string hex = "00112233445566778899aabbccddeeff";
+    const auto id = SessionId::from_hex(hex);
+    REQUIRE(id);
+    CHECK(id->bytes[0] == 0x00);
+    CHECK(id->bytes[15] == 0xFF);
+    CHECK(id->to_hex() == hex);
+    CHECK_FALSE(SessionId::from_hex(hex.substr(1)));
+    CHECK_FALSE(SessionId::from_hex(hex + "0"));
+    CHECK_FALSE(SessionId::from_hex("00112233445566778899AABBCCDDEEFF"));
+    CHECK_FALSE(SessionId::from_hex("00112233445566778899aabbccddeefg"));
+}
+
+TEST_CASE("the checksum is CRC-32C with the check values of RFC 3720, B.4", "[record][journal]") {
+    std::vector<std::byte> bytes(32, std::byte{0});
+    CHECK(crc32c_of(bytes) == 0x8A9136AA);
+    bytes.assign(32, std::byte{0xFF});
+    CHECK(crc32c_of(bytes) == 0x62A8AB43);
+    for (std::size_t i = 0; i < 32; ++i) bytes[i] = static_cast<std::byte>(i);
+    CHECK(crc32c_of(bytes) == 0x46DD794E);
+}
+
+TEST_CASE("each kind of chunk comes back as the same bytes", "[record][journal]") {
+    std::uint32_t sequence = 0;
+    for (const auto& chunk : test::one_of_each()) {
+        const auto bytes = encode_chunk(chunk, sequence++);
+        const auto header = decode_chunk_header(std::span(bytes).first(kChunkHeaderSize));
+        CHECK(header.length + kChunkHeaderSize == bytes.size());
+        const auto decoded = decode_payload(static_cast<ChunkType>(header.type), payload_of(bytes));
+        REQUIRE(decoded);
+        CHECK(decoded->index() == chunk.index());
+        CHECK(encode_chunk(*decoded, header.sequence) == bytes);
+    }
+}
+
+TEST_CASE("a header comes back field by field", "[record][journal]") {
+    auto header = test::journal_header();
+    header.is_device_assumed = true;
+    header.port = "/dev/serial/by-id/adapter";
+    const auto read = parse_header(header_to_json(header));
+    REQUIRE(read);
+    CHECK(read->session == header.session);
+    CHECK(read->boot_id == header.boot_id);
+    CHECK(read->codes == header.codes);
+    CHECK(read->profile == header.profile);
+    CHECK(read->product_id == header.product_id);
+    CHECK(read->serial_number == header.serial_number);
+    CHECK(read->firmware == header.firmware);
+    CHECK(read->output_rate_hz == header.output_rate_hz);
+    CHECK(read->filter == header.filter);
+    CHECK(read->burst_ctrl == header.burst_ctrl);
+    CHECK(read->baud == header.baud);
+    CHECK(read->declared_rate_hz == header.declared_rate_hz);
+    CHECK(read->is_device_assumed);
+    CHECK(read->port == header.port);
+    CHECK(read->clock == header.clock);
+    auto uncommissioned = header;
+    uncommissioned.declared_rate_hz.reset();
+    uncommissioned.oven_interval = std::chrono::seconds(10);
+    CHECK(parse_header(header_to_json(uncommissioned))->oven_interval == std::chrono::seconds(10));
+    uncommissioned.oven_interval = std::chrono::seconds(0);  // No archive can be made of it.
+    CHECK_FALSE(parse_header(header_to_json(uncommissioned)));
+    uncommissioned.oven_interval = std::chrono::seconds(1);
+    CHECK_FALSE(parse_header(header_to_json(uncommissioned))->declared_rate_hz);
+    const auto as_asked = parse_header(header_to_json(test::journal_header()));
+    CHECK_FALSE(as_asked->is_device_assumed);
+    CHECK(as_asked->port.empty());
+}
+
+TEST_CASE("a serial number that is no text does not stop the header", "[record][journal]") {
+    auto header = test::journal_header();
+    header.serial_number = "\xFF\x01\"\\";
+    const auto read = parse_header(header_to_json(header));
+    REQUIRE(read);
+    CHECK(read->serial_number == "\xEF\xBF\xBD\x01\"\\");
+}
+
+TEST_CASE("a header that lacks a field or holds another type is none", "[record][journal]") {
+    CHECK_FALSE(parse_header(""));
+    CHECK_FALSE(parse_header("[]"));
+    CHECK_FALSE(parse_header("{"));
+    const auto json = header_to_json(test::journal_header());
+    for (const std::string key : {"session", "boot_id", "axes", "clock", "baud", "raw_ns"}) {
+        auto without = json;
+        without.replace(without.find("\"" + key), key.size() + 1, "\"no_" + key);
+        CHECK_FALSE(parse_header(without));
+    }
+    auto of_other_type = json;
+    of_other_type.replace(of_other_type.find("460800"), 6, "\"fast\"");
+    CHECK_FALSE(parse_header(of_other_type));
+}
+
+TEST_CASE("codes that would name another directory than the archive's make no header",
+          "[record][journal]") {
+    CHECK(parse_header(header_to_json(JournalHeader())));
+    for (const auto& spoil : std::vector<std::function<void(StationCodes&)>>{
+             [](auto& codes) { codes.network = "."; }, [](auto& codes) { codes.network = ""; },
+             [](auto& codes) { codes.station = "../.."; },
+             [](auto& codes) { codes.station = "A35-"; }, [](auto& codes) { codes.location = "/"; },
+             [](auto& codes) { codes.axes[1] = "/x"; }}) {
+        JournalHeader header;
+        spoil(header.codes);
+        CHECK_FALSE(parse_header(header_to_json(header)));
+    }
+}
+
+TEST_CASE("instants that nothing can be reckoned with make no chunk", "[record][journal]") {
+    timing::ClockReading clock;
+    const auto comes_back = [&] {
+        return decode_payload(ChunkType::clock, payload_of(encode_chunk(clock, 1))).has_value();
+    };
+    clock.realtime = UtcTime(kLatestInstant);
+    clock.raw = RawTime(kEarliestInstant);
+    CHECK(comes_back());
+    clock.realtime += Nanoseconds(1);
+    CHECK_FALSE(comes_back());
+    clock.realtime = UtcTime();
+    clock.raw -= Nanoseconds(1);
+    CHECK_FALSE(comes_back());
+    JournalHeader header;
+    header.clock = clock;
+    CHECK_FALSE(parse_header(header_to_json(header)));
+    RxChunk rx;
+    rx.bytes.resize(1);
+    rx.reads.push_back({1, RawTime(kLatestInstant + Nanoseconds(1))});
+    CHECK_FALSE(decode_payload(ChunkType::rx, payload_of(encode_chunk(rx, 1))));
+}
+
+TEST_CASE("stamps of reads keep their order and their nanoseconds", "[record][journal]") {
+    RxChunk rx;
+    rx.bytes.resize(300);
+    rx.reads = {{1, RawTime(Nanoseconds(5'000'000'001))},
+                {200, RawTime(Nanoseconds(5'000'000'000))},  // A clock may disagree: kept as it is.
+                {300, RawTime(Nanoseconds(9'999'999'999))}};
+    const auto bytes = encode_chunk(rx, 1);
+    const auto decoded = decode_payload(ChunkType::rx, payload_of(bytes));
+    REQUIRE(decoded);
+    CHECK(std::get<RxChunk>(*decoded).reads == rx.reads);
+}
+
+TEST_CASE("an announced leap second survives in readings and headers", "[record][journal]") {
+    using timing::LeapSecond;
+    for (const LeapSecond leap : {LeapSecond::none, LeapSecond::inserted, LeapSecond::removed}) {
+        auto header = test::journal_header();
+        header.clock.leap = leap;
+        CHECK(parse_header(header_to_json(header))->clock == header.clock);
+        const auto bytes = encode_chunk(header.clock, 1);
+        const auto decoded = decode_payload(ChunkType::clock, payload_of(bytes));
+        REQUIRE(decoded);
+        CHECK(std::get<timing::ClockReading>(*decoded) == header.clock);
+    }
+}
+
+TEST_CASE("a payload cut or lengthened anywhere is refused or has its shape", "[record][journal]") {
+    for (const auto& chunk : test::one_of_each()) {
+        const auto bytes = encode_chunk(chunk, 0);
+        const auto type = static_cast<ChunkType>(bytes[4]);
+        const auto payload = payload_of(bytes);
+        for (std::size_t size = 0; size < payload.size(); ++size) {
+            const auto decoded = decode_payload(type, payload.first(size));
+            // Only these end in a field of free length.
+            const bool may_be_shorter =
+                type == ChunkType::tx || type == ChunkType::event || type == ChunkType::mark;
+            CHECK((!decoded || may_be_shorter));
+        }
+    }
+}
+
+TEST_CASE("a read count larger than the payload is refused before memory is taken",
+          "[record][journal]") {
+    auto bytes = encode_chunk(test::rx_chunk("a", "b"), 1);
+    auto payload = std::vector<std::byte>(bytes.begin() + kChunkHeaderSize, bytes.end());
+    for (std::size_t i = 8; i < 12; ++i) payload[i] = std::byte{0xFF};
+    CHECK_FALSE(decode_payload(ChunkType::rx, payload));
+}
+
+TEST_CASE("a poll of the oven comes back field by field", "[record][journal]") {
+    for (const OvenOutcome outcome :
+         {OvenOutcome::answered, OvenOutcome::timed_out, OvenOutcome::bad_crc,
+          OvenOutcome::exception, OvenOutcome::other_unit, OvenOutcome::malformed,
+          OvenOutcome::no_port}) {
+        OvenChunk poll{RawTime(Nanoseconds(-7)), outcome, 2, {}};
+        if (outcome == OvenOutcome::answered) poll.registers = {0xFF9C, 0x8001, 0x01A9};
+        const auto bytes = encode_chunk(poll, 1);
+        const auto decoded = decode_payload(ChunkType::oven, payload_of(bytes));
+        REQUIRE(decoded);
+        const auto& read = std::get<OvenChunk>(*decoded);
+        CHECK(read.time == poll.time);
+        CHECK(read.outcome == outcome);
+        CHECK(read.decimals == 2);
+        CHECK(read.registers == poll.registers);
+    }
+}
+
+TEST_CASE("a poll of unknown outcome, or with registers nobody answered, is refused",
+          "[record][journal]") {
+    const OvenChunk silent{RawTime(), OvenOutcome::timed_out, 1, {}};
+    const auto bytes = encode_chunk(silent, 1);
+    std::vector<std::byte> payload(bytes.begin() + kChunkHeaderSize, bytes.end());
+    payload[8] = std::byte{7};  // One more than no_port.
+    CHECK_FALSE(decode_payload(ChunkType::oven, payload));
+    payload[8] = std::byte{0};  // Answered, but with nothing.
+    CHECK_FALSE(decode_payload(ChunkType::oven, payload));
+    CHECK_THROWS_AS(encode_chunk(OvenChunk{RawTime(), OvenOutcome::bad_crc, 1, {425}}, 1),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(
+        encode_chunk(
+            OvenChunk{RawTime(), OvenOutcome::answered, 1, std::vector<std::uint16_t>(256)}, 1),
+        std::invalid_argument);
+}
+
+TEST_CASE("a chunk that breaks its promise is not written", "[record][journal]") {
+    RxChunk rx = test::rx_chunk("ab", "c");
+    rx.reads.back().end = 2;
+    CHECK_THROWS_AS(encode_chunk(rx, 1), std::invalid_argument);
+    CHECK_THROWS_AS(encode_chunk(RxChunk{}, 1), std::invalid_argument);
+    CHECK_NOTHROW(encode_chunk(EventChunk{std::string(kMostPayloadBytes, 'x')}, 1));
+    CHECK_THROWS_AS(encode_chunk(EventChunk{std::string(kMostPayloadBytes + 1, 'x')}, 1),
+                    std::invalid_argument);
+}
+
+}  // namespace a351::record

@@ -1,0 +1,153 @@
+#include "corrector/long_record/archive_record.hpp"
+
+#include <cmath>
+#include "tests/support/catch.hpp"
+
+#include "corrector/long_record/record_segments.hpp"
+#include "protocol/archive/miniseed.hpp"
+#include "protocol/archive/sds.hpp"
+#include "protocol/core/input_error.hpp"
+#include "tests/support/temporary_directory.hpp"
+#include "tests/unit/station/station_files.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+const UtcTime kStart = *parse_rfc3339("2026-03-01T12:00:00Z");
+constexpr double kHalf_s = 600.0;
+const std::string kValue = "<Value>1710799.9163832706</Value>";  // of an axis, counts per m/s2
+
+/// A data root with a sensor that lies still at 1 g and 42.476 degC.
+class Root {
+public:
+    Root() { folder_.write("metadata/station.xml", record::to_station_xml(record::description())); }
+
+    /// Samples from a number of seconds on, for ten minutes.
+    void add(double from_s, double rate_hz) {
+        const std::pair<const char*, std::int32_t> channels[] = {
+            {"BN1", 0}, {"BN2", 0}, {"BNZ", 16'777'216}, {"BK1", -1975}};
+        for (const auto& [channel, count] : channels) {
+            record::RecordHeader header;
+            header.network = "XX";
+            header.station = "A351";
+            header.location = "00";
+            header.channel = channel;
+            header.nominal_rate = Hertz(rate_hz);
+            const std::vector<std::int32_t> samples(
+                static_cast<std::size_t>(std::lround(kHalf_s * rate_hz)), count);
+            for (std::size_t done = 0; done < samples.size();) {
+                header.start = kStart + from_seconds(from_s + static_cast<double>(done) / rate_hz);
+                const auto packed = record::pack_record(header, std::span(samples).subspan(done));
+                writer_.append(channel, packed);
+                done += static_cast<std::size_t>(packed.sample_count);
+            }
+        }
+        writer_.sync();
+    }
+
+    /// Another epoch after ten minutes.
+    void change(const std::string& serial_number, std::uint16_t firmware) {
+        auto station = record::description();
+        station.start = kStart + from_seconds(kHalf_s);
+        station.serial_number = serial_number;
+        station.firmware = firmware;
+        text_ = record::extend_station_xml(metadata(), station).value();
+        folder_.write("metadata/station.xml", text_);
+    }
+
+    /// The last epoch's vertical axis has twice the counts per m/s2.
+    void halve_scale() {
+        for (int once = 0; once < 2; ++once)  // the sensitivity, and its one stage's
+            text_.replace(text_.rfind(kValue), kValue.size(), "<Value>3421599.8327665412</Value>");
+        folder_.write("metadata/station.xml", text_);
+    }
+
+    [[nodiscard]] LongRecord read() const {
+        return read_archive_record(folder_.path(), {}, [](std::size_t, std::size_t) {});
+    }
+
+private:
+    [[nodiscard]] std::filesystem::path metadata() const {
+        return folder_.path() / "metadata" / "station.xml";
+    }
+
+    test::TemporaryDirectory folder_;
+    std::string text_;
+    record::SdsWriter writer_{record::posix_files(), folder_.path() / "archive",
+                              record::StationCodes{}};
+};
+
+/// In the middle of ten minutes, where the filters are filled.
+double middle_mgal(const RecordStretch& stretch) { return stretch.acceleration_mgal.at(15); }
+
+}  // namespace
+
+TEST_CASE("a new epoch of the same sensor and scales divides nothing", "[long_record][archive]") {
+    Root root;
+    root.add(0.0, 50.0);
+    root.add(kHalf_s, 50.0);
+    root.change("X0000001", 259);
+    const LongRecord record = root.read();
+    REQUIRE(record.stretches.size() == 1);
+    CHECK(record.stretches[0].size() == 60);
+    CHECK(record.stretches[0].serial_number == "X0000001");
+    CHECK(record.warnings.empty());
+    CHECK(middle_mgal(record.stretches[0]) ==
+          Approx(980665.0).epsilon(0.0).margin(0.2));  // the tide
+}
+
+TEST_CASE("another sensor begins a new stretch, with a warning", "[long_record][archive]") {
+    Root root;
+    root.add(0.0, 50.0);
+    root.add(kHalf_s, 50.0);
+    root.change("X0000002", 258);
+    const LongRecord record = root.read();
+    REQUIRE(record.stretches.size() == 2);
+    CHECK(record.stretches[0].size() == 30);
+    CHECK(record.stretches[0].serial_number == "X0000001");
+    CHECK(record.stretches[0].begins_with.empty());
+    CHECK(record.stretches[1].serial_number == "X0000002");
+    CHECK(record.stretches[1].begins_with == "another sensor: X0000002 after X0000001");
+    CHECK(record.stretches[1].times.front() == kStart + from_seconds(kHalf_s));
+    REQUIRE(record.warnings.size() == 1);
+    CHECK_THAT(record.warnings[0],
+               StartsWith("from 2026-03-01T12:10:00") && ContainsSubstring("another sensor"));
+    SegmentOptions options;
+    options.shortest = 10;
+    options.stuck = 1000;
+    const RecordSegments parts = divide_record(record, options);
+    REQUIRE(parts.segments.size() == 2);
+    CHECK(parts.segments[1].serial_number == "X0000002");
+    CHECK(parts.segments[1].begins_with == record.stretches[1].begins_with);
+}
+
+TEST_CASE("each epoch's samples have its own scale", "[long_record][archive]") {
+    Root root;
+    root.add(0.0, 50.0);
+    root.add(kHalf_s, 50.0);
+    root.change("X0000001", 259);
+    root.halve_scale();
+    const LongRecord record = root.read();
+    REQUIRE(record.stretches.size() == 2);
+    CHECK(record.stretches[1].begins_with == "another scale of BNZ");
+    CHECK(middle_mgal(record.stretches[0]) == Approx(980665.0).epsilon(0.0).margin(0.2));
+    CHECK(middle_mgal(record.stretches[1]) == Approx(490332.5).epsilon(0.0).margin(0.2));
+}
+
+TEST_CASE("another rate begins a new stretch with its own times", "[long_record][archive]") {
+    Root root;
+    root.add(0.0, 50.0);
+    root.add(kHalf_s, 5.0);
+    const LongRecord record = root.read();
+    REQUIRE(record.stretches.size() == 2);
+    CHECK(record.raw_rate_hz == 50.0);
+    CHECK(record.stretches[1].size() == 30);
+    CHECK(record.stretches[1].begins_with == "another rate: 5 Hz after 50 Hz");
+    CHECK(record.stretches[1].times.back() == kStart + from_seconds(2.0 * kHalf_s - 20.0));
+    CHECK(record.stretches[1].temperature_degc.at(15) == Approx(42.476).margin(0.001));
+    CHECK(record.warnings.size() == 1);
+    root.add(2.0 * kHalf_s, 52.0);
+    CHECK_THROWS_AS(root.read(), InputError);
+}

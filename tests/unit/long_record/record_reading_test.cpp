@@ -1,0 +1,134 @@
+#include <sys/stat.h>
+
+#include <cmath>
+#include <string>
+#include "tests/support/catch.hpp"
+
+#include "corrector/long_record/csv_record.hpp"
+#include "corrector/long_record/stretch_builder.hpp"
+#include "protocol/core/input_error.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+const UtcTime kStart = *parse_rfc3339("2026-03-01T00:00:00Z");
+const Progress kSilent = [](std::size_t, std::size_t) {};
+
+std::string rows(double step_s, int first, int behind) {
+    std::string text;
+    for (int i = first; i < behind; ++i)
+        text += to_rfc3339(kStart + from_seconds(step_s * i), 3) + "," +
+                std::to_string(979763.0 + i % 7) + ",42.5\n";
+    return text;
+}
+
+/// `time_s` without a header.
+std::string seconds(double step_s, double first_s, int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) text += std::to_string(first_s + step_s * i) + ",979763,42.5\n";
+    return text;
+}
+
+const std::string kHeader = "time_utc,acceleration_mgal,temperature_degc\n";
+
+}  // namespace
+
+TEST_CASE("blocks of any size make the same stretch", "[long_record][reading]") {
+    const auto build = [](std::size_t block) {
+        StretchBuilder builder(2, 3);
+        builder.set_time(0, kStart);
+        for (std::size_t at = 0; at < 5000; at += block) {
+            std::vector<std::vector<double>> channels(4);
+            for (std::size_t i = at; i < std::min<std::size_t>(5000, at + block); ++i) {
+                const auto x = static_cast<double>(i);
+                channels[0].push_back(std::sin(x));
+                channels[1].push_back(std::cos(x));
+                channels[2].push_back(979763.0);
+                channels[3].push_back(42.5 + 0.01 * std::sin(0.001 * x));
+            }
+            builder.push(channels);
+        }
+        return builder.finish(2.0);
+    };
+    const RecordStretch whole = build(5000), cut = build(77);
+    REQUIRE(whole.size() == 50);
+    REQUIRE(cut.size() == 50);
+    REQUIRE(whole.axes_mgal.size() == 3);
+    CHECK(whole.axes_mgal[2][25] == Approx(979763.0).epsilon(0.0).margin(1e-6));
+    CHECK(whole.times[3] == kStart + from_seconds(6.0));
+    for (std::size_t k = 0; k < 50; ++k) {
+        CHECK(std::isnan(whole.acceleration_mgal[k]) == (k < 5 || k > 45));
+        if (k < 5 || k > 45) continue;
+        CHECK(whole.acceleration_mgal[k] == cut.acceleration_mgal[k]);
+        CHECK(whole.temperature_degc[k] == cut.temperature_degc[k]);
+        // Axes first: vibration of 1 mGal across does not show.
+        CHECK(whole.acceleration_mgal[k] == Approx(979763.0).epsilon(0.0).margin(1e-6));
+        CHECK(whole.raw[k].acceleration_high_mgal == cut.raw[k].acceleration_high_mgal);
+        CHECK(whole.raw[k].temperature_low_degc <= whole.temperature_degc[k]);
+    }
+}
+
+TEST_CASE("a CSV at 2 s is decimated once, missing rows are a gap", "[long_record][reading]") {
+    const test::TemporaryDirectory folder;
+    const auto file = folder.write("r.csv", kHeader + rows(2.0, 0, 1000) + rows(2.0, 1030, 3000));
+    const LongRecord record = read_csv_record(file, {}, kSilent);
+    REQUIRE(record.stretches.size() == 1);
+    const RecordStretch& stretch = record.stretches[0];
+    REQUIRE(stretch.size() == 300);
+    CHECK(stretch.times[200] == kStart + from_seconds(4000.0));
+    CHECK(std::isnan(stretch.acceleration_mgal[100]));
+    CHECK(std::isfinite(stretch.acceleration_mgal[95]));
+    CHECK(std::isfinite(stretch.acceleration_mgal[108]));
+    CHECK(stretch.acceleration_mgal[50] == Approx(979766.0).epsilon(0.0).margin(0.1));
+}
+
+TEST_CASE("a CSV at 20 s is taken as it is, and a long gap begins a new stretch",
+          "[long_record][reading]") {
+    const test::TemporaryDirectory folder;
+    const auto file = folder.write("r.csv", kHeader + rows(20.0, 0, 50) + rows(20.0, 300, 350));
+    const LongRecord record = read_csv_record(file, {}, kSilent);
+    REQUIRE(record.stretches.size() == 2);
+    CHECK(record.stretches[0].acceleration_mgal[13] == 979769.0);
+    CHECK(record.stretches[0].raw.empty());
+    RecordWindow window;
+    window.from = kStart + from_seconds(200.0);
+    window.to = kStart + from_seconds(400.0);
+    CHECK(read_csv_record(file, window, kSilent).stretches[0].size() == 10);
+}
+
+TEST_CASE("rows missing here and there are no other step", "[long_record][reading]") {
+    const test::TemporaryDirectory folder;
+    std::string text = kHeader;
+    for (int i = 0; i < 500; ++i)
+        if (i < 300 || i % 3 == 0) text += rows(20.0, i, i + 1);
+    const LongRecord record = read_csv_record(folder.write("r.csv", text), {}, kSilent);
+    REQUIRE(record.stretches.size() == 1);
+    CHECK(record.stretches[0].size() == 499);
+}
+
+TEST_CASE("what no record can be is named with its line", "[long_record][reading]") {
+    const test::TemporaryDirectory folder;
+    const auto refused = [&](const std::string& text, const std::string& message) {
+        const auto file = folder.write("r.csv", text);
+        CHECK_THROWS_WITH(read_csv_record(file, {}, kSilent), ContainsSubstring(message));
+    };
+    refused(kHeader + rows(3.0, 0, 50), "a row every 3 s; allowed: every 0.02, 0.2, 2 or 20 s");
+    refused(kHeader + rows(20.0, 0, 5) + rows(20.0, 2, 9), "r.csv:7: time_utc");
+    refused(kHeader + rows(20.0, 0, 5) + "2026-03-01T01:00:00Z,abc,42\n",
+            "r.csv:7: acceleration_mgal");
+    refused("time_utc,temperature_degc\n2026-03-01T01:00:00Z,42\n", "acceleration_mgal");
+    refused(kHeader + rows(20.0, 0, 1), "fewer than two rows");
+    refused(
+        "time_s,acceleration_mgal,temperature_degc\n" + seconds(20.0, 0.0, 2160) +
+            seconds(10.0, 43200.0, 2160),
+        "r.csv:2203: a row every 10 s from about here on, every 20 s elsewhere; allowed: one step");
+    refused("time_s,acceleration_mgal,temperature_degc\n" + seconds(20.0, 0.0, 300) +
+                seconds(10.0, 6000.0, 30),
+            "a row every 10 s");
+    const auto fifo = folder.path() / "fifo";
+    REQUIRE(::mkfifo(fifo.c_str(), S_IRUSR | S_IWUSR) == 0);
+    CHECK_THROWS_WITH(read_csv_record(fifo, {}, kSilent), ContainsSubstring("is no regular file"));
+}

@@ -1,0 +1,121 @@
+#include <cmath>
+#include <limits>
+#include "tests/support/catch.hpp"
+
+#include "tests/unit/long_record/simulated_record.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+const UtcTime kStart = *parse_rfc3339("2026-03-01T00:00:00Z");
+
+/// A simulated night as one stretch.
+LongRecord night() {
+    const RecordSegment segment = simulated_segment("indoor", 1);
+    RecordStretch stretch;
+    for (std::size_t i = 0; i < segment.size(); ++i)
+        stretch.times.push_back(kStart + from_seconds(kRecordStep_s * static_cast<double>(i)));
+    stretch.acceleration_mgal = segment.acceleration_mgal;
+    stretch.temperature_degc = segment.temperature_degc;
+    LongRecord record;
+    record.stretches.push_back(std::move(stretch));
+    return record;
+}
+
+void erase(LongRecord& record, std::size_t first, std::size_t behind) {
+    for (std::size_t i = first; i < behind; ++i)
+        record.stretches[0].acceleration_mgal[i] = std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+TEST_CASE("a quiet night is one segment", "[long_record][segments]") {
+    const RecordSegments parts = divide_record(night());
+    REQUIRE(parts.segments.size() == 1);
+    CHECK(parts.segments[0].size() == 2160);
+    CHECK(parts.segments[0].bridged == 0);
+    CHECK(parts.refused.empty());
+}
+
+TEST_CASE("short gaps and knocks are bridged, long gaps divide", "[long_record][segments]") {
+    LongRecord record = night();
+    erase(record, 200, 215);
+    erase(record, 1000, 1016);
+    record.stretches[0].acceleration_mgal[500] += 1000.0;
+    const RecordSegments parts = divide_record(record);
+    REQUIRE(parts.segments.size() == 2);
+    CHECK(parts.segments[0].size() == 1000);
+    CHECK(parts.segments[0].bridged == 16);
+    CHECK(parts.segments[0].disturbed == 1);
+    CHECK(std::abs(parts.segments[0].acceleration_mgal[500] -
+                   parts.segments[0].acceleration_mgal[499]) < 5.0);
+    CHECK(parts.segments[1].begins_with == "gap of 340 s");
+    CHECK_FALSE(parts.segments[1].is_restart);
+}
+
+TEST_CASE("a step of the acceleration divides where it is", "[long_record][segments]") {
+    LongRecord record = night();
+    for (std::size_t i = 900; i < 2160; ++i) record.stretches[0].acceleration_mgal[i] += 60.0;
+    const RecordSegments parts = divide_record(record);
+    REQUIRE(parts.segments.size() == 2);
+    CHECK(parts.segments[0].size() == 900);
+    CHECK_THAT(parts.segments[1].begins_with, StartsWith("step of ") && EndsWith(" mGal"));
+}
+
+TEST_CASE("a power cycle is a restart, told by the temperature across the gap",
+          "[long_record][segments]") {
+    LongRecord record = night();
+    erase(record, 1000, 1090);
+    for (std::size_t i = 1000; i < 2160; ++i)
+        record.stretches[0].temperature_degc[i] -=
+            0.6 * std::exp(-(static_cast<double>(i) - 1000.0) / 200.0);
+    const RecordSegments parts = divide_record(record);
+    REQUIRE(parts.segments.size() == 2);
+    CHECK(parts.segments[1].is_restart);
+    CHECK_THAT(parts.segments[1].begins_with, EndsWith("a restart"));
+}
+
+TEST_CASE("a stuck temperature is refused with its value, and a rest too short too",
+          "[long_record][segments]") {
+    LongRecord record = night();
+    for (std::size_t i = 1000; i < 2000; ++i) record.stretches[0].temperature_degc[i] = 42.5;
+    const RecordSegments parts = divide_record(record);
+    REQUIRE(parts.segments.size() == 1);
+    CHECK(parts.segments[0].size() == 1000);
+    REQUIRE(parts.refused.size() == 2);
+    CHECK(parts.refused[0].reason == "the temperature is stuck at 42.5000 degC");
+    CHECK_THAT(parts.refused[1].reason,
+               StartsWith("too short: 0.89 h") && ContainsSubstring("the sensor goes on"));
+}
+
+TEST_CASE("a record without a single sample is no segment", "[long_record][segments]") {
+    LongRecord record = night();
+    erase(record, 0, 2160);
+    CHECK(divide_record(record).segments.empty());
+}
+
+TEST_CASE("a stuck acceleration is refused", "[long_record][segments]") {
+    LongRecord record = night();
+    record.stretches[0].acceleration_mgal.assign(2160, 979763.0);
+    const RecordSegments parts = divide_record(record);
+    CHECK(parts.segments.empty());
+    REQUIRE(parts.refused.size() == 1);
+    CHECK(parts.refused[0].reason == "the acceleration is stuck at 979763.0000 mGal");
+}
+
+TEST_CASE("an axis that is stuck is refused, whatever tide was taken from the norm",
+          "[long_record][segments]") {
+    LongRecord record = night();
+    RecordStretch& stretch = record.stretches[0];
+    stretch.axes_mgal.assign(3, stretch.acceleration_mgal);
+    CHECK(divide_record(record).segments.size() == 1);
+    stretch.axes_mgal[2].assign(2160, 979763.0);
+    for (std::size_t i = 0; i < 2160; ++i)
+        stretch.acceleration_mgal[i] = 979763.0 - 0.1 * std::sin(static_cast<double>(i) / 700.0);
+    const RecordSegments parts = divide_record(record);
+    CHECK(parts.segments.empty());
+    REQUIRE(parts.refused.size() == 1);
+    CHECK(parts.refused[0].reason == "the z axis is stuck at 979763.0000 mGal");
+}

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "corrector/long_record/record_segments.hpp"
+#include "tests/support/plant_statistics.hpp"
+
+namespace a351::corrector {
+
+/// Units are drawn by seed within +-25 %: their numbers are not those in the middle of the fit's priors.
+inline sim::Scenario of_drawn_units(const std::string& name) {
+    sim::Scenario scenario = sim::load_scenario(name);
+    scenario.unit_scatter = 0.25;
+    return scenario;
+}
+
+/// A record without a break, from the scenario's 20 s means.
+inline RecordSegment simulated_segment(const sim::Scenario& scenario, std::uint64_t seed) {
+    const sim::IndoorRecord record = sim::indoor_record(scenario, seed);
+    RecordSegment segment;
+    segment.acceleration_mgal = record.difference_mgal;
+    segment.temperature_degc = record.temperature_degc;
+    return segment;
+}
+
+inline RecordSegment simulated_segment(const std::string& scenario, std::uint64_t seed) {
+    return simulated_segment(sim::load_scenario(scenario), seed);
+}
+
+}  // namespace a351::corrector

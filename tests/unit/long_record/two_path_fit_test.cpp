@@ -1,0 +1,122 @@
+/// The two-path fit against the parameters of units drawn about the scenarios'.
+#include <cmath>
+#include <map>
+#include <random>
+#include "tests/support/catch.hpp"
+
+#include "tests/support/two_path_truth.hpp"
+#include "tests/unit/long_record/simulated_record.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+constexpr double k95 = 1.96;  // standard errors
+
+TwoPathFit fitted(const sim::Scenario& scenario, std::uint64_t seed) {
+    const RecordSegment segment = simulated_segment(scenario, seed);
+    return fit_two_paths(segment.temperature_degc, segment.acceleration_mgal, kRecordStep_s, 900.0);
+}
+
+std::string words(const TwoPathFit& fit, const sim::TwoPathTruth& truth, TwoPathTerm term) {
+    const FittedParameter& parameter = fit[term];
+    return parameter.key + ' ' + std::to_string(parameter.value) + " +- " +
+           std::to_string(parameter.standard_error) + ", true " + std::to_string(truth[term]) +
+           (parameter.is_determined ? "" : " (not determined)");
+}
+
+}  // namespace
+
+TEST_CASE("95 % limits of a night's fit hold the true parameters", "[long_record][two_paths]") {
+    constexpr int kSeeds = 20;
+    const sim::Scenario scenario = of_drawn_units("indoor");
+    int fast_determined = 0, static_held = 0, adequate = 0;
+    double static_square = 0.0;
+    std::map<TwoPathTerm, int> held;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+        const TwoPathFit fit = fitted(scenario, seed);
+        const sim::TwoPathTruth truth = sim::two_path_truth(scenario, seed);
+        for (std::size_t k = 0; k < kTwoPathTerms; ++k) {
+            const auto term = static_cast<TwoPathTerm>(k);
+            UNSCOPED_INFO(seed << ' ' << words(fit, truth, term));
+            held[term] += std::abs(sim::deviation(fit, truth, term)) <= k95 ? 1 : 0;
+        }
+        const double off = sim::static_slope_deviation(fit, truth);
+        static_held += std::abs(off) <= k95 ? 1 : 0;
+        static_square += off * off / kSeeds;
+        fast_determined += fit[TwoPathTerm::fast].is_determined ? 1 : 0;
+        adequate += fit.unexplained.empty() ? 1 : 0;
+        // A night cannot part the slopes, nor tell their sum, and says so.
+        CHECK_FALSE(fit[TwoPathTerm::slow_lag].is_determined);
+        CHECK_FALSE(fit[TwoPathTerm::slow_lag].needed.empty());
+        CHECK_FALSE(fit.is_static_slope_determined);
+    }
+    CHECK(fast_determined == kSeeds);
+    CHECK(adequate >= 18);
+    CHECK(static_held >= 17);
+    CHECK(static_square < 1.0);
+    for (const auto& [term, count] : held) {
+        CAPTURE(static_cast<int>(term));
+        CHECK(count >= 17);  // 85 % of 20
+    }
+}
+
+TEST_CASE("a week narrows what a night leaves open", "[long_record][two_paths]") {
+    const sim::Scenario scenario = of_drawn_units("week");
+    const TwoPathFit night = fitted(of_drawn_units("indoor"), 1), week = fitted(scenario, 1);
+    const sim::TwoPathTruth truth = sim::two_path_truth(scenario, 1);
+    for (std::size_t k = 0; k < kTwoPathTerms; ++k) {
+        const auto term = static_cast<TwoPathTerm>(k);
+        CAPTURE(words(week, truth, term), night[term].standard_error);
+        CHECK(week[term].standard_error < night[term].standard_error);
+        CHECK(std::abs(sim::deviation(week, truth, term)) < 3.0);
+    }
+    CHECK(week.is_static_slope_determined);
+    CHECK(std::abs(sim::static_slope_deviation(week, truth)) < 3.0);
+    // Fourteen times as long: the fast path by its root.
+    CHECK(week[TwoPathTerm::fast].standard_error < 0.6 * night[TwoPathTerm::fast].standard_error);
+}
+
+TEST_CASE("the thermometer's noise says nothing of the static slope", "[long_record][two_paths]") {
+    // The same night read without that noise leaves the slope as open: what a trend leaks into the
+    // frequencies of the noise is not to be weighted like it.
+    sim::Scenario quiet = of_drawn_units("indoor");
+    const TwoPathFit noisy = fitted(quiet, 101);
+    quiet.slow_noise.temperature_degc = 0.0001;
+    const TwoPathFit fit = fitted(quiet, 101);
+    CAPTURE(fit.static_slope, noisy.static_slope);
+    CHECK(noisy.static_slope_error > 0.9 * fit.static_slope_error);
+}
+
+TEST_CASE("a thermometer that shows its noise alone determines no path",
+          "[long_record][two_paths]") {
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> normal;
+    for (int record = 0; record < 20; ++record) {
+        std::vector<double> temperature, acceleration;
+        for (int i = 0; i < 2160; ++i) {
+            temperature.push_back(42.5 + 0.0015 * normal(random));
+            acceleration.push_back(1.5 * normal(random));
+        }
+        const TwoPathFit fit = fit_two_paths(temperature, acceleration, kRecordStep_s, 900.0);
+        CAPTURE(record, fit[TwoPathTerm::fast].value, fit[TwoPathTerm::fast].standard_error);
+        for (const TwoPathTerm term : {TwoPathTerm::level, TwoPathTerm::fast, TwoPathTerm::slow,
+                                       TwoPathTerm::fast_lag, TwoPathTerm::slow_lag})
+            CHECK_FALSE(fit[term].is_determined);
+        CHECK_FALSE(fit.is_static_slope_determined);
+    }
+}
+
+TEST_CASE("a response that the model does not have is found in the residual",
+          "[long_record][two_paths]") {
+    RecordSegment segment = simulated_segment("indoor", 1);
+    // A delay of 700 s: no first-order lag does that at 900 s.
+    for (std::size_t i = segment.size() - 1; i >= 35; --i)
+        segment.acceleration_mgal[i] +=
+            400.0 * (segment.temperature_degc[i - 35] - segment.temperature_degc[i]);
+    const TwoPathFit fit =
+        fit_two_paths(segment.temperature_degc, segment.acceleration_mgal, kRecordStep_s, 900.0);
+    CAPTURE(fit[TwoPathTerm::fast].value, fit[TwoPathTerm::fast_lag].value);
+    CHECK_FALSE(fit.unexplained.empty());
+}

@@ -1,0 +1,249 @@
+#include "corrector/model/calibration_use.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include "tests/support/catch.hpp"
+
+#include "corrector/result/result_files.hpp"
+#include "protocol/core/input_error.hpp"
+#include "tests/unit/whole_day/made_up_day.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+const MadeUpDay kDay{.placement_mgal = 1.2, .white_mgal = 0.2};
+
+std::vector<SurveyRow> rows_of(const DayRecord& day) {
+    std::vector<SurveyRow> rows;
+    for (std::size_t s = 0; s < MadeUpDay::kSetUps; ++s) {
+        SurveyRow row;
+        row.site = "S" + std::to_string(s % 11);
+        row.occupation = s < 11 ? 1 : 2;
+        row.time = day.bins[s * MadeUpDay::kBins + MadeUpDay::kBins / 2].time;
+        row.temperature = DegC(42.5 + 0.1 * static_cast<double>(s * s % 7));
+        row.reference = MilliGal(MadeUpDay::gravity_mgal(s));
+        const double x_g = day.bins[s * MadeUpDay::kBins].x.value();
+        row.details = {{"mean_x_g", x_g}, {"mean_y_g", 0.0}};
+        row.acceleration = *row.reference + MilliGal(1838.0 + kDay.x * x_g) -
+                           MilliGal(30.0 * (row.temperature.value() - 42.6));
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+Calibration calibration(double x_mgal_per_g = kDay.x) {
+    Calibration known;
+    known.serial_number = "7";
+    known.program = "a351-correct 0";
+    known.valid_from = MadeUpDay::start();
+    known.axis_bias = AxisBias{{x_mgal_per_g, 0.0}, Eigen::Vector2d(400.0, 400.0).asDiagonal()};
+    return known;
+}
+
+ThermalResponse thermal(const MadeUpDay& day) {
+    ThermalResponse response;
+    response.values << day.level, day.slow, day.fast, std::log(day.fast_lag_s),
+        std::log(day.slow_lag_s);
+    response.covariance = Eigen::Matrix<double, 5, 1>(4.0, 4.0, 0.2, 0.003, 0.01).asDiagonal();
+    return response;
+}
+
+SurveyOptions with(const Calibration& known, const std::string& model) {
+    SurveyOptions options;
+    options.model = model;
+    options.calibration = known;
+    return options;
+}
+
+bool has_remark(const SurveyCorrection& result, const std::string& part) {
+    return std::ranges::any_of(result.remarks, [&part](const std::string& remark) {
+        return remark.find(part) != std::string::npos;
+    });
+}
+
+}  // namespace
+
+TEST_CASE("a thermal response counts with twice its errors, axis biases with theirs",
+          "[survey][calibration]") {
+    Calibration known = calibration();
+    known.thermal = thermal(kDay);
+    const DayPriors priors = day_priors_of(known);
+    const DayPriors::Matrix covariance = priors.factor * priors.factor.transpose();
+    const auto variance = [&](DayTerm term) {
+        return covariance(DayPriors::place_of(term), DayPriors::place_of(term));
+    };
+    // Beside the usual prior, whose variance is 144: 1 / (1 / 16 + 1 / 144).
+    CHECK(variance(DayTerm::level) == Approx(14.4));
+    CHECK(covariance(0, 0) == Approx(1.0 / (1.0 / 0.012 + 1.0 / std::pow(std::log(1.5), 2))));
+    CHECK(variance(DayTerm::x) == Approx(400.0).epsilon(1e-3));
+    CHECK(priors.mean(DayPriors::place_of(DayTerm::x)) == Approx(900.0).epsilon(1e-3));
+    CHECK(variance(DayTerm::drift) == Approx(1.0));
+}
+
+TEST_CASE("a day agrees with its unit's calibration and contradicts another's",
+          "[survey][calibration]") {
+    const DayRecord day = kDay.record();
+    const auto rows = rows_of(day);
+    Calibration known = calibration();
+    known.thermal = thermal(kDay);
+    const auto own = correct_with_calibration(rows, with(known, "auto"), &day);
+    REQUIRE(own.model == "day");
+    REQUIRE(own.calibration);
+    CHECK(own.calibration->is_prior);
+    CHECK(own.calibration->axis_bias.value().p > kContradictionP);
+    CHECK(own.calibration->axis_bias->dof == 1);  // y is never tilted
+    CHECK(own.calibration->thermal.value().p > kContradictionP);
+    CHECK(has_remark(own, "calibration of unit 7"));
+    CHECK_FALSE(has_remark(own, "contradict"));
+    CHECK_FALSE(has_remark(own, "the survey is worse"));
+    CHECK(calibration_json(own)["worse_with_it"] == false);
+    REQUIRE(own.calibration->loso_without_mgal);
+    CHECK(*own.calibration->loso_without_mgal >= *own.score.loso_mgal);
+
+    known.axis_bias->values(0) = -900.0;
+    const auto turned = correct_with_calibration(rows, with(known, "day"), &day);
+    CHECK(has_remark(turned, "contradict the calibration's axis biases"));
+    CHECK_FALSE(has_remark(turned, "contradict the calibration's thermal response"));
+    CHECK(calibration_json(turned)["axis_bias"]["contradicted"] == true);
+    CHECK(calibration_json(turned)["thermal"]["use"] == "prior");
+    CHECK(turned.calibration->loso_without_mgal == own.calibration->loso_without_mgal);
+    CHECK(has_remark(turned, "the survey is worse: stations left out"));
+    CHECK(calibration_json(turned)["worse_with_it"] == true);
+
+    known = calibration();
+    known.thermal = thermal(MadeUpDay{.level = 5.0, .slow = -45.0, .fast = 16.0});
+    const auto other = correct_with_calibration(rows, with(known, "day"), &day);
+    CHECK(has_remark(other, "contradict the calibration's thermal response"));
+}
+
+TEST_CASE("the better a wrong calibration seems to be known, the more it is contradicted",
+          "[survey][calibration]") {
+    const DayRecord day = kDay.record();
+    const auto rows = rows_of(day);
+    for (const double variance : {221.0, 110.0, 1.0, 0.01}) {
+        CAPTURE(variance);
+        Calibration known = calibration(kDay.x + 5000.0);  // 10 mGal where the tilt is 0.1 deg
+        known.axis_bias->covariance = Eigen::Vector2d(variance, variance).asDiagonal();
+        const auto result = correct_with_calibration(rows, with(known, "day"), &day);
+        REQUIRE(result.calibration->axis_bias);
+        CHECK(result.calibration->axis_bias->p < kContradictionP);
+        CHECK(has_remark(result, "contradict the calibration's axis biases"));
+    }
+}
+
+TEST_CASE("a calibration about which the day says nothing is not tested", "[survey][calibration]") {
+    DayRecord day = kDay.record();
+    for (DayBin& bin : day.bins) bin.x = StandardGravity(0.0);
+    Calibration known = calibration();
+    known.thermal = thermal(kDay);
+    const auto result = correct_with_calibration(rows_of(day), with(known, "day"), &day);
+    CHECK_FALSE(result.calibration->axis_bias);
+    CHECK(calibration_json(result)["axis_bias"]["contradicted"].is_null());
+    CHECK(calibration_json(result)["thermal"]["contradicted"] == false);
+    CHECK(has_remark(result, "axis biases not tested"));
+    CHECK_FALSE(has_remark(result, "thermal response not tested"));
+}
+
+TEST_CASE("with a calibration one datum will do for the whole-day model", "[survey][calibration]") {
+    const DayRecord day = kDay.record();
+    auto rows = rows_of(day);
+    for (SurveyRow& row : rows)
+        if (row.site != "S0") row.reference.reset();
+    SurveyOptions options = with(calibration(), "auto");
+    const auto result = correct_with_calibration(rows, options, &day);
+    CHECK(result.model == "day");
+    for (const StationValue& station : result.stations) {
+        const int number = std::stoi(station.site.substr(1));
+        CHECK(station.gravity.value() == Approx(979900.0 + 13.0 * number).epsilon(0.0).margin(6.0));
+    }
+    options.model = "day";
+    options.calibration->axis_bias.reset();
+    options.calibration->warm_up.emplace();  // which says nothing of the day
+    CHECK_THROWS_WITH(correct_with_calibration(rows, options, &day),
+                      ContainsSubstring("needs at least 6 rows"));
+    options.calibration.reset();
+    CHECK_THROWS_WITH(correct_with_calibration(rows, options, &day),
+                      ContainsSubstring("needs at least 6 rows"));
+}
+
+TEST_CASE("other models read what tilt has not changed", "[survey][calibration]") {
+    const auto rows = rows_of(kDay.record());
+    const auto result = correct_with_calibration(rows, with(calibration(), "t"), nullptr);
+    CHECK(result.score.rms_mgal.value() < 1e-6);
+    CHECK(correct_survey(rows, with(calibration(), "t")).score.rms_mgal.value() > 0.5);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const CorrectedRow& row = result.rows[i];
+        CHECK(row.row.acceleration == rows[i].acceleration);
+        CHECK(row.difference.value().value() ==
+              Approx((rows[i].acceleration - *rows[i].reference).value()));
+        CHECK((row.row.acceleration + row.temperature_correction + row.tilt_correction).value() ==
+              Approx(row.corrected.value()).epsilon(1e-12));
+    }
+    REQUIRE(result.calibration);
+    CHECK_FALSE(result.calibration->is_prior);
+    CHECK(calibration_json(result)["axis_bias"]["use"] == "fixed");
+    CHECK(calibration_json(result)["axis_bias"]["contradicted"].is_null());
+    CHECK(calibration_json(result)["thermal"].is_null());
+    SurveyOptions without;
+    without.model = "t";
+    CHECK(calibration_json(correct_survey(rows, without)).is_null());
+}
+
+TEST_CASE("a row without a mean of an axis is refused where a bias is to be taken off it",
+          "[survey][calibration]") {
+    auto rows = rows_of(kDay.record());
+    rows[3].set_detail("mean_y_g", std::nullopt);
+    CHECK_THROWS_WITH(correct_with_calibration(rows, with(calibration(), "t"), nullptr),
+                      "calibration: S3 (1) has no mean_y_g; allowed: rows from records");
+    Calibration known = calibration();
+    known.axis_bias.reset();
+    known.thermal = thermal(kDay);
+    CHECK_NOTHROW(correct_with_calibration(rows, with(known, "t"), nullptr));
+}
+
+TEST_CASE("models.csv says which scores are of readings freed from tilt", "[survey][calibration]") {
+    const DayRecord day = kDay.record();
+    const auto rows = rows_of(day);
+    const auto uses = [&](const SurveyCorrection& result) {
+        std::map<std::string, std::string> of_model;
+        std::istringstream lines(models_csv(result));
+        std::string line;
+        std::getline(lines, line);
+        CHECK(line.ends_with(",dof,calibration"));
+        while (std::getline(lines, line))
+            of_model[line.substr(0, line.find(','))] = line.substr(line.rfind(',') + 1);
+        return of_model;
+    };
+    const auto by_day = uses(correct_with_calibration(rows, with(calibration(), "day"), &day));
+    CHECK(by_day.at("day") == "prior");
+    CHECK(by_day.at("t") == "fixed");
+    const auto fixed = correct_with_calibration(rows, with(calibration(), "t"), nullptr);
+    CHECK(uses(fixed).at("paper") == "fixed");
+    CHECK(uses(correct_survey(rows, {})).at("paper") == "none");
+    CHECK(has_remark(fixed, "the scores of all models too"));
+}
+
+TEST_CASE("fitted axes and calibrated ones are one correction of tilt", "[survey][calibration]") {
+    auto rows = rows_of(kDay.record());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const double y_g = 0.001 * static_cast<double>(i * i % 5);
+        rows[i].rate_degc_per_h = 0.01 * static_cast<double>(i * i % 3);
+        rows[i].set_detail("mean_y_g", y_g);
+    }
+    const auto result =
+        correct_with_calibration(rows, with(calibration(), "t-rate-drift-axes"), nullptr);
+    for (const CorrectedRow& row : result.rows) {
+        CHECK(row.row.detail("tilt_correction_mgal") == row.tilt_correction.value());
+        CHECK(std::count_if(row.row.details.begin(), row.row.details.end(), [](const auto& one) {
+                  return one.name == "tilt_correction_mgal";
+              }) == 1);
+        const MilliGal sum = row.row.acceleration - row.row.tide + row.temperature_correction +
+                             row.rate_correction + row.drift_correction + row.tilt_correction;
+        CHECK(sum.value() == Approx(row.corrected.value()).epsilon(1e-12));
+    }
+}

@@ -1,0 +1,227 @@
+#include "corrector/model/day_correction.hpp"
+
+#include "tests/support/catch.hpp"
+
+#include "tests/unit/whole_day/made_up_day.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+/// Rows of the made-up day: set-ups 0 to 4 are at the stations of 11 to 15.
+std::vector<SurveyRow> rows_of(const DayRecord& day) {
+    std::vector<SurveyRow> rows;
+    for (std::size_t s = 0; s < MadeUpDay::kSetUps; ++s) {
+        SurveyRow row;
+        row.site = "S" + std::to_string(s % 11);
+        row.occupation = s < 11 ? 1 : 2;
+        row.time = day.bins[s * MadeUpDay::kBins + MadeUpDay::kBins / 2].time;
+        row.acceleration = day.bins[s * MadeUpDay::kBins].reading;
+        row.temperature = DegC(42.5 + 0.1 * static_cast<double>(s * s % 7));
+        row.reference = MilliGal(MadeUpDay::gravity_mgal(s));
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+SurveyOptions with_model(const std::string& model) {
+    SurveyOptions options;
+    options.model = model;
+    return options;
+}
+
+const MadeUpDay kScattered{.placement_mgal = 1.2, .white_mgal = 0.2};
+
+}  // namespace
+
+TEST_CASE("auto takes the whole-day model where the records allow it", "[survey][day]") {
+    const DayRecord day = kScattered.record();
+    const auto rows = rows_of(day);
+    const auto result = correct_survey(rows, with_model("auto"), &day);
+    CHECK(result.model == "day");
+    CHECK(result.score.row_count == rows.size());
+    CHECK(result.score.rms_mgal.value() < result.score.loso_mgal.value());
+    CHECK(result.score.loso_mgal.value() < 2.0);
+    CHECK(correct_survey(rows, with_model("auto"), nullptr).model != "day");
+}
+
+TEST_CASE("corrections of the whole-day model add up, row by row", "[survey][day]") {
+    const DayRecord day = kScattered.record();
+    const auto result = correct_survey(rows_of(day), with_model("day"), &day);
+    for (const CorrectedRow& row : result.rows) {
+        double sum = (row.row.acceleration - row.row.tide + row.temperature_correction +
+                      row.rate_correction + row.drift_correction)
+                         .value();
+        for (const auto& detail : row.row.details)
+            if (detail.name.ends_with("_correction_mgal")) sum += detail.value.value();
+        CHECK(sum == Approx(row.corrected.value()).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("what a row would be without its station is what comes out when its reference is hidden",
+          "[survey][day]") {
+    const DayRecord day = kScattered.record();
+    const auto rows = rows_of(day);
+    const auto all = correct_survey(rows, with_model("day"), &day);
+    for (const std::string site : {"S3", "S7"}) {
+        auto hidden = rows;
+        for (SurveyRow& row : hidden)
+            if (row.site == site) row.reference.reset();
+        const auto result = correct_survey(hidden, with_model("day"), &day);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (rows[i].site != site) continue;
+            const auto left_out =
+                std::find_if(all.rows[i].row.details.begin(), all.rows[i].row.details.end(),
+                             [](const auto& detail) { return detail.name == "left_out_mgal"; });
+            CHECK(result.rows[i].corrected.value() == Approx(left_out->value.value()).margin(0.01));
+            CHECK(result.rows[i].u_corrected->value() ==
+                  Approx(all.rows[i].u_corrected->value()).epsilon(0.01));
+            CHECK_FALSE(result.rows[i].residual);
+        }
+        const auto station =
+            std::find_if(result.stations.begin(), result.stations.end(),
+                         [&](const StationValue& value) { return value.site == site; });
+        CHECK(station->gravity.value() ==
+              Approx(MadeUpDay::gravity_mgal(static_cast<std::size_t>(site[1] - '0'))).margin(4.0));
+    }
+}
+
+TEST_CASE("a flagged row has a value and no influence", "[survey][day]") {
+    const DayRecord day = kScattered.record();
+    auto rows = rows_of(day);
+    rows[6].is_flagged = true;
+    const auto result = correct_survey(rows, with_model("day"), &day);
+    CHECK_FALSE(result.rows[6].is_used);
+    CHECK(result.score.row_count == rows.size() - 1);
+    rows[6].reference = *rows[6].reference + MilliGal(1000.0);
+    const auto other = correct_survey(rows, with_model("day"), &day);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        CHECK(other.rows[i].corrected.value() ==
+              Approx(result.rows[i].corrected.value()).epsilon(1e-12));
+    CHECK(result.row_sets.back().scores.back().row_count == rows.size());
+}
+
+TEST_CASE("a blunder is doubted, a clean day is not", "[survey][day]") {
+    DayRecord day = kScattered.record();
+    const auto doubted = [&] {
+        const auto result = correct_survey(rows_of(day), with_model("day"), &day);
+        std::vector<std::size_t> found;
+        for (std::size_t i = 0; i < result.rows.size(); ++i)
+            if (!result.rows[i].doubt_statistical.empty()) found.push_back(i);
+        return found;
+    };
+    CHECK(doubted().empty());
+    for (DayBin& bin : day.bins)
+        if (bin.set_up == 8) bin.reading = bin.reading + MilliGal(15.0);
+    CHECK(doubted() == std::vector<std::size_t>{8});
+}
+
+TEST_CASE("rows that have no say do not tell of each other", "[survey][day]") {
+    // Two rows of one station, excluded: their difference would tell of the drift.
+    const DayRecord day = kScattered.record();
+    auto rows = rows_of(day);
+    for (const std::size_t i : {1U, 12U}) rows[i].is_excluded = true;
+    const auto result = correct_survey(rows, with_model("day"), &day);
+    CHECK(result.score.row_count == rows.size() - 2);
+    CHECK(result.rows[1].u_corrected);
+    const auto station = [](const SurveyCorrection& survey, const std::string& site) {
+        return *std::find_if(survey.stations.begin(), survey.stations.end(),
+                             [&](const StationValue& value) { return value.site == site; });
+    };
+    CHECK(station(result, "S1").is_flagged_only);
+    CHECK(station(result, "S1").row_count == 2);
+    rows[12].is_excluded = false;
+    const auto one = correct_survey(rows, with_model("day"), &day);
+    CHECK_FALSE(station(one, "S1").is_flagged_only);
+    CHECK(station(one, "S1").row_count == 1);
+    CHECK(station(one, "S1").gravity == one.rows[12].corrected);
+    rows[12].is_excluded = true;
+    DayRecord other = day;
+    for (DayBin& bin : other.bins)
+        if (bin.set_up == 12) bin.reading = bin.reading + MilliGal(500.0);
+    const auto changed = correct_survey(rows, with_model("day"), &other);
+    CHECK(changed.rows[1].corrected.value() ==
+          Approx(result.rows[1].corrected.value()).epsilon(0.0).margin(0.01));
+    CHECK(changed.rows[12].corrected.value() ==
+          Approx(result.rows[12].corrected.value() + 500.0).epsilon(0.0).margin(0.01));
+}
+
+TEST_CASE("all rows flagged: those that are used are scored alone", "[survey][day]") {
+    const DayRecord day = kScattered.record();
+    auto rows = rows_of(day);
+    for (SurveyRow& row : rows) row.is_flagged = true;
+    SurveyOptions options = with_model("day");
+    options.use_flags = false;
+    const auto result = correct_survey(rows, options, &day);
+    CHECK(result.row_sets.front().scores.back().model != "day");
+    CHECK(result.row_sets.back().scores.back().model == "day");
+}
+
+TEST_CASE("a row of a station that stood twice is less certain than the station", "[survey][day]") {
+    const DayRecord day = kScattered.record();
+    const auto result = correct_survey(rows_of(day), with_model("day"), &day);
+    for (const StationValue& station : result.stations)
+        for (const CorrectedRow& row : result.rows) {
+            if (row.row.site != station.site) continue;
+            if (station.row_count == 1)
+                CHECK(*row.u_corrected == *station.u_gravity);
+            else
+                CHECK(row.u_corrected->value() > 1.1 * station.u_gravity->value());
+        }
+}
+
+TEST_CASE("a flagged blunder is doubted by the fit that it has no part in", "[survey][day]") {
+    DayRecord day = kScattered.record();
+    for (DayBin& bin : day.bins)
+        if (bin.set_up == 5) bin.reading = bin.reading + MilliGal(15.0);
+    auto rows = rows_of(day);
+    rows[5].is_flagged = true;
+    const auto result = correct_survey(rows, with_model("day"), &day);
+    CHECK(result.rows[5].studentised_residual.value() < -5.0);
+    CHECK_FALSE(result.rows[5].doubt_statistical.empty());
+}
+
+TEST_CASE("what keeps auto from the whole-day model is told", "[survey][day]") {
+    DayRecord day = kScattered.record();
+    const auto rows = rows_of(day);
+    SurveyOptions options = with_model("day");
+    options.priors.values.front() = Prior{-30.0, 1.0};
+    CHECK_THROWS_WITH(correct_survey(rows, options, &day), ContainsSubstring("priors of its own"));
+    day.temperature.longest_gap_s = 3600.0;
+    const auto result = correct_survey(rows, with_model("auto"), &day);
+    CHECK(result.model != "day");
+    REQUIRE_FALSE(result.remarks.empty());
+    CHECK_THAT(result.remarks.front(),
+               ContainsSubstring("not the whole-day model: the temperature"));
+}
+
+TEST_CASE("a day that determines nothing is refused with its reason", "[survey][day]") {
+    DayRecord day = kScattered.record();
+    auto rows = rows_of(day);
+    CHECK_THROWS_WITH(correct_survey(rows, with_model("day"), nullptr),
+                      ContainsSubstring("model = day: needs the record of the day's temperature"));
+    for (std::size_t i = 0; i + 5 < rows.size(); ++i) rows[i].reference.reset();
+    CHECK_THROWS_WITH(correct_survey(rows, with_model("day"), &day),
+                      ContainsSubstring("at least 6 rows with a reference, has 5"));
+    rows = rows_of(day);
+    day.temperature.longest_gap_s = 3600.0;
+    CHECK_THROWS_WITH(correct_survey(rows, with_model("day"), &day),
+                      ContainsSubstring("missing for 60 min at a time, allowed are 30"));
+    day.temperature.longest_gap_s = 0.0;
+    std::erase_if(day.bins, [](const DayBin& bin) { return bin.set_up == 4; });
+    CHECK_THROWS_WITH(correct_survey(rows, with_model("day"), &day),
+                      ContainsSubstring("S4 (1) has"));
+}
+
+TEST_CASE("a temperature that begins late is remarked", "[survey][day]") {
+    DayRecord day = kScattered.record();
+    CHECK(correct_survey(rows_of(day), with_model("day"), &day).remarks.empty());
+    const auto& whole = day.temperature.series;
+    day.temperature.series = {
+        whole.time_of(2000.0), whole.rate(),
+        std::vector<double>(whole.values().begin() + 2000, whole.values().end())};
+    const auto remarks = correct_survey(rows_of(day), with_model("day"), &day).remarks;
+    REQUIRE(remarks.size() == 1);
+    CHECK_THAT(remarks.front(), ContainsSubstring("from 54 min before the first occupation"));
+}

@@ -1,0 +1,106 @@
+#include "corrector/model/linear_fit.hpp"
+
+#include <cmath>
+#include "tests/support/catch.hpp"
+
+using namespace a351::corrector;
+
+namespace {
+
+const Eigen::VectorXd kX = (Eigen::VectorXd(6) << 0.1, 0.5, 0.7, 1.4, 1.9, 2.2).finished();
+const Eigen::VectorXd kY = (Eigen::VectorXd(6) << 1.0, 1.9, 1.7, 4.2, 4.8, 5.9).finished();
+
+}  // namespace
+
+TEST_CASE("exact data give back their coefficients and no residual", "[survey][linear_fit]") {
+    Eigen::MatrixXd columns(6, 2);
+    columns << kX, kX.array().square().matrix();
+    const Eigen::VectorXd y = (3.0 - 2.0 * columns.col(0).array() + 0.5 * columns.col(1).array());
+    const auto fit = fit_linear(columns, y).value();
+    CHECK(fit.coefficients(0) == Approx(3.0));
+    CHECK(fit.coefficients(1) == Approx(-2.0));
+    CHECK(fit.coefficients(2) == Approx(0.5));
+    CHECK(fit.residuals.cwiseAbs().maxCoeff() < 1e-12);
+    CHECK(fit.at(Eigen::Vector2d(2.0, 4.0)) == Approx(1.0));
+}
+
+TEST_CASE("a line has the textbook coefficients and standard errors", "[survey][linear_fit]") {
+    // Sums by hand: b = Sxy/Sxx, var(b) = s^2/Sxx, var(a) = s^2 (1/n + mean^2/Sxx).
+    const double mean = kX.mean();
+    const double sxx = (kX.array() - mean).square().sum();
+    const double sxy = ((kX.array() - mean) * (kY.array() - kY.mean())).sum();
+    const auto fit = fit_linear(kX, kY).value();
+    CHECK(fit.coefficients(1) == Approx(sxy / sxx));
+    CHECK(fit.coefficients(0) == Approx(kY.mean() - sxy / sxx * mean));
+    CHECK(fit.cofactor(1, 1) == Approx(1.0 / sxx));
+    CHECK(fit.cofactor(0, 0) == Approx(1.0 / 6.0 + mean * mean / sxx));
+    CHECK(fit.cofactor(0, 1) == Approx(-mean / sxx));
+    CHECK(fit.residual_scale().value() == Approx(std::sqrt(fit.rss / 4.0)));
+    CHECK(fit.r_squared == Approx(sxy * sxy / sxx / (kY.array() - kY.mean()).square().sum()));
+}
+
+TEST_CASE("leverages add up to the number of coefficients", "[survey][linear_fit]") {
+    Eigen::MatrixXd columns(6, 2);
+    columns << kX, kX.array().sin().matrix();
+    CHECK(fit_linear(columns, kY).value().leverages.sum() == Approx(3.0));
+}
+
+TEST_CASE("a residual over 1 - leverage is the error of predicting the row without it",
+          "[survey][linear_fit]") {
+    const auto fit = fit_linear(kX, kY).value();
+    for (Eigen::Index out = 0; out < 6; ++out) {
+        Eigen::VectorXd x(5), y(5);
+        for (Eigen::Index i = 0, k = 0; i < 6; ++i) {
+            if (i == out) continue;
+            x(k) = kX(i);
+            y(k++) = kY(i);
+        }
+        const double predicted = fit_linear(x, y).value().at(kX.segment(out, 1));
+        CHECK(fit.residuals(out) / (1.0 - fit.leverages(out)) == Approx(kY(out) - predicted));
+    }
+}
+
+TEST_CASE("a large constant in y costs no digits", "[survey][linear_fit]") {
+    const auto small = fit_linear(kX, kY).value();
+    const auto large = fit_linear(kX, (kY.array() + 980000.0).matrix()).value();
+    CHECK(large.coefficients(1) == Approx(small.coefficients(1)).epsilon(1e-9));
+    CHECK(large.rss == Approx(small.rss).epsilon(1e-8));
+}
+
+TEST_CASE("what the rows do not determine is not fitted", "[survey][linear_fit]") {
+    Eigen::MatrixXd twice(6, 2);
+    twice << kX, 3.0 * kX;
+    CHECK_FALSE(fit_linear(twice, kY).has_value());
+    CHECK_FALSE(fit_linear(Eigen::VectorXd::Constant(6, 42.61), kY).has_value());
+    CHECK_FALSE(fit_linear(kX.head(1), kY.head(1)).has_value());
+    CHECK(fit_linear(kX.head(2), kY.head(2)).has_value());
+    CHECK_FALSE(fit_linear(kX.head(2), kY.head(2)).value().residual_scale().has_value());
+}
+
+TEST_CASE("a prior on a slope is one more row of the system", "[survey][linear_fit]") {
+    // By hand for a line: b = (Sxy + w^2 m) / (Sxx + w^2), and the mean stays free.
+    const double sxx = (kX.array() - kX.mean()).square().sum();
+    const double sxy = ((kX.array() - kX.mean()) * (kY.array() - kY.mean())).sum();
+    const double w = 0.7;
+    const SlopePriors prior{Eigen::VectorXd::Constant(1, 1.0), Eigen::VectorXd::Constant(1, w)};
+    const auto fit = fit_linear(kX, kY, prior).value();
+    const double slope = (sxy + w * w) / (sxx + w * w);
+    CHECK(fit.coefficients(1) == Approx(slope));
+    CHECK(fit.coefficients(0) == Approx(kY.mean() - slope * kX.mean()));
+    CHECK(fit.cofactor(1, 1) == Approx(1.0 / (sxx + w * w)));
+    CHECK(fit.prior_rss == Approx(w * w * (slope - 1.0) * (slope - 1.0)));
+    CHECK(fit.dof() == 5);
+    CHECK(fit.residual_scale().value() == Approx(std::sqrt((fit.rss + fit.prior_rss) / 5.0)));
+    const auto without_first = fit_linear(kX.tail(5), kY.tail(5), prior).value();
+    CHECK(fit.residuals(0) / (1.0 - fit.leverages(0)) ==
+          Approx(kY(0) - without_first.at(kX.head(1))));
+}
+
+TEST_CASE("a prior determines what the rows do not", "[survey][linear_fit]") {
+    const Eigen::VectorXd constant = Eigen::VectorXd::Constant(6, 42.5);
+    const SlopePriors prior{Eigen::VectorXd::Constant(1, -30.0), Eigen::VectorXd::Constant(1, 0.4)};
+    CHECK_FALSE(fit_linear(constant, kY).has_value());
+    const auto fit = fit_linear(constant, kY, prior).value();
+    CHECK(fit.coefficients(1) == Approx(-30.0));
+    CHECK(fit.at(constant.head(1)) == Approx(kY.mean()));
+}

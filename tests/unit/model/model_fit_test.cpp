@@ -1,0 +1,70 @@
+#include "corrector/model/model_fit.hpp"
+
+#include <cmath>
+#include "tests/support/catch.hpp"
+
+#include "tests/unit/model/survey_rows.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+TEST_CASE("a day made of temperature, rate and drift is explained by that model only",
+          "[survey][model_fit]") {
+    const auto rows = made_up::day();
+    for (const LinearModel& model : kLinearModels) {
+        CAPTURE(model.name);
+        const ModelScore score = score_linear_model(model, rows, made_up::kMorning);
+        const bool is_complete = model.has_rate && model.has_time;
+        CHECK((score.rms_mgal.value() < 1e-6) == is_complete);
+        CHECK((score.loso_mgal.value() < 1e-6) == is_complete);
+    }
+    CHECK(choose_model(rows, made_up::kMorning, "B").value().model == "t-rate-drift");
+    // Without the base fewer than twelve rows are left: that fold must do with a smaller model.
+    const double choosing = choice_loso_mgal(rows, made_up::kMorning, "B").value();
+    CHECK(choosing > 0.01);
+    CHECK(choosing < 1.0);
+}
+
+TEST_CASE("leaving stations out costs more than leaving rows out, and that more than nothing",
+          "[survey][model_fit]") {
+    auto rows = made_up::day();
+    for (std::size_t i = 0; i < rows.size(); ++i) {  // an error of the station, the same each time
+        rows[i].acceleration = rows[i].acceleration + MilliGal(rows[i].site == "S2" ? 5.0 : 0.0);
+    }
+    const ModelScore score = score_linear_model(kLinearModels[3], rows, made_up::kMorning);
+    CHECK(score.rms_mgal.value() < score.s_mgal.value());
+    CHECK(score.s_mgal.value() < score.loo_mgal.value());
+    CHECK(score.loo_mgal.value() < score.loso_mgal.value());
+}
+
+TEST_CASE("scores that too few rows do not define are absent", "[survey][model_fit]") {
+    auto rows = made_up::day();
+    rows.resize(3);
+    const ModelScore line = score_linear_model(kLinearModels[0], rows, made_up::kMorning);
+    CHECK(line.rms_mgal.has_value());
+    CHECK(line.s_mgal.has_value());
+    CHECK_FALSE(line.aicc.has_value());
+    const ModelScore full = score_linear_model(kLinearModels[3], rows, made_up::kMorning);
+    CHECK_FALSE(full.rms_mgal.has_value());
+    CHECK_FALSE(full.loso_mgal.has_value());
+}
+
+TEST_CASE("rate and drift together are not chosen from few rows with few visits to the base",
+          "[survey][model_fit]") {
+    auto rows = made_up::day();
+    rows.erase(rows.begin() + 4);  // eleven rows, the base twice
+    CHECK(choose_model(rows, made_up::kMorning, "B").value().model != "t-rate-drift");
+}
+
+TEST_CASE("a prior weighs as its standard deviation to that of a reading", "[survey][model_fit]") {
+    const auto rows = made_up::day();
+    const auto rate = [&](double sd, double reading_sd_mgal) {
+        ModelPriors priors;
+        priors.reading_sd_mgal = reading_sd_mgal;
+        set_prior(priors, "test", "rate_mgal_per_degc_per_h", {0.0, sd});
+        return fit_model(kLinearModels[3], rows, made_up::kMorning, priors)->coefficients(2);
+    };
+    CHECK(rate(6.0, 2.0) == Approx(rate(12.0, 4.0)));
+    CHECK(rate(6.0, 2.0) > rate(6.0, 4.0) + 0.1);
+    CHECK(rate(6.0, 4.0) > 0.1);
+}

@@ -1,0 +1,286 @@
+#include "corrector/model/network.hpp"
+
+#include <cmath>
+#include "tests/support/catch.hpp"
+
+#include "corrector/model/survey_correction.hpp"
+#include "protocol/core/input_error.hpp"
+#include "tests/unit/model/survey_rows.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+double hours(const SurveyRow& row) { return seconds_between(made_up::kMorning, row.time) / 3600.0; }
+
+/// The made-up day without its rate term, with a quadratic drift, and only B known.
+std::vector<SurveyRow> day_with_quadratic_drift(double quadratic_mgal_per_h2) {
+    auto rows = made_up::day();
+    for (SurveyRow& row : rows) {
+        row.acceleration =
+            row.acceleration + MilliGal(quadratic_mgal_per_h2 * std::pow(hours(row) - 5.0, 2) -
+                                        made_up::kRate_mgal_per_degc_per_h * row.rate_degc_per_h);
+        if (row.site != "B") row.reference.reset();
+    }
+    return rows;
+}
+
+double true_gravity_mgal(const std::string& site) { return 979800.0 + 7.0 * site.back(); }
+
+NetworkResult adjust(const std::vector<SurveyRow>& rows, const NetworkOptions& options = {},
+                     const ModelPriors& priors = {}) {
+    return adjust_network(rows, std::vector<bool>(rows.size(), true), {}, priors, options);
+}
+
+double value_of(const NetworkAdjustment& network, const std::string& term) {
+    for (std::size_t k = 0; k < network.terms.size(); ++k) {
+        if (network.terms[k] == term) {
+            return network.unknowns(static_cast<Eigen::Index>(network.stations.size() + k));
+        }
+    }
+    FAIL("no term " << term);
+    return 0.0;
+}
+
+NetworkOptions quadratic() {
+    NetworkOptions options;
+    options.drift_degree = 2;
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("a known quadratic drift and the unknown stations come back", "[survey][network]") {
+    const auto network = adjust(day_with_quadratic_drift(0.08), quadratic()).adjustment.value();
+    // Full values are rounded to 1.2e-10 mGal.
+    const auto exactly = [](double value) { return Approx(value).epsilon(0).margin(1e-9); };
+    CHECK(value_of(network, "time2_mgal_per_h2") == exactly(0.08));
+    CHECK(value_of(network, "time_mgal_per_h") == exactly(made_up::kDrift_mgal_per_h));
+    CHECK(value_of(network, "temperature_mgal_per_degc") ==
+          Approx(made_up::kTemperature_mgal_per_degc).epsilon(0).margin(1e-8));
+    for (std::size_t k = 0; k < network.stations.size(); ++k) {
+        const double gravity =
+            network.origin.value() + network.unknowns(static_cast<Eigen::Index>(k));
+        CHECK(gravity == exactly(true_gravity_mgal(network.stations[k])));
+    }
+}
+
+TEST_CASE("redundancies of readings, datum and priors add up to the degrees of freedom",
+          "[survey][network]") {
+    ModelPriors priors;
+    set_prior(priors, "test", "time_mgal_per_h", {0.0, 1.0});
+    const auto network = adjust(day_with_quadratic_drift(0.0), {}, priors).adjustment.value();
+    CHECK(network.rows.size() == 12 + 1 + 1);
+    CHECK(network.dof == 14 - (8 + 3));
+    double sum = 0.0;
+    for (const NetworkRow& row : network.rows) sum += row.redundancy;
+    CHECK(sum == Approx(static_cast<double>(network.dof)));
+}
+
+TEST_CASE("readings of stations seen once are named as uncontrolled", "[survey][network]") {
+    const auto network = adjust(day_with_quadratic_drift(0.0)).adjustment.value();
+    REQUIRE(network.remarks.size() == 1);
+    CHECK_THAT(network.remarks.front(),
+               ContainsSubstring("S1 (1)") && ContainsSubstring("S4 (1), S5 (1)") &&
+                   !ContainsSubstring("B (2)") && !ContainsSubstring("S2"));
+}
+
+TEST_CASE("the global test fails on a blunder and on weights that are too small",
+          "[survey][network]") {
+    auto rows = day_with_quadratic_drift(0.0);
+    const double alternating[] = {1, -1, 1, 1, -1, -1, 1, -1, 1, 1, -1, 1};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].acceleration = rows[i].acceleration + MilliGal(2.0 * alternating[i]);
+    }
+    const auto network = adjust(rows).adjustment.value();
+    CHECK(network.passes_global_test().value());
+    // By tables: chi-square with 2 degrees of freedom, 2.5 % and 97.5 %.
+    REQUIRE(network.dof == 2);
+    CHECK(network.chi_square_low == Approx(0.0506).margin(0.0001));
+    CHECK(network.chi_square_high == Approx(7.3778).margin(0.0001));
+    ModelPriors wide;
+    wide.reading_sd_mgal = 200.0;
+    CHECK_FALSE(adjust(rows, {}, wide).adjustment->passes_global_test().value());
+    rows[4].acceleration = rows[4].acceleration + MilliGal(30.0);
+    CHECK_FALSE(adjust(rows).adjustment->passes_global_test().value());
+}
+
+TEST_CASE("a network without datum is refused in words", "[survey][network]") {
+    auto rows = day_with_quadratic_drift(0.0);
+    for (SurveyRow& row : rows) row.reference.reset();
+    CHECK_THAT(adjust(rows).refusal, StartsWith("no datum") && ContainsSubstring("B, S1"));
+}
+
+TEST_CASE("a station to be held that has no reference is refused by name", "[survey][network]") {
+    const auto rows = day_with_quadratic_drift(0.0);
+    const std::vector<bool> in_use(rows.size(), true);
+    CHECK_THAT(adjust_network(rows, in_use, {"B", "S2"}, {}, {}).refusal,
+               StartsWith("datum = S2: no reference gravity"));
+    CHECK(adjust_network(rows, in_use, {"B"}, {}, {}).adjustment.has_value());
+}
+
+TEST_CASE("two groups of stations that nothing joins are refused by name", "[survey][network]") {
+    auto rows = day_with_quadratic_drift(0.0);
+    auto next_day = rows;
+    for (SurveyRow& row : next_day) {
+        row.site = "T" + row.site;
+        row.time = row.time + std::chrono::hours(24);
+        row.reference.reset();
+    }
+    rows.insert(rows.end(), next_day.begin(), next_day.end());
+    CHECK_THAT(adjust(rows).refusal,
+               StartsWith("unconnected") && ContainsSubstring("datum to TB, TS1, TS2"));
+
+    SECTION("a station of both joins them") {
+        rows.back().site = "B";
+        const auto network = adjust(rows).adjustment.value();
+        CHECK(value_of(network, "time_mgal_per_h_loop2") ==
+              Approx(made_up::kDrift_mgal_per_h).margin(1e-6));
+        CHECK(network.stations.size() == 16);
+    }
+}
+
+TEST_CASE("groups of one day that only constant and drift join are named", "[survey][network]") {
+    auto rows = day_with_quadratic_drift(0.0);
+    const std::vector<std::string> sites{"B",  "S1", "B",  "S1", "B",  "S1",
+                                         "S5", "S6", "S5", "S6", "S7", "S5"};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].site = sites[i];
+        if (sites[i] != "B") rows[i].reference.reset();
+        if (sites[i] == "B") rows[i].reference = MilliGal(979800.0);
+    }
+    CHECK_THAT(adjust(rows).adjustment->remarks.front(),
+               StartsWith("not connected") && ContainsSubstring(": S5, S6, S7"));
+}
+
+TEST_CASE("drift with one occupation of every station is refused in words", "[survey][network]") {
+    auto rows = day_with_quadratic_drift(0.0);
+    rows.erase(rows.begin() + 9, rows.end());
+    rows.erase(rows.begin() + 4);
+    CHECK_THAT(adjust(rows).refusal, ContainsSubstring("leave open S1, S2") &&
+                                         ContainsSubstring("time_mgal_per_h") &&
+                                         ContainsSubstring("occupied only once") &&
+                                         ContainsSubstring("a prior on time_mgal_per_h"));
+    SECTION("priors on drift and temperature help") {
+        ModelPriors priors;
+        set_prior(priors, "test", "time_mgal_per_h", {made_up::kDrift_mgal_per_h, 0.1});
+        set_prior(priors, "test", "temperature_mgal_per_degc", {-30.0, 1.0});
+        const auto network = adjust(rows, {}, priors).adjustment.value();
+        CHECK(network.dof == 0);
+        CHECK_FALSE(network.s0().has_value());
+        CHECK_FALSE(network.passes_global_test().has_value());
+    }
+}
+
+TEST_CASE("a constant temperature is left out and said so", "[survey][network]") {
+    auto rows = day_with_quadratic_drift(0.0);
+    for (SurveyRow& row : rows) {
+        row.acceleration = row.acceleration + MilliGal(30.0 * (row.temperature.value() - 42.6));
+        row.temperature = DegC(42.5);
+    }
+    const auto network = adjust(rows).adjustment.value();
+    CHECK_THAT(network.remarks.front(), ContainsSubstring("temperature does not vary"));
+    CHECK(network.origin.value() + network.unknowns(1) ==
+          Approx(true_gravity_mgal("S1")).epsilon(0).margin(1e-6));
+}
+
+TEST_CASE("the survey's model network gives unknown stations values with uncertainty",
+          "[survey][network]") {
+    auto rows = day_with_quadratic_drift(0.0);
+    rows[5].is_flagged = true;
+    rows[1].acceleration = rows[1].acceleration + MilliGal(1.0);
+    rows[9].acceleration = rows[9].acceleration + MilliGal(1.0);
+    SurveyOptions options;
+    options.model = "network";
+    const SurveyCorrection result = correct_survey(rows, options);
+    CHECK(result.model == "network");
+    for (const CorrectedRow& row : result.rows) {
+        CHECK(row.is_used == (row.row.site != "S4"));
+        const MilliGal sum = row.row.acceleration - row.row.tide + row.temperature_correction +
+                             row.rate_correction + row.drift_correction;
+        CHECK(sum.value() == Approx(row.corrected.value()).epsilon(0).margin(1e-8));
+    }
+    REQUIRE(result.stations.size() == 8);
+    double redundancy = 0.0;
+    for (const StationValue& station : result.stations) {
+        CAPTURE(station.site);
+        CHECK(station.is_flagged_only == (station.site == "S4"));
+        CHECK(station.u_gravity->value() > 0.0);
+        if (station.is_flagged_only) continue;
+        redundancy += station.redundancy.value();
+        CHECK(station.u_a_posteriori->value() ==
+              Approx(result.network->s0().value() * station.u_gravity->value()));
+    }
+    CHECK(redundancy == Approx(static_cast<double>(result.network->dof)));
+    CHECK(result.stations[0].u_gravity->value() == Approx(0.01));
+    CHECK(result.row_sets[1].scores.back().model == "network");
+    CHECK(result.row_sets[1].scores.back().row_count == 12);
+
+    for (SurveyRow& row : rows) row.reference.reset();
+    CHECK_THROWS_WITH(correct_survey(rows, options), StartsWith("model = network: no datum"));
+}
+
+TEST_CASE("hiding a datum's reference gives the error that the network's LOSO says",
+          "[survey][network]") {
+    auto rows = made_up::day();
+    for (SurveyRow& row : rows) {
+        if (row.site != "B" && row.site != "S2" && row.site != "S6") row.reference.reset();
+    }
+    for (std::size_t i = 0; i < rows.size(); i += 3) {
+        rows[i].acceleration = rows[i].acceleration + MilliGal(1.5);
+    }
+    SurveyOptions options;
+    options.model = "network";
+    double squares = 0.0;
+    for (const std::string hidden : {"B", "S2", "S6"}) {
+        options.datum.clear();
+        for (const std::string site : {"B", "S2", "S6"}) {
+            if (site != hidden) options.datum.push_back(site);
+        }
+        for (const StationValue& station : correct_survey(rows, options).stations) {
+            if (station.site == hidden) squares += std::pow(station.residual->value(), 2);
+        }
+    }
+    options.datum.clear();
+    CHECK(correct_survey(rows, options).score.loso_mgal.value() ==
+          Approx(std::sqrt(squares / 3.0)).epsilon(1e-5));
+}
+
+TEST_CASE("a loop without a reading in use is left out by name, the rest is computed",
+          "[survey][network]") {
+    auto rows = day_with_quadratic_drift(0.0);
+    const auto first_day = rows;
+    for (const int day : {1, 2}) {
+        for (SurveyRow row : first_day) {
+            row.time = row.time + day * std::chrono::hours(24);
+            row.occupation += 3 * day;
+            row.is_flagged = day == 1;
+            rows.push_back(row);
+        }
+    }
+    rows[13].site = "S9";  // seen on the flagged day only
+    SurveyOptions options;
+    options.model = "network";
+    const SurveyCorrection result = correct_survey(rows, options);
+    CHECK(result.rows.size() == 24);
+    CHECK(result.left_out.size() == 12);
+    CHECK(result.left_out.front().site == "B");
+    CHECK(result.left_out.front().occupation == 4);
+    CHECK(result.left_out.front().start == rows[12].time);
+    CHECK_THAT(result.remarks.back(), StartsWith("no reading in use between two pauses") &&
+                                          ContainsSubstring("left out are B (4), S9 (4), S2 (4)"));
+    CHECK(result.stations.size() == 8);
+    for (const CorrectedRow& row : result.rows)
+        CHECK(row.corrected.value() ==
+              Approx(true_gravity_mgal(row.row.site)).epsilon(0).margin(1e-6));
+    std::vector<SurveyRow> others;
+    for (const SurveyRow& row : rows)
+        if (!row.is_flagged) others.push_back(row);
+    const SurveyCorrection without = correct_survey(others, options);
+    CHECK(without.coefficients.size() == result.coefficients.size());
+    for (std::size_t k = 0; k < result.coefficients.size(); ++k) {
+        CHECK(result.coefficients[k].name == without.coefficients[k].name);
+        CHECK(result.coefficients[k].value == without.coefficients[k].value);
+    }
+}

@@ -1,0 +1,158 @@
+#include "corrector/model/survey_correction.hpp"
+
+#include <cmath>
+#include "tests/support/catch.hpp"
+
+#include "protocol/core/input_error.hpp"
+#include "tests/unit/model/survey_rows.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+SurveyOptions with_model(const std::string& model) {
+    SurveyOptions options;
+    options.model = model;
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("corrections add up to the corrected value", "[survey]") {
+    auto rows = made_up::day();
+    rows[2].acceleration = rows[2].acceleration + MilliGal(1.5);
+    const std::string model = GENERATE("paper", "t", "t-rate", "t-drift", "t-rate-drift", "auto");
+    CAPTURE(model);
+    for (const CorrectedRow& row : correct_survey(rows, with_model(model)).rows) {
+        const MilliGal sum = row.row.acceleration - row.row.tide + row.temperature_correction +
+                             row.rate_correction + row.drift_correction;
+        CHECK(sum.value() == Approx(row.corrected.value()).epsilon(0).margin(1e-8));
+        CHECK(row.residual->value() ==
+              Approx((*row.row.reference - row.corrected).value()).margin(1e-12));
+    }
+}
+
+TEST_CASE("an unknown station comes out at its true value", "[survey]") {
+    auto rows = made_up::day();
+    const MilliGal truth = *rows[6].reference;
+    rows[6].reference.reset();
+    const auto result = correct_survey(rows, with_model("t-rate-drift"));
+    CHECK_FALSE(result.rows[6].is_used);
+    CHECK_FALSE(result.rows[6].residual.has_value());
+    CHECK(result.rows[6].corrected.value() == Approx(truth.value()).epsilon(0).margin(1e-6));
+}
+
+TEST_CASE("stations outside the datum stay out of the fit and keep their residual", "[survey]") {
+    auto options = with_model("t");
+    options.datum = {"B", "S2", "S3"};
+    const auto result = correct_survey(made_up::day(), options);
+    for (const CorrectedRow& row : result.rows) {
+        const bool is_datum = row.row.site == "B" || row.row.site == "S2" || row.row.site == "S3";
+        CHECK(row.is_used == is_datum);
+        CHECK(row.residual.has_value());
+    }
+    CHECK(result.score.row_count == 7);
+}
+
+TEST_CASE("a flagged row is out of the fit unless flags are ignored", "[survey]") {
+    auto rows = made_up::day();
+    rows[3].is_flagged = true;
+    rows[3].acceleration = rows[3].acceleration + MilliGal(50.0);
+    auto options = with_model("t-rate-drift");
+    const auto used = correct_survey(rows, options);
+    CHECK(used.score.row_count == 11);
+    CHECK(used.score.rms_mgal.value() < 1e-6);
+    CHECK(used.rows[3].residual->value() == Approx(-50.0));
+    options.use_flags = false;
+    const auto all = correct_survey(rows, options);
+    CHECK(all.score.row_count == 12);
+    CHECK(all.score.rms_mgal.value() > 1.0);
+    // Both row sets are listed whatever the setting.
+    for (const auto& result : {used, all}) {
+        REQUIRE(result.row_sets.size() == 2);
+        CHECK(result.row_sets[0].scores[4].row_count == 11);
+        CHECK(result.row_sets[1].scores[4].row_count == 12);
+    }
+}
+
+TEST_CASE("an excluded row is in no fit and no mean, even where flags are ignored", "[survey]") {
+    auto rows = made_up::day();
+    rows[3].is_excluded = true;
+    rows[3].acceleration = rows[3].acceleration + MilliGal(50.0);
+    auto options = with_model("t-rate-drift");
+    options.use_flags = false;
+    const auto result = correct_survey(rows, options);
+    CHECK(result.row_sets[1].scores[4].row_count == 11);
+    CHECK(result.score.rms_mgal.value() < 1e-6);
+    for (const StationValue& station : result.stations) {
+        if (station.site == "S3") CHECK(std::abs(station.residual->value()) < 1e-6);
+    }
+}
+
+TEST_CASE("a station seen only in flagged rows has their mean, and says so", "[survey]") {
+    auto rows = made_up::day();
+    rows[1].is_flagged = true;
+    const auto result = correct_survey(rows, with_model("t-rate-drift"));
+    REQUIRE(result.stations[1].site == "S1");
+    CHECK(result.stations[1].is_flagged_only);
+    CHECK_FALSE(result.stations[1].redundancy.has_value());
+    CHECK(result.stations[1].gravity.value() ==
+          Approx(rows[1].reference->value()).epsilon(0).margin(1e-6));
+}
+
+TEST_CASE("redundancies of the stations add up to the degrees of freedom", "[survey]") {
+    auto rows = made_up::day();
+    rows[5].is_flagged = true;
+    double sum = 0.0;
+    for (const StationValue& station : correct_survey(rows, with_model("t-rate")).stations) {
+        sum += station.redundancy.value_or(0.0);
+    }
+    CHECK(sum == Approx(11.0 - 3.0));
+}
+
+TEST_CASE("the uncertainty of a new station is s sqrt(1 + leverage)", "[survey]") {
+    auto rows = made_up::day();
+    rows[2].acceleration = rows[2].acceleration + MilliGal(2.0);
+    const auto result = correct_survey(rows, with_model("t-rate-drift"));
+    for (const CorrectedRow& row : result.rows) {
+        CHECK(row.u_corrected->value() ==
+              Approx(result.score.s_mgal.value() * std::sqrt(1.0 + row.leverage.value())));
+    }
+}
+
+TEST_CASE("a survey that cannot be corrected is refused with a reason", "[survey]") {
+    auto rows = made_up::day();
+    auto options = with_model("t");
+    SECTION("unknown base") {
+        options.base = "S9";
+        CHECK_THROWS_WITH(correct_survey(rows, options),
+                          ContainsSubstring("base = S9") && ContainsSubstring("B, S1"));
+    }
+    SECTION("unknown datum") {
+        options.datum = {"B", "S9"};
+        CHECK_THROWS_WITH(correct_survey(rows, options), ContainsSubstring("datum = S9"));
+    }
+    SECTION("unknown model") {
+        options.model = "kriging";
+        CHECK_THROWS_WITH(correct_survey(rows, options), ContainsSubstring("model = kriging") &&
+                                                             ContainsSubstring("t-rate-drift"));
+    }
+    SECTION("constant temperature") {
+        for (SurveyRow& row : rows) row.temperature = DegC(42.5);
+        CHECK_THROWS_WITH(correct_survey(rows, options), ContainsSubstring("do not determine"));
+    }
+    SECTION("too few rows") {
+        rows.resize(3);
+        options.model = "t-rate-drift";
+        CHECK_THROWS_WITH(correct_survey(rows, options),
+                          ContainsSubstring("3 rows") && ContainsSubstring("at least 4"));
+    }
+    SECTION("paper with a base seen once") {
+        options.model = "paper";
+        options.base = "S1";
+        CHECK_THROWS_WITH(correct_survey(rows, options),
+                          ContainsSubstring("drift step is refused"));
+    }
+    SECTION("nothing at all") { CHECK_THROWS_AS(correct_survey({}, options), InputError); }
+}

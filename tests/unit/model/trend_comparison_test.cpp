@@ -1,0 +1,26 @@
+#include "corrector/model/trend_comparison.hpp"
+
+#include "tests/support/catch.hpp"
+
+using namespace a351::corrector;
+
+namespace {
+
+CorrectedRow row(const std::string& site, int occupation, std::optional<double> difference_mgal) {
+    CorrectedRow corrected;
+    corrected.row.site = site;
+    corrected.row.occupation = occupation;
+    corrected.row.details = {{"eemd_mgal", 979'800.0},
+                             {"smoother_minus_eemd_mgal", difference_mgal}};
+    return corrected;
+}
+
+}  // namespace
+
+TEST_CASE("the trends' difference is summed up with the place of the largest", "[survey]") {
+    SurveyCorrection result;
+    CHECK(trend_comparison_text(result).empty());
+    result.rows = {row("No.0", 1, 0.3), row("No.5", 2, -0.4), row("No.7", 1, std::nullopt)};
+    CHECK(trend_comparison_text(result) ==
+          "trends, smoother minus EEMD: mean -0.050, rms 0.354, largest -0.400 mGal at No.5 (2)\n");
+}

@@ -1,0 +1,118 @@
+#include "corrector/reading/amendments.hpp"
+
+#include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
+
+#include "protocol/core/input_error.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+const std::vector<text::Site> kSites{
+    {"A", Degrees(140.0), Degrees(36.0), Metres(10.0), MilliGal(979900.0)},
+    {"B", Degrees(140.1), Degrees(36.1), Metres(20.0), std::nullopt}};
+
+UtcTime at(const std::string& clock) { return parse_rfc3339("2020-01-01T" + clock + "Z").value(); }
+
+/// A (1) with two set-ups, B (1), A (2), and one at a site that nobody knows.
+std::vector<OccupationWindow> list() {
+    return {{"A", 1, at("00:00:00"), at("00:06:00"), false},
+            {"A", 1, at("00:07:00"), at("00:13:00"), false},
+            {"B", 1, at("01:00:00"), at("01:12:00"), true},
+            {"A", 2, at("02:00:00"), at("02:12:00"), false},
+            {"BB", 1, at("03:00:00"), at("03:12:00"), false}};
+}
+
+std::vector<Amendment> amended(std::vector<OccupationWindow>& windows, const std::string& toml) {
+    const test::TemporaryDirectory folder;
+    return amend(windows, folder.write("amendments.toml", toml), kSites);
+}
+
+}  // namespace
+
+TEST_CASE("amendments change the list of occupations, note it, and are told with their reason",
+          "[survey][amendments]") {
+    auto windows = list();
+    const auto amendments =
+        amended(windows,
+                "[[rename]]\nsite='BB'\noccupation=1\nto='B'\nreason='slip'\n"
+                "[[exclude]]\nsite='A'\noccupation=1\nset_up=2\nreason='knock'\n"
+                "[[include]]\nsite='B'\noccupation=1\nreason='was good'\n"
+                "[[retime]]\nsite='A'\noccupation=2\n"
+                "start_utc='2020-01-01T02:01:00Z'\nreason='started early'\n");
+    CHECK_FALSE(windows[0].is_excluded);
+    CHECK(windows[1].is_excluded);
+    CHECK(windows[1].notes == std::vector<std::string>{"excluded"});
+    CHECK_FALSE(windows[2].is_flagged);
+    CHECK(windows[3].start == at("02:01:00"));
+    CHECK(windows[3].end == at("02:12:00"));
+    CHECK(windows[4].site == "B");
+    CHECK(windows[4].number == 2);
+    CHECK(amendments_text(amendments) ==
+          "amended: exclude A (1), set-up 2: knock\n"
+          "amended: include B (1): was good\n"
+          "amended: retime A (2) to 2020-01-01T02:01:00Z - 2020-01-01T02:12:00Z: started early\n"
+          "amended: rename BB (1) to B (2): slip\n");
+    CHECK(
+        amendments_json(amendments)[0].dump() ==
+        R"({"kind":"exclude","site":"A","occupation":1,"set_up":2,"change":"","reason":"knock"})");
+}
+
+TEST_CASE("an amendment without a set-up means the whole stay", "[survey][amendments]") {
+    auto windows = list();
+    amended(windows,
+            "[[exclude]]\nsite='A'\noccupation=1\nreason='r'\n"
+            "[[rename]]\nsite='A'\noccupation=1\nto='B'\nreason='r'\n");
+    for (const std::size_t i : {0U, 1U}) {
+        CHECK(windows[i].is_excluded);
+        CHECK(windows[i].site == "B");
+        CHECK(windows[i].number == 2);
+        CHECK(windows[i].notes == std::vector<std::string>{"excluded", "renamed"});
+    }
+}
+
+TEST_CASE("amendments speak of the list as it was, so that two names can change places",
+          "[survey][amendments]") {
+    auto windows = list();
+    amended(windows,
+            "[[rename]]\nsite='A'\noccupation=1\nto='B'\nreason='r'\n"
+            "[[rename]]\nsite='B'\noccupation=1\nto='A'\nreason='r'\n");
+    CHECK(windows[0].site == "B");
+    CHECK(windows[0].number == 2);
+    CHECK(windows[2].site == "A");
+    CHECK(windows[2].number == 3);
+}
+
+TEST_CASE("a bad amendment is refused with line, key and value", "[survey][amendments]") {
+    const std::string one = "site='A'\noccupation=2\nreason='r'\n";
+    const auto [toml, message] = GENERATE_COPY(table<std::string, std::string>({
+        {"[[exclude]]\n" + one + "why='r'\n", "amendments.toml:5: exclude.why = 'r': unknown key"},
+        {"[[remove]]\n" + one, "unknown key; allowed: exclude, include, rename, retime"},
+        {"[[exclude]]\nsite='A'\noccupation=2\n",
+         "exclude.reason: missing; allowed: why, in words"},
+        {"[[exclude]]\nsite='A'\nreason='r'\n", "exclude.occupation: missing"},
+        {"[[exclude]]\nsite='C'\noccupation=1\nreason='r'\n",
+         ":2: exclude.site = 'C': no occupation of it; allowed: A, B, BB"},
+        {"[[exclude]]\nsite='A'\noccupation=3\nreason='r'\n",
+         ":3: exclude.occupation = 3: no such occupation of A; allowed: 1, 2"},
+        {"[[exclude]]\nsite='A'\noccupation=1\nset_up=3\nreason='r'\n",
+         "exclude.set_up = 3: no such set-up; allowed: 1 to 2"},
+        {"[[exclude]]\n" + one + "[[include]]\n" + one,
+         ":7: include.occupation = 2: contradicts another amendment of its use"},
+        {"[[rename]]\n" + one + "to='C'\n", "rename.to = 'C': no such site; allowed: A, B"},
+        {"[[rename]]\n" + one + "to='A'\n", "rename.to = 'A': the name it has"},
+        {"[[retime]]\n" + one, "retime.start_utc: missing"},
+        {"[[retime]]\n" + one + "start_utc='noon'\n", "retime.start_utc = 'noon': not an instant"},
+        {"[[retime]]\n" + one + "end_utc='2020-01-01T02:00:00Z'\n",
+         "the end is not after the start"},
+        {"[[retime]]\nsite='A'\noccupation=1\nreason='r'\nend_utc='2020-01-01T02:00:00Z'\n",
+         "retime.set_up: missing; allowed: 1 to 2"},
+    }));
+    CAPTURE(toml);
+    auto windows = list();
+    CHECK_THROWS_WITH(amended(windows, toml), ContainsSubstring(message));
+    CHECK_THROWS_AS(amended(windows, toml), InputError);
+}

@@ -1,0 +1,140 @@
+// A made-up morning written as miniSEED, StationXML and occupations, and corrected from there.
+#include "tests/unit/reading/morning.hpp"
+
+#include "tests/support/catch.hpp"
+
+#include "corrector/job/survey_readings.hpp"
+#include "protocol/core/input_error.hpp"
+#include "protocol/events/event_log.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr std::chrono::seconds kStay = Morning::kStay;
+const std::vector<std::string>& kSites = Morning::kSites;
+
+OccupationRows average(const Morning& morning,
+                       const std::string& keys = "occupations='occupations.csv'\n") {
+    const auto file = morning.folder().write("day.toml", "[survey]\ntide='none'\n" + keys);
+    return read_survey(read_survey_file(file), [](std::size_t, std::size_t) {});
+}
+
+}  // namespace
+
+TEST_CASE("occupations come out of the archive at the values that were put in",
+          "[survey][archive]") {
+    Morning morning;
+    const OccupationRows result = average(morning);
+    CHECK(result.warnings.empty());
+    REQUIRE(result.rows.size() == 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+        CAPTURE(i);
+        const SurveyRow& row = result.rows[i];
+        CHECK(row.site == kSites[i]);
+        CHECK(row.occupation == (i == 3 ? 2 : 1));
+        CHECK(row.is_flagged == (i == 2));
+        CHECK(row.reference == MilliGal(Morning::kGravity_mgal[i]));
+        CHECK(row.start.value() >= Morning::start_of(i));
+        CHECK(row.end.value() <= Morning::start_of(i) + kStay);
+        // The middle of the interval stands for its mean to the curvature of the temperature,
+        // 0.4 degC (75 s / 900 s)^2 / 6; the trend's ends and the quantisation make the rest.
+        const double middle = seconds_between(Morning::kBegin, row.time);
+        CHECK(row.temperature.value() ==
+              Approx(Morning::temperature_degc(middle)).epsilon(0).margin(0.001));
+        CHECK(row.acceleration.value() ==
+              Approx(Morning::reading_mgal(middle)).epsilon(0).margin(0.03));
+        const double rate = 0.4 / 900.0 * std::cos(middle / 900.0) * 3600.0;
+        CHECK(row.rate_degc_per_h == Approx(rate).epsilon(0).margin(0.01));
+    }
+}
+
+TEST_CASE("the records behind the rows and the temperature of the day come with them",
+          "[survey][archive]") {
+    Morning morning;
+    const OccupationRows result = average(morning);
+    constexpr double kHalfCount_degc = 0.0019;  // near the top the temperature stays on one count
+    REQUIRE(result.records.size() == result.rows.size());
+    for (std::size_t i = 0; i < result.rows.size(); ++i) {
+        const RepresentativeValue& record = result.records[i];
+        CHECK(record.interval_start == result.rows[i].start);
+        CHECK(record.acceleration == result.rows[i].acceleration);
+        REQUIRE(record.temperature_series.size() == record.series.size());
+        const double middle = seconds_between(Morning::kBegin, record.series.time_of(37.0));
+        CHECK(record.temperature_series.values()[37] ==
+              Approx(Morning::temperature_degc(middle)).epsilon(0).margin(kHalfCount_degc));
+    }
+    // From the first start to the last stop and a minute on both sides, as far as there is record.
+    REQUIRE(result.temperature_course.size() == 16);
+    for (const MinuteTemperature& minute : result.temperature_course) {
+        const double seconds = seconds_between(Morning::kBegin, minute.middle);
+        CHECK(minute.mean.value() ==
+              Approx(Morning::temperature_degc(seconds)).epsilon(0).margin(kHalfCount_degc));
+    }
+}
+
+TEST_CASE("two runs over the same archive give the same bits", "[survey][archive]") {
+    Morning morning;
+    const auto a = average(morning);
+    const auto b = average(morning);
+    REQUIRE(a.rows.size() == b.rows.size());
+    for (std::size_t i = 0; i < a.rows.size(); ++i) {
+        CHECK(a.rows[i].acceleration == b.rows[i].acceleration);
+        CHECK(a.rows[i].temperature == b.rows[i].temperature);
+    }
+    REQUIRE(a.inputs.size() == b.inputs.size());
+    CHECK(a.inputs.size() == 4 + 8);  // survey, sites, metadata, occupations; 4 channels, 2 days
+}
+
+TEST_CASE("occupations are taken from the event log where no table is named", "[survey][archive]") {
+    Morning morning;
+    for (std::size_t i = 0; i < kSites.size(); ++i) {
+        record::Event start{"start", Morning::start_of(i), {}, {}, {{"site", kSites[i]}}};
+        record::Event stop{"stop", Morning::start_of(i) + kStay, {}, {}, {}};
+        record::append_event(record::posix_files(), morning.folder().path() / "data/events", start);
+        record::append_event(record::posix_files(), morning.folder().path() / "data/events", stop);
+    }
+    const auto logged = average(morning, "");
+    const auto listed = average(morning);
+    REQUIRE(logged.rows.size() == listed.rows.size());
+    for (std::size_t i = 0; i < logged.rows.size(); ++i) {
+        CHECK(logged.rows[i].acceleration == listed.rows[i].acceleration);
+        CHECK(logged.rows[i].occupation == listed.rows[i].occupation);
+    }
+}
+
+TEST_CASE("an occupation outside the archive is left out and named", "[survey][archive]") {
+    Morning morning;
+    morning.folder().write("late.csv",
+                           "site,occupation,start_utc,end_utc,used,note\n"
+                           "B,1,2020-05-01T23:50:20Z,2020-05-01T23:52:50Z,1,\n"
+                           "S1,1,2020-05-02T03:00:00Z,2020-05-02T03:10:00Z,1,\n");
+    const auto result = average(morning, "occupations='late.csv'\n");
+    CHECK(result.rows.size() == 1);
+    REQUIRE(result.warnings.size() == 1);
+    CHECK(result.warnings[0] == "S1 (1) at 2020-05-02T03:00:00Z is left out: no samples");
+}
+
+TEST_CASE("a survey without any sample is refused", "[survey][archive]") {
+    Morning morning;
+    morning.folder().write("other.csv",
+                           "site,occupation,start_utc,end_utc,used,note\n"
+                           "B,1,2021-05-01T23:50:20Z,2021-05-01T23:52:50Z,1,\n");
+    CHECK_THROWS_AS(average(morning, "occupations='other.csv'\n"), InputError);
+}
+
+TEST_CASE("the tide is that of the middle of the interval", "[survey][archive]") {
+    Morning morning;
+    const auto file = morning.folder().write(
+        "day.toml", "[survey]\noccupations='occupations.csv'\ndelta2=1.2\ndelta3=1.2\n");
+    const auto result = read_survey(read_survey_file(file), [](std::size_t, std::size_t) {});
+    for (const SurveyRow& row : result.rows) {
+        const UtcTime middle = *row.start + (*row.end - *row.start) / 2;
+        const auto sites = text::read_sites(morning.folder().path() / "sites.csv");
+        const auto* site = text::find_site(sites, row.site);
+        CHECK(row.tide ==
+              direct_tide(middle, {site->latitude, site->longitude, site->altitude}, {1.2, 1.2}));
+    }
+}

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "protocol/archive/channel_code.hpp"
+#include "protocol/archive/miniseed.hpp"
+#include "protocol/archive/sds.hpp"
+#include "protocol/core/units.hpp"
+#include "protocol/core/utc_time.hpp"
+#include "protocol/station/station_xml.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace a351 {
+
+/// A made-up morning on disk: four stays at three sites, over midnight, as miniSEED, StationXML,
+/// sites.csv and occupations.csv; the third stay is flagged.
+class Morning {
+public:
+    static constexpr double kTrueRate_hz = 50.002;  ///< 40 ppm off.
+    static constexpr std::chrono::seconds kStay{150};
+    static constexpr std::chrono::seconds kCycle{240};  ///< Stay and way.
+    static constexpr double kConstant_mgal = 1850.0;
+    static constexpr double kSlope_mgal_per_degc = -30.0;
+    static constexpr double kTilt_g = 0.01;
+    inline static const UtcTime kBegin = parse_rfc3339("2020-05-01T23:50:00Z").value();
+    inline static const std::vector<std::string> kSites{"B", "S1", "S2", "B"};
+    inline static const std::vector<double> kGravity_mgal{979800.0, 979850.0, 979760.0, 979800.0};
+
+    Morning() {
+        record::StationDescription description;
+        description.start = kBegin;
+        description.profile = "A351";
+        description.output_rate_hz = 50;
+        description.filter = "k512_fc9";
+        folder_.write("data/metadata/station.xml", record::to_station_xml(description));
+        const auto station = record::read_station_xml(folder_.path() / "data/metadata/station.xml");
+        for (const auto& channel : station.channels)
+            if (!record::is_derived(channel.code)) write_channel(channel);
+        folder_.write("sites.csv",
+                      "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\n"
+                      "B,140.1,36.2,500,979800\nS1,140.0,36.1,200,979850\n"
+                      "S2,140.2,36.3,800,979760\n");
+        std::string rows = "site,occupation,start_utc,end_utc,used,note\n";
+        for (std::size_t i = 0; i < kSites.size(); ++i) {
+            const UtcTime start = start_of(i);
+            rows += kSites[i] + (i == 3 ? ",2," : ",1,") + to_rfc3339(start) + ',' +
+                    to_rfc3339(start + kStay) + (i == 2 ? ",0,\n" : ",,\n");
+        }
+        folder_.write("occupations.csv", rows);
+    }
+
+    static double temperature_degc(double seconds) {
+        return 42.3 + 0.4 * std::sin(seconds / 900.0);
+    }
+
+    /// What the sensor reads, in mGal, at its place of that instant, tide aside.
+    static double reading_mgal(double seconds) {
+        const auto cycle = static_cast<std::size_t>(seconds / 240.0);
+        return kGravity_mgal[std::min(cycle, kSites.size() - 1)] + kConstant_mgal +
+               kSlope_mgal_per_degc * (temperature_degc(seconds) - 42.6);
+    }
+
+    [[nodiscard]] static UtcTime start_of(std::size_t i) {
+        return kBegin + static_cast<int>(i) * kCycle + std::chrono::seconds(20);
+    }
+
+    [[nodiscard]] const test::TemporaryDirectory& folder() const { return folder_; }
+
+private:
+    void write_channel(const record::ChannelScale& channel) {
+        std::vector<std::int32_t> counts;
+        const auto total =
+            static_cast<std::size_t>(static_cast<double>(kSites.size()) * 240.0 * kTrueRate_hz);
+        const double g_mgal = kMilliGalPerStandardGravity;
+        for (std::size_t i = 0; i < total; ++i) {
+            const double seconds = static_cast<double>(i) / kTrueRate_hz;
+            double value = temperature_degc(seconds);
+            if (channel.code == "BN1") value = kTilt_g * g_mgal * 1e-5;
+            if (channel.code == "BN2") value = 0.0;
+            if (channel.code == "BNZ") {
+                const double reading = reading_mgal(seconds);
+                value = std::sqrt(reading * reading - kTilt_g * kTilt_g * g_mgal * g_mgal) * 1e-5;
+            }
+            counts.push_back(
+                static_cast<std::int32_t>(std::llround((value - channel.offset) / channel.gain)));
+        }
+        record::SdsWriter writer(record::posix_files(), folder_.path() / "data/archive", {});
+        std::size_t at = 0;
+        while (at < counts.size()) {
+            record::RecordHeader header;
+            header.network = "XX";
+            header.station = "A351";
+            header.location = "00";
+            header.channel = channel.code;
+            header.start = kBegin + from_seconds(static_cast<double>(at) / kTrueRate_hz);
+            header.nominal_rate = Hertz(50.0);
+            const std::size_t before_midnight = samples_before_midnight(at, counts.size());
+            const auto packed =
+                record::pack_record(header, std::span(counts).subspan(at, before_midnight));
+            writer.append(channel.code, packed);
+            at += packed.sample_count;
+        }
+        writer.sync();
+    }
+
+    /// No record crosses midnight, 600 s after kBegin.
+    static std::size_t samples_before_midnight(std::size_t at, std::size_t count) {
+        const auto first_after = static_cast<std::size_t>(std::ceil(600.0 * kTrueRate_hz));
+        return at < first_after ? std::min(first_after, count) - at : count - at;
+    }
+
+    test::TemporaryDirectory folder_;
+};
+
+}  // namespace a351

@@ -1,0 +1,100 @@
+#include <filesystem>
+#include "tests/support/catch.hpp"
+
+#include "corrector/reading/survey_row.hpp"
+#include "protocol/core/input_error.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+const std::vector<text::Site> kSites{
+    {"A", Degrees(140.0), Degrees(36.0), Metres(10.0), MilliGal(979900.0)},
+    {"B", Degrees(140.1), Degrees(36.1), Metres(20.0), std::nullopt}};
+
+/// A table of observations on disk.
+class TableFile {
+public:
+    explicit TableFile(const std::string& content)
+        : path_(folder_.write("observations.csv", content)) {}
+
+    [[nodiscard]] std::vector<SurveyRow> read() const { return read_observations(path_, kSites); }
+
+private:
+    test::TemporaryDirectory folder_;
+    std::filesystem::path path_;
+};
+
+const std::string kHeader =
+    "site,occupation,outlier,time_utc,earth_tide_mgal,acceleration_mgal,temperature_degc\n";
+
+}  // namespace
+
+TEST_CASE("rows are read with all their columns and put in the order of time",
+          "[survey][observations]") {
+    const auto rows = TableFile(kHeader +
+                                "B,1,1,2020-01-01T02:00:00Z,-0.02,981700.5,42.7\n"
+                                "A,1,0,2020-01-01T00:00:00,0.01,981700.25,42.5\n")
+                          .read();
+    REQUIRE(rows.size() == 2);
+    CHECK(rows[0].site == "A");
+    CHECK(rows[0].reference == MilliGal(979900.0));
+    CHECK(rows[0].given_tide == MilliGal(0.01));
+    CHECK(rows[0].acceleration == MilliGal(981700.25));
+    CHECK(rows[0].rate_degc_per_h == 0.0);
+    CHECK(rows[1].is_flagged);
+    CHECK_FALSE(rows[1].reference.has_value());
+    CHECK(rows[1].rate_degc_per_h == Approx(0.1));
+}
+
+TEST_CASE("a local time column, a zone in the cell and UTC name the same instant",
+          "[survey][observations]") {
+    const UtcTime expected = parse_rfc3339("2019-12-31T23:42:12Z").value();
+    const auto [column, cell] = GENERATE(table<std::string, std::string>({
+        {"time_utc", "2019-12-31T23:42:12"},
+        {"time_utc", "2019-12-31T23:42:12Z"},
+        {"time_jst", "2020-01-01T08:42:12"},
+        {"time_jst", "2019-12-31T23:42:12Z"},
+        {"time", "2020-01-01T08:42:12+09:00"},
+    }));
+    CAPTURE(column, cell);
+    const auto rows =
+        TableFile("site,occupation," + column + ",acceleration_mgal,temperature_degc\nA,1," + cell +
+                  ",981700,42.5\n")
+            .read();
+    CHECK(rows.front().time == expected);
+    CHECK_FALSE(rows.front().is_flagged);
+    CHECK_FALSE(rows.front().given_tide.has_value());
+}
+
+TEST_CASE("a bad table of observations is refused with line, column and value",
+          "[survey][observations]") {
+    const std::string good = "A,1,0,2020-01-01T00:00:00Z,0.01,981700,42.5\n";
+    const auto [content, message] = GENERATE_COPY(table<std::string, std::string>({
+        {kHeader + "C,1,0,2020-01-01T00:00:00Z,0.01,981700,42.5\n", ":2: site = C: unknown"},
+        {kHeader + "A,1.5,0,2020-01-01T00:00:00Z,0.01,981700,42.5\n", "occupation = 1.5"},
+        {kHeader + "A,1,2,2020-01-01T00:00:00Z,0.01,981700,42.5\n", "outlier = 2"},
+        {kHeader + "A,1,0,yesterday,0.01,981700,42.5\n", "time_utc = yesterday"},
+        {kHeader + "A,1,0,2020-01-01T00:00:00Z,0.01,nan,42.5\n", "acceleration_mgal = nan"},
+        {kHeader + "A,1,0,2020-01-01T00:00:00Z,0.01,981700,inf\n", "temperature_degc = inf"},
+        {kHeader + "A,1,0,2020-01-01T00:00:00Z,0.01,1.001,42.5\n", "acceleration_mgal = 1.001"},
+        {kHeader + "A,1,0,2020-01-01T00:00:00Z,70.0,981700,42.5\n", "earth_tide_mgal = 70.0"},
+        {kHeader + good + good, ":3: time_utc = 2020-01-01T00:00:00Z: stands twice"},
+        {kHeader, "no rows"},
+        {"site,occupation,acceleration_mgal,temperature_degc\nA,1,981700,42.5\n",
+         "no column of time"},
+        {"site,occupation,time_utc,time_jst,acceleration_mgal,temperature_degc\n",
+         "columns time_utc and time_jst"},
+        {"site,occupation,time,acceleration_mgal,temperature_degc\n"
+         "A,1,2020-01-01T00:00:00,981700,42.5\n",
+         "time = 2020-01-01T00:00:00: not an instant"},
+        {"site,occupation,time_utc,acceleration_mgal\nA,1,2020-01-01T00:00:00Z,981700\n",
+         "column temperature_degc is missing"},
+    }));
+    CAPTURE(content);
+    const TableFile file(content);
+    CHECK_THROWS_WITH(file.read(), ContainsSubstring(message));
+    CHECK_THROWS_AS(file.read(), InputError);
+}

@@ -1,0 +1,147 @@
+#include "corrector/reading/occupation_list.hpp"
+
+#include "tests/support/catch.hpp"
+
+#include "protocol/core/input_error.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+const std::vector<text::Site> kSites{
+    {"A", Degrees(140.0), Degrees(36.0), Metres(10.0), MilliGal(979900.0)},
+    {"B", Degrees(140.1), Degrees(36.1), Metres(20.0), std::nullopt}};
+const std::string kHeader = "site,occupation,start_utc,end_utc,used,note\n";
+
+OccupationList read(const std::string& rows) {
+    const test::TemporaryDirectory folder;
+    const auto file = folder.write("occupations.csv", kHeader + rows);
+    return leave_out_impossible(read_occupation_table(file, kSites), kSites, file);
+}
+
+}  // namespace
+
+TEST_CASE("occupations are read in the order of time, with several set-ups of one stay",
+          "[survey][occupations]") {
+    const auto list = read(
+        "B,1,2020-01-01T02:00:00Z,2020-01-01T02:12:00Z,0,knocked\n"
+        "A,1,2020-01-01T00:00:00,2020-01-01T00:06:00,1,\n"
+        "A,1,2020-01-01T00:07:00Z,2020-01-01T00:13:00Z,,second set-up\n");
+    REQUIRE(list.windows.size() == 3);
+    CHECK(list.windows[0].site == "A");
+    CHECK(list.windows[1].number == 1);
+    CHECK_FALSE(list.windows[1].is_flagged);
+    CHECK(list.windows[2].is_flagged);
+    CHECK(list.windows[2].end - list.windows[2].start == std::chrono::minutes(12));
+}
+
+TEST_CASE("a bad table of occupations is refused with line, column and value",
+          "[survey][occupations]") {
+    const auto [rows, message] = GENERATE(table<std::string, std::string>({
+        {"C,1,2020-01-01T00:00:00Z,2020-01-01T00:06:00Z,1,\n", ":2: site = C: unknown"},
+        {"A,0,2020-01-01T00:00:00Z,2020-01-01T00:06:00Z,1,\n", "occupation = 0"},
+        {"A,1,noon,2020-01-01T00:06:00Z,1,\n", "start_utc = noon"},
+        {"A,1,2020-01-01T00:00:00Z,2020-01-01T00:06:00Z,yes,\n", "used = yes"},
+        {"A,1,2020-01-01T00:06:00Z,2020-01-01T00:06:00Z,1,\n",
+         "no occupation; A (1) at 2020-01-01T00:06:00Z is left out: ends before it starts"},
+        {"", "no occupation"},
+    }));
+    CAPTURE(rows);
+    CHECK_THROWS_WITH(read(rows), ContainsSubstring(message));
+    CHECK_THROWS_AS(read(rows), InputError);
+}
+
+TEST_CASE("a slip in the field costs its own occupation and is named, not the day",
+          "[survey][occupations]") {
+    const test::TemporaryDirectory folder;
+    const auto file =
+        folder.write("2020-01.jsonl",
+                     "{\"type\":\"start\",\"utc\":\"2020-01-01T00:00:00Z\",\"site\":\"A\"}\n"
+                     "{\"type\":\"stop\",\"utc\":\"2020-01-01T00:10:00Z\"}\n"
+                     "{\"type\":\"start\",\"utc\":\"2020-01-01T01:00:00Z\",\"site\":\"AA\"}\n"
+                     "{\"type\":\"stop\",\"utc\":\"2020-01-01T01:10:00Z\"}\n"
+                     "{\"type\":\"start\",\"utc\":\"2020-01-01T02:00:00Z\",\"site\":\"B\"}\n");
+    const auto list =
+        leave_out_impossible(read_logged_occupations(file.parent_path()), kSites, file);
+    REQUIRE(list.windows.size() == 1);
+    CHECK(list.windows[0].site == "A");
+    REQUIRE(list.warnings.size() == 2);
+    CHECK_THAT(list.warnings[0], ContainsSubstring("of B, has no stop"));
+    CHECK(list.warnings[1] ==
+          "AA (1) at 2020-01-01T01:00:00Z is left out: not in the table of sites");
+    REQUIRE(list.left_out.size() == 1);
+    CHECK(list.left_out[0].site == "AA");
+}
+
+TEST_CASE("of a log of several days the last one is taken, or what a time says",
+          "[survey][occupations]") {
+    const test::TemporaryDirectory folder;
+    std::string log;
+    // On the first day the last stop was forgotten: it lasts to the next morning.
+    for (const auto& [type, utc] :
+         std::vector<std::pair<std::string, std::string>>{{"start", "2020-01-01T08:00:00Z"},
+                                                          {"stop", "2020-01-01T08:10:00Z"},
+                                                          {"start", "2020-01-01T13:59:59Z"},
+                                                          {"start", "2020-01-02T08:00:00Z"},
+                                                          {"stop", "2020-01-02T08:10:00Z"},
+                                                          {"start", "2020-01-02T13:59:59Z"},
+                                                          {"stop", "2020-01-02T14:10:00Z"}})
+        log += R"({"type":")" + type + R"(","utc":")" + utc + R"(","site":"A"})" + "\n";
+    const auto events = folder.write("2020-01.jsonl", log).parent_path();
+    const auto at = [](const char* utc) { return parse_rfc3339(utc).value(); };
+
+    const auto last = read_logged_occupations(events);
+    REQUIRE(last.windows.size() == 2);
+    CHECK(last.windows[0].start == at("2020-01-02T08:00:00Z"));
+    CHECK(last.windows[0].number == 3);
+    REQUIRE(last.warnings.size() == 1);
+    CHECK(last.warnings[0] ==
+          events.string() +
+              ": the last day is taken, from 2020-01-02T08:00:00Z on; occupations "
+              "of earlier days: 2; from_utc and to_utc choose others");
+
+    const auto first = read_logged_occupations(events, {}, at("2020-01-02T08:00:00Z"));
+    REQUIRE(first.windows.size() == 2);
+    CHECK(first.windows[1].start == at("2020-01-01T13:59:59Z"));
+    REQUIRE(first.warnings.size() == 1);
+    CHECK_THAT(first.warnings[0], ContainsSubstring("lasts to the next start"));
+
+    const auto all = read_logged_occupations(events, at("2020-01-01T08:00:00Z"));
+    CHECK(all.windows.size() == 4);
+    CHECK_THROWS_WITH(
+        read_logged_occupations(events, at("2020-01-03T00:00:00Z"), at("2020-01-04T00:00:00Z")),
+        EndsWith(": no occupation starts from 2020-01-03T00:00:00Z on and before "
+                 "2020-01-04T00:00:00Z; allowed: a time with one of those that start from "
+                 "2020-01-01T08:00:00Z to 2020-01-02T13:59:59Z"));
+}
+
+TEST_CASE("one end typed too late costs its own occupation, not those it overlaps",
+          "[survey][occupations]") {
+    const auto list = read(
+        "A,1,2020-01-01T00:00:00Z,2020-01-01T05:06:00Z,1,\n"
+        "B,1,2020-01-01T01:00:00Z,2020-01-01T01:06:00Z,1,\n"
+        "A,2,2020-01-01T02:00:00Z,2020-01-01T02:06:00Z,1,\n"
+        "B,2,2020-01-01T02:06:00Z,2020-01-01T02:12:00Z,1,\n");
+    CHECK(list.windows.size() == 3);
+    REQUIRE(list.warnings.size() == 1);
+    CHECK(list.warnings[0] ==
+          "A (1) at 2020-01-01T00:00:00Z is left out: overlaps another, "
+          "B (1) at 2020-01-01T01:00:00Z");
+}
+
+TEST_CASE("of two that overlap each other neither is trusted; swapped times cost one",
+          "[survey][occupations]") {
+    const auto list = read(
+        "A,1,2020-01-01T00:00:00Z,2020-01-01T00:06:00Z,1,\n"
+        "B,1,2020-01-01T00:05:00Z,2020-01-01T00:11:00Z,1,\n"
+        "A,2,2020-01-01T02:06:00Z,2020-01-01T02:00:00Z,1,\n"
+        "B,2,2020-01-01T03:00:00Z,2020-01-01T03:06:00Z,1,\n");
+    REQUIRE(list.windows.size() == 1);
+    CHECK(list.windows[0].number == 2);
+    REQUIRE(list.left_out.size() == 3);
+    CHECK(list.left_out[0].reason == "ends before it starts");
+    CHECK(list.left_out[1].reason == "overlaps another");
+    CHECK(list.left_out[2].site == "B");
+}

@@ -1,0 +1,99 @@
+#include "corrector/reading/occupation_window.hpp"
+
+#include <cmath>
+#include "tests/support/catch.hpp"
+
+#include "protocol/core/input_error.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+using namespace std::chrono_literals;
+
+namespace {
+
+const UtcTime kStart = parse_rfc3339("2020-01-01T00:00:00Z").value();
+const record::ChannelScale kScale{"BNZ", 2.0, 1.0, "m/s**2"};
+
+/// `count` samples at `rate_hz`, the i-th of value first + i, stamped every 500.
+record::Segment segment(UtcTime start, double rate_hz, std::size_t count, std::int32_t first) {
+    record::Segment result;
+    result.rate_hz = 50.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        result.counts.push_back(first + static_cast<std::int32_t>(i));
+        if (i % 500 == 0) {
+            result.anchors.push_back({i, start + from_seconds(static_cast<double>(i) / rate_hz)});
+        }
+    }
+    return result;
+}
+
+std::size_t missing(const std::vector<double>& values) {
+    std::size_t count = 0;
+    for (const double value : values) {
+        if (std::isnan(value)) ++count;
+    }
+    return count;
+}
+
+}  // namespace
+
+TEST_CASE("a window takes the samples from its start up to its end", "[survey][window]") {
+    const std::vector<record::Segment> segments{segment(kStart - 1s, 50.0, 10'000, 0)};
+    const auto grid = sampling_grid(segments, kStart, kStart + 100s).value();
+    CHECK(grid.origin == kStart);
+    CHECK(grid.count == 5000);
+    const auto values = place_on_grid(segments, kScale, grid);
+    CHECK(missing(values) == 0);
+    CHECK(values.front() == 1.0 + 2.0 * 50);
+    CHECK(values.back() == 1.0 + 2.0 * 5049);
+}
+
+TEST_CASE("a sensor off its nominal rate loses no sample and no time", "[survey][window]") {
+    const double ppm = GENERATE(-80.0, 0.0, 80.0);
+    CAPTURE(ppm);
+    const double rate_hz = 50.0 * (1.0 + 1e-6 * ppm);
+    const std::vector<record::Segment> segments{segment(kStart, rate_hz, 45'000, 0)};
+    const auto grid = sampling_grid(segments, kStart, kStart + 1000s).value();
+    CHECK(grid.rate_hz == Approx(rate_hz).epsilon(1e-8));
+    const auto values = place_on_grid(segments, kScale, grid);
+    for (std::size_t i = 0; i < 45'000; ++i) {
+        if (values[i] != 1.0 + 2.0 * static_cast<double>(i)) FAIL("sample " << i);
+    }
+    CHECK(missing(values) == values.size() - 45'000);
+}
+
+TEST_CASE("a gap becomes missing samples of its length", "[survey][window]") {
+    const std::vector<record::Segment> segments{segment(kStart, 50.0, 4000, 0),
+                                                segment(kStart + 80s + 60ms, 50.0, 1000, 4003)};
+    const auto grid = sampling_grid(segments, kStart, kStart + 100s).value();
+    const auto values = place_on_grid(segments, kScale, grid);
+    CHECK(missing(values) == 3);
+    CHECK(values[3999] == 1.0 + 2.0 * 3999);
+    CHECK(std::isnan(values[4000]));
+    CHECK(values[4003] == 1.0 + 2.0 * 4003);
+}
+
+TEST_CASE("a window without samples has no grid", "[survey][window]") {
+    const std::vector<record::Segment> segments{segment(kStart, 50.0, 100, 0)};
+    CHECK_FALSE(sampling_grid(segments, kStart + 10s, kStart + 20s).has_value());
+    CHECK_FALSE(sampling_grid(segments, kStart - 20s, kStart).has_value());
+    CHECK_FALSE(sampling_grid({}, kStart, kStart + 20s).has_value());
+}
+
+TEST_CASE("a channel that is missing or in another unit is refused", "[survey][window]") {
+    record::StationMetadata station;
+    station.channels = {{"BN1", 1.0, 0.0, "m/s**2"},
+                        {"BN2", 1.0, 0.0, "m/s**2"},
+                        {"BNZ", 1.0, 0.0, "m/s**2"},
+                        {"LK1", 0.001, 0.0, "degC"},
+                        {"BK1", 1.0, 0.0, "degC"}};
+    const auto channels = find_channels(station, "station.xml");
+    CHECK(channels.axes[0].code == "BN1");
+    CHECK(channels.axes[2].code == "BNZ");
+    CHECK(channels.temperature.code == "BK1");
+    station.channels.pop_back();
+    CHECK_THROWS_WITH(find_channels(station, "station.xml"),
+                      ContainsSubstring("station.xml: no channel ?K1"));
+    station.channels[1] = {"BN2", 1.0, 0.0, "g"};
+    CHECK_THROWS_WITH(find_channels(station, "station.xml"), ContainsSubstring("BN2: unit = g"));
+}

@@ -1,0 +1,307 @@
+#include "corrector/reading/representative_value.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include "tests/support/catch.hpp"
+
+#include "tests/unit/reading/record.hpp"
+
+namespace a351::corrector {
+namespace {
+
+constexpr double kGravity = 979'951.25;
+
+const auto kConstantLevel = [](double) { return kGravity; };
+const auto kConstantTemperature = [](double) { return 42.5; };
+
+bool has(const RepresentativeValue& value, OccupationFlag flag) {
+    return std::find(value.flags.begin(), value.flags.end(), flag) != value.flags.end();
+}
+
+/// The record with `pulse_mgal` added to its vertical axis from `begin_s` for `length_s`.
+OccupationRecord with_pulse(OccupationRecord record, double begin_s, double length_s,
+                            double pulse_mgal) {
+    std::vector<double> z = record.z.values();
+    for (std::size_t i = 0; i < z.size(); ++i) {
+        const double t = static_cast<double>(i) / 50.0;
+        if (t >= begin_s && t < begin_s + length_s)
+            z[i] += pulse_mgal / kMilliGalPerStandardGravity;
+    }
+    record.z = TimeSeries<StandardGravity>(record.z.start(), record.z.rate(), std::move(z));
+    return record;
+}
+
+}  // namespace
+
+TEST_CASE("a constant without noise comes back as it is") {
+    const auto value = representative_value(make_record(900, kConstantLevel, kConstantTemperature));
+    REQUIRE(value);
+    CHECK(std::abs(value->acceleration.value() - kGravity) < 1e-6);
+    CHECK(std::abs(value->series_mean.value() - kGravity) < 1e-6);
+    CHECK(value->standard_error->value() < 1e-6);
+    CHECK(value->flags.empty());
+    CHECK(value->temperature->mean.value() == Approx(42.5).epsilon(1e-12));
+    CHECK(value->temperature->slope_degc_per_h == Approx(0.0).margin(1e-9));
+    CHECK(value->temperature->range.value() < 1e-9);
+    CHECK(value->counts.valid == 441);
+    CHECK(value->counts.partial == 9);
+    CHECK(value->counts.missing == 0);
+    // Samples 5 ... 445 of 2 s.
+    CHECK(value->interval_start == kSiteStart + from_seconds(10.0));
+    CHECK(value->interval_end == kSiteStart + from_seconds(890.0));
+}
+
+TEST_CASE("a constant in noise comes back within its standard error") {
+    const auto value =
+        representative_value(make_record(900, kConstantLevel, kConstantTemperature, 50.0));
+    REQUIRE(value);
+    // 50 mGal white at 50 Hz: 50 / sqrt(44 000) = 0.24 mGal for the mean.
+    REQUIRE(value->standard_error);
+    CHECK(value->standard_error->value() == Approx(0.24).epsilon(0.6));
+    CHECK(std::abs(value->acceleration.value() - kGravity) < 4 * 0.24);
+    CHECK(std::abs(value->acceleration.value() - value->series_mean.value()) < 0.24);
+    CHECK(value->flags.empty());
+    CHECK(value->noise_level.value() == Approx(0.1 * 50.0 * 0.0909).epsilon(0.15));
+    CHECK(value->x.rms.value() == Approx(50.0).epsilon(0.02));
+    CHECK(value->rectification.value() == Approx(2 * 2500.0 / (2 * kGravity)).epsilon(0.05));
+    CHECK(value->z.mean.value() == Approx(kGravity / kMilliGalPerStandardGravity).epsilon(1e-5));
+}
+
+TEST_CASE("ramps of gravity and temperature come back with their values at mid-interval") {
+    const auto record = make_record(
+        1200, [](double t) { return kGravity + t / 360.0; },
+        [](double t) { return 42.5 + 0.3 * t / 3600.0; }, 0.0, 100.0);
+    const auto value = representative_value(record);
+    REQUIRE(value);
+    const double middle = 600.0;  // samples 5 ... 595 of 2 s
+    // What is left of the noise that the decomposition adds, four standard deviations.
+    const double left_over = 4.0 * value->noise_level.value() / std::sqrt(80.0 * 591.0);
+    CHECK(std::abs(value->acceleration.value() - (kGravity + middle / 360.0)) < left_over);
+    CHECK(value->temperature->mean.value() == Approx(42.5 + 0.3 * middle / 3600.0).epsilon(1e-9));
+    CHECK(value->temperature->slope_degc_per_h == Approx(0.3).epsilon(1e-6));
+    CHECK(value->temperature->shape == TemperatureShape::monotone);
+    CHECK(value->flags.empty());
+}
+
+TEST_CASE("temperature beyond the occupation serves its ends and is not shifted by it") {
+    const auto degc = [](double t) { return 42.5 + 0.3 * t / 3600.0; };
+    const auto alone = representative_value(make_record(900, kConstantLevel, degc, 20.0, 0.0));
+    for (const double lead_s : {0.02, 7.34, 60.0, 1000.0}) {
+        const auto led = representative_value(make_record(900, kConstantLevel, degc, 20.0, lead_s));
+        CHECK(led->temperature->mean.value() == Approx(alone->temperature->mean.value()));
+        CHECK(led->temperature->slope_degc_per_h == Approx(0.3).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("temperature on another grid is refused") {
+    auto record = make_record(100, kConstantLevel, kConstantTemperature);
+    record.temperature =
+        TimeSeries<DegC>(kSiteStart + from_seconds(0.01), Hertz(50.0), record.temperature.values());
+    CHECK_THROWS_AS(representative_value(record), std::invalid_argument);
+    record.temperature = TimeSeries<DegC>(kSiteStart, Hertz(25.0), record.temperature.values());
+    CHECK_THROWS_AS(representative_value(record), std::invalid_argument);
+}
+
+TEST_CASE("disturbed ends and a pulse do not move the value of either trend and are flagged") {
+    RepresentativeOptions options;
+    options.trend = GENERATE(TrendMethod::eemd, TrendMethod::smoother);
+    const auto level = [](double t) {
+        return kGravity + std::sin(2.0 * std::numbers::pi * t / 500.0);
+    };
+    const auto quiet = make_record(1200, level, kConstantTemperature, 20.0);
+    const double pulse_mgal = GENERATE(100.0, 1000.0, 10'000.0);
+    const auto mean_level = [&](const RepresentativeValue& value) {
+        double sum = 0.0;
+        int count = 0;
+        for (UtcTime t = value.interval_start; t <= value.interval_end; t += from_seconds(2.0)) {
+            sum += level(seconds_between(kSiteStart, t));
+            ++count;
+        }
+        return sum / count;
+    };
+    // Noise of 1.8 mGal per 2 s sample, intervals of 5 minutes and more: 0.15 mGal for the mean.
+    const double limit = 4.0 * 0.15;
+    SECTION("start") {
+        const auto value = representative_value(with_pulse(quiet, 14.0, 10.0, pulse_mgal), options);
+        REQUIRE(value);
+        CHECK(has(*value, OccupationFlag::disturbed_start));
+        CHECK_FALSE(has(*value, OccupationFlag::disturbed_end));
+        CHECK(value->interval_start > kSiteStart + from_seconds(60.0));
+        CHECK(std::abs(value->acceleration.value() - mean_level(*value)) < limit);
+    }
+    SECTION("end") {
+        const auto value =
+            representative_value(with_pulse(quiet, 1170.0, 10.0, pulse_mgal), options);
+        REQUIRE(value);
+        CHECK(has(*value, OccupationFlag::disturbed_end));
+        CHECK_FALSE(has(*value, OccupationFlag::disturbed_start));
+        // The filters reach 9.2 s.
+        CHECK(value->interval_end < kSiteStart + from_seconds(1160.0));
+        CHECK(std::abs(value->acceleration.value() - mean_level(*value)) < limit);
+    }
+    SECTION("inside") {
+        const auto value =
+            representative_value(with_pulse(quiet, 300.0, 10.0, pulse_mgal), options);
+        REQUIRE(value);
+        CHECK(has(*value, OccupationFlag::pulse));
+        CHECK(has(*value, OccupationFlag::disturbed_start));
+        CHECK(value->interval_start > kSiteStart + from_seconds(310.0));
+        CHECK(std::abs(value->acceleration.value() - mean_level(*value)) < limit);
+    }
+}
+
+TEST_CASE("a record whose parts between pulses are too short is too short") {
+    const auto record = with_pulse(make_record(60, kConstantLevel, kConstantTemperature, 20.0),
+                                   30.0, 0.5, 10'000.0);
+    CHECK(representative_value(record));  // all of it lies next to an end: no pulse
+    RepresentativeOptions options;
+    options.end_margin_s = 0.0;
+    CHECK_FALSE(representative_value(record, options));
+}
+
+TEST_CASE("a gap is not bridged: the longer run is used and the samples are counted") {
+    auto record = make_record(900, kConstantLevel, kConstantTemperature, 20.0);
+    record.y = without(record.y, 15'000, 15'004);
+    const auto value = representative_value(record);
+    REQUIRE(value);
+    CHECK(has(*value, OccupationFlag::gap));
+    CHECK_FALSE(has(*value, OccupationFlag::pulse));
+    // Outputs within 451 raw samples of the gap are spoilt: 146 ... 154.
+    CHECK(value->interval_start >= kSiteStart + from_seconds(2.0 * 155));
+    CHECK(value->counts.valid == 441 - 9);
+    CHECK(value->counts.valid + value->counts.partial + value->counts.missing == 450);
+    record.y = without(record.y, 15'000, 25'000);
+    CHECK(representative_value(record)->counts.missing > 80);
+}
+
+TEST_CASE("a record of fewer than 16 valid samples is too short, one of 16 is not") {
+    // 16 outputs 5 ... 20 need raw samples up to 2000 + 451.
+    const auto lasting = [](double samples) {
+        return representative_value(
+            make_record(samples / 50.0, kConstantLevel, kConstantTemperature, 20.0));
+    };
+    CHECK_FALSE(lasting(0));
+    CHECK_FALSE(lasting(100));
+    CHECK_FALSE(lasting(2451));
+    REQUIRE(lasting(2452));
+    CHECK_FALSE(lasting(2452)->standard_error);
+}
+
+TEST_CASE("a record without temperature has none, and says so") {
+    auto record = make_record(900, kConstantLevel, kConstantTemperature, 20.0);
+    record.temperature = without(record.temperature, 0, record.temperature.size() - 1);
+    const auto value = representative_value(record);
+    REQUIRE(value);
+    CHECK_FALSE(value->temperature);
+    CHECK(has(*value, OccupationFlag::no_temperature));
+}
+
+TEST_CASE("the norm order as published carries the rectification bias that it reports") {
+    const auto level = make_record(900, kConstantLevel, kConstantTemperature);
+    const OccupationRecord record = {vibrating_axis(45'000, 0.0, 1.0, 7.3),
+                                     vibrating_axis(45'000, 0.0, 1.0, 11.9), level.z,
+                                     level.temperature};
+    RepresentativeOptions options;
+    options.norm = NormOrder::as_published;
+    const auto published = representative_value(record, options);
+    const auto ours = representative_value(record);
+    CHECK(ours->acceleration.value() == Approx(kGravity).margin(1e-3).epsilon(0));
+    CHECK(published->acceleration.value() - ours->acceleration.value() ==
+          Approx(published->rectification.value()).epsilon(0.01));
+    CHECK(ours->rectification.value() == Approx(1.02).margin(0.01));
+}
+
+TEST_CASE("the value is the same on any number of threads") {
+    const auto record = make_record(900, kConstantLevel, kConstantTemperature, 50.0);
+    RepresentativeOptions options;
+    const auto one = representative_value(record, options);
+    options.threads = 3;
+    const auto three = representative_value(record, options);
+    CHECK(three->curve.values() == one->curve.values());
+    CHECK(three->acceleration == one->acceleration);
+}
+
+TEST_CASE("both trends are averaged over one interval, and the one asked for is the value") {
+    const auto level = [](double t) {
+        return kGravity + 3.0 * std::sin(2.0 * std::numbers::pi * t / 900.0);
+    };
+    auto record = make_record(1200, level, kConstantTemperature, 20.0);
+    RepresentativeOptions options;
+    const auto by_eemd = representative_value(record, options);
+    options.trend = TrendMethod::smoother;
+    const auto by_smoother = representative_value(record, options);
+    CHECK(by_eemd->acceleration == by_eemd->eemd_mean);
+    CHECK(by_smoother->acceleration == by_smoother->smoother_mean);
+    // An undisturbed record: the interval is the whole of it for either curve.
+    CHECK(by_smoother->eemd_mean == by_eemd->eemd_mean);
+    CHECK(by_smoother->smoother_mean == by_eemd->smoother_mean);
+    CHECK(by_smoother->curve.values() != by_eemd->curve.values());
+    // White noise of 20 mGal at 50 Hz in 591 samples of 2 s, correlated by the filters: 0.08 mGal.
+    CHECK(by_smoother->smoother_standard_error.value() == Approx(0.08).epsilon(0.2));
+    CHECK(std::abs(by_smoother->smoother_mean.value() - by_smoother->series_mean.value()) < 0.02);
+
+    double squares = 0.0;
+    const auto& curve = by_smoother->curve;
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+        const double seconds = seconds_between(kSiteStart, curve.time_of(static_cast<double>(i)));
+        const double error = curve.values()[i] - level(seconds);
+        squares += error * error / static_cast<double>(curve.size());
+    }
+    CHECK(std::sqrt(squares) < 0.5);  // of a wave of 3
+}
+
+TEST_CASE("a wave of the cut-off period stands half as high in the smoother's trend") {
+    const auto level = [](double t) {
+        return kGravity + 4.0 * std::sin(2.0 * std::numbers::pi * t / 100.0);
+    };
+    RepresentativeOptions options;
+    options.trend = TrendMethod::smoother;
+    options.cutoff_s = 100.0;
+    const auto value =
+        representative_value(make_record(1200, level, kConstantTemperature), options);
+    const auto& curve = value->curve.values();
+    const auto middle = curve.begin() + static_cast<std::ptrdiff_t>(curve.size() / 2);
+    const auto [least, most] = std::minmax_element(middle - 50, middle + 50);
+    CHECK(*most - *least == Approx(4.0).epsilon(0.01));
+}
+
+TEST_CASE("a value whose weights did not settle is flagged when it is the smoother's") {
+    // Levels of 2 s each in which no threshold finds a disturbance, but the weights do.
+    const std::vector<double> levels = {5, 36, 7, 1, 2, 9, 4, 1, 58, 11, 2, 20, 9, 5, 1, 1,  7, 6,
+                                        5, 45, 0, 9, 2, 3, 3, 6, 6,  0,  2, 9,  6, 9, 2, 18, 5};
+    const auto level = [&](double t) {
+        return levels[std::min(static_cast<std::size_t>(t / 2.0), levels.size() - 1)];
+    };
+    const auto record = make_record(70, level, kConstantTemperature);
+    RepresentativeOptions options;
+    options.cutoff_s = 24.0;
+    options.disturbance_threshold = 1e9;
+    CHECK_FALSE(has(*representative_value(record, options), OccupationFlag::unsettled));
+    options.trend = TrendMethod::smoother;
+    CHECK(has(*representative_value(record, options), OccupationFlag::unsettled));
+}
+
+TEST_CASE("an option outside its range is refused") {
+    const auto record = make_record(100, kConstantLevel, kConstantTemperature);
+    RepresentativeOptions options;
+    options.end_margin_s = -1.0;
+    CHECK_THROWS_AS(representative_value(record, options), std::invalid_argument);
+    options = {};
+    options.disturbance_threshold = 0.0;
+    CHECK_THROWS_AS(representative_value(record, options), std::invalid_argument);
+    options = {};
+    options.cutoff_s = 501.0;
+    CHECK_THROWS_AS(representative_value(record, options), std::invalid_argument);
+}
+
+TEST_CASE("every flag has the name it has in the enumeration") {
+    CHECK(flag_name(OccupationFlag::fallback) == "fallback");
+    CHECK(flag_name(OccupationFlag::disturbed_start) == "disturbed_start");
+    CHECK(flag_name(OccupationFlag::disturbed_end) == "disturbed_end");
+    CHECK(flag_name(OccupationFlag::pulse) == "pulse");
+    CHECK(flag_name(OccupationFlag::gap) == "gap");
+    CHECK(flag_name(OccupationFlag::no_temperature) == "no_temperature");
+    CHECK(flag_name(OccupationFlag::unsettled) == "unsettled");
+}
+
+}  // namespace a351::corrector

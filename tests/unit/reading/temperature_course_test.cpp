@@ -1,0 +1,38 @@
+#include "corrector/reading/temperature_course.hpp"
+
+#include "tests/support/catch.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+using namespace std::chrono_literals;
+
+namespace {
+
+const UtcTime kStart = parse_rfc3339("2020-01-01T00:00:30Z").value();
+const record::ChannelScale kScale{"BK1", 0.5, 40.0, "degC"};  // gain, offset
+
+/// Two records of a sensor faster than its nominal 1 Hz, each with its own stamp.
+record::Segment segment(UtcTime start, std::int32_t first, std::int32_t second) {
+    record::Segment result;
+    result.rate_hz = 1.0;
+    result.counts.assign(32, first);
+    result.counts.resize(62, second);
+    result.anchors = {{0, start}, {32, start + 30s}};
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("the course of temperature is means of whole minutes, without those that lack",
+          "[survey][temperature]") {
+    const auto course =
+        temperature_course({segment(kStart, 2, 6), segment(kStart + 10min, 8, 8)}, kScale);
+    REQUIRE(course.size() == 4);
+    CHECK(course[0].middle == parse_rfc3339("2020-01-01T00:00:30Z").value());
+    CHECK(course[0].mean == DegC(41.0));  // 30 samples of 2
+    CHECK(course[1].middle == parse_rfc3339("2020-01-01T00:01:30Z").value());
+    CHECK(course[1].mean.value() == Approx(40.0 + 0.5 * (2 * 2 + 30 * 6) / 32.0));
+    CHECK(course[2].middle == parse_rfc3339("2020-01-01T00:10:30Z").value());
+    CHECK(course[3].mean == DegC(44.0));
+    CHECK(temperature_course({}, kScale).empty());
+}

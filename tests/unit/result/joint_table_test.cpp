@@ -1,0 +1,42 @@
+#include "corrector/result/joint_table.hpp"
+
+#include <cmath>
+#include "tests/support/catch.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+SurveyCorrection day_with(double gravity_mgal, std::optional<double> u_mgal) {
+    StationValue station;
+    station.site = "A";
+    station.row_count = 2;
+    station.gravity = MilliGal(gravity_mgal);
+    if (u_mgal) station.u_gravity = MilliGal(*u_mgal);
+    station.reference = MilliGal(979900.0);
+    SurveyCorrection day;
+    day.stations.push_back(station);
+    return day;
+}
+
+}  // namespace
+
+TEST_CASE("days are joined by their weights", "[survey][joint]") {
+    const auto joint = join_days({day_with(979901.0, 1.0), day_with(979904.0, 2.0)});
+    REQUIRE(joint.size() == 1);
+    CHECK(joint[0].gravity.value() == Approx(979901.6).epsilon(1e-12));
+    CHECK(joint[0].u_gravity->value() == Approx(std::sqrt(0.8)));
+    CHECK(joint[0].residual->value() == Approx(-1.6));
+    CHECK(joint[0].day_count == 2);
+    CHECK(joint[0].row_count == 4);
+}
+
+TEST_CASE("a day without uncertainty makes the mean a plain one", "[survey][joint]") {
+    const auto joint = join_days({day_with(979901.0, 1.0), day_with(979904.0, std::nullopt)});
+    CHECK(joint[0].gravity.value() == Approx(979902.5).epsilon(1e-12));
+    CHECK_FALSE(joint[0].u_gravity.has_value());
+    CHECK(joint_csv(joint) ==
+          "site,days,n,gravity_mgal,u_gravity_mgal,reference_mgal,residual_mgal\n"
+          "A,2,4,979902.500000,,979900.000000,-2.500000\n");
+}

@@ -1,0 +1,142 @@
+// How metadata grow when sensor or settings change: extend_station_xml().
+
+#include "tests/support/catch.hpp"
+
+#include "protocol/core/input_error.hpp"
+#include "tests/unit/station/station_files.hpp"
+
+namespace a351::record {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+    return count;
+}
+
+std::string extended(const std::string& existing, const StationDescription& station) {
+    const File file(existing);
+    const auto text = extend_station_xml(file.path(), station);
+    REQUIRE(text);
+    // What was written says the same already.
+    CHECK_FALSE(extend_station_xml(File(*text).path(), station));
+    return *text;
+}
+
+}  // namespace
+
+TEST_CASE("a session with nothing new adds no epoch", "[record][station_xml]") {
+    auto station = description();
+    const File file(to_station_xml(station));
+    station.start += 24h;
+    CHECK_FALSE(extend_station_xml(file.path(), station));
+}
+
+TEST_CASE("what changes begins an epoch of the channels it concerns", "[record][station_xml]") {
+    auto station = description();
+    const std::string first = to_station_xml(station);
+    station.start += 24h;
+    std::size_t concerned = 4;  // the sampled ones
+    SECTION("serial number") {
+        station.serial_number = "X0000002";
+        concerned = 5;  // and the temperature derived from them
+    }
+    SECTION("product") {
+        station.product_id = "A351AU10";
+        concerned = 5;
+    }
+    SECTION("firmware") { station.firmware = 259; }
+    SECTION("filter") { station.filter = "k512_fc16"; }
+    SECTION("declared rate") { station.declared_rate_hz = 50.0006; }
+    SECTION("output rate") { station.output_rate_hz = 100; }
+    SECTION("orientation") {
+        station.codes.axes = {"1", "2", "3"};
+        concerned = 3;  // of all axes, whose order tells which is which
+    }
+    const auto second = extended(first, station);
+    CHECK(count_of(second, "<Channel ") == 7 + concerned);
+    CHECK(count_of(second, "endDate=\"2026-03-02T12:00:00.000000Z\"") == concerned);
+    CHECK(count_of(second, "startDate=\"2026-03-02T12:00:00.000000Z\"") == concerned);
+    CHECK(count_of(second, "<Station ") == 1);
+
+    const File file(second);
+    CHECK(file.read().codes == station.codes);
+    CHECK(file.read().channels.size() == 7);
+    CHECK(file.read(description().start + 1h).codes == description().codes);
+    CHECK(file.read(description().start + 1h).channels.at(0).code == "BN1");
+    CHECK(file.read(station.start).codes == station.codes);
+
+    auto third = description();
+    third.start += 48h;
+    const auto text = extended(second, third);
+    CHECK(count_of(text, "<Channel ") == 7 + 2 * concerned);
+    CHECK(File(text).read().codes == third.codes);
+}
+
+TEST_CASE("an oven that comes and goes has epochs of its own", "[record][station_xml]") {
+    auto station = description();
+    const auto without = to_station_xml(station);
+    station.start += 1h;
+    station.has_oven = true;
+    const auto with = extended(without, station);
+    CHECK(count_of(with, "<Channel ") == 10);
+    CHECK(count_of(with, "endDate") == 0);
+    station.start += 1h;
+    station.has_oven = false;
+    const auto again = extended(with, station);
+    CHECK(count_of(again, "<Channel ") == 10);
+    CHECK(count_of(again, "endDate") == 3);
+    CHECK(File(again).read().channels.size() == 7);
+}
+
+TEST_CASE("other station codes leave the former station's epochs ended", "[record][station_xml]") {
+    auto station = description();
+    const auto first = to_station_xml(station);
+    station.start += 1h;
+    SECTION("station") { station.codes.station = "B"; }
+    SECTION("network") { station.codes.network = "GR"; }
+    const auto second = extended(first, station);
+    CHECK(count_of(second, "<Station ") == 2);
+    CHECK(count_of(second, "endDate") == 7);
+    CHECK(File(second).read().codes == station.codes);
+    CHECK(File(second).read(description().start).codes == description().codes);
+    auto third = description();
+    third.start += 2h;
+    const auto back = extended(second, third);
+    CHECK(count_of(back, "<Station ") == 2);
+    CHECK(File(back).read().codes == third.codes);
+}
+
+TEST_CASE("a clock that was ahead moves no epoch behind its end", "[record][station_xml]") {
+    auto station = description();
+    const auto first = to_station_xml(station);
+    station.start -= 24h;
+    SECTION("the same settings were there before") {
+        const auto text = extended(first, station);
+        CHECK(count_of(text, "startDate=\"2026-02-28T12:00:00.000000Z\"") == 8);
+        CHECK(count_of(text, "2026-03-01") == 0);
+    }
+    SECTION("others") {
+        station.firmware = 259;
+        const auto text = extended(first, station);
+        CHECK(count_of(text,
+                       "startDate=\"2026-03-01T12:00:00.000000Z\" "
+                       "endDate=\"2026-03-01T12:00:00.000000Z\"") == 4);
+        CHECK(File(text).read(station.start).channels.size() == 7);
+    }
+}
+
+TEST_CASE("an instant without an epoch has those that go on", "[record][station_xml]") {
+    const File file(to_station_xml(description()));
+    CHECK(file.read(description().start - 1h).channels.size() == 7);
+}
+
+TEST_CASE("metadata that cannot be read are not extended", "[record][station_xml]") {
+    const auto whole = to_station_xml(description());
+    for (const auto& text : {std::string(), whole.substr(0, whole.size() / 2), std::string("<a/>")})
+        CHECK_THROWS_AS(extend_station_xml(File(text).path(), description()), InputError);
+}
+
+}  // namespace a351::record

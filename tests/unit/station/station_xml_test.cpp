@@ -1,0 +1,150 @@
+#include "protocol/station/station_xml.hpp"
+
+#include "tests/support/catch.hpp"
+
+#include "protocol/core/input_error.hpp"
+#include "tests/unit/station/station_files.hpp"
+
+namespace a351::record {
+namespace {
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+    const auto at = text.find(what);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, what.size(), by);
+}
+
+}  // namespace
+
+TEST_CASE("scales come back from the metadata", "[record][station_xml]") {
+    const auto metadata = File(to_station_xml(description())).read();
+    CHECK(metadata.codes == StationCodes{});
+    REQUIRE(metadata.channels.size() == 7);
+    const char* codes[] = {"BN1", "BN2", "BNZ"};
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(metadata.channels[i].code == codes[i]);
+        CHECK(metadata.channels[i].unit == "m/s**2");
+        CHECK(metadata.channels[i].offset == 0.0);
+        // 2^24 counts are one g; two roundings on the way.
+        CHECK(metadata.channels[i].gain * 16'777'216.0 == Approx(9.80665).epsilon(3e-16).margin(0));
+    }
+    // M-A352AD10 data sheet 7.6.
+    CHECK(metadata.channels[3].code == "BK1");
+    CHECK(metadata.channels[3].unit == "degC");
+    CHECK(metadata.channels[3].gain == -0.0037918);
+    CHECK(metadata.channels[3].offset == 34.987);
+    CHECK(metadata.channels[4].code == "LK1");
+    CHECK(metadata.channels[4].gain == 0.001);
+    CHECK(metadata.channels[4].unit == "degC");
+    CHECK(metadata.channels[5].code == "LCE");
+    CHECK(metadata.channels[5].gain == 1e-6);
+    CHECK(metadata.channels[5].unit == "s");
+    CHECK(metadata.channels[6].code == "LCQ");
+    CHECK(metadata.channels[6].unit == "%");
+}
+
+TEST_CASE("the sensitivity has all digits of 2^24 / 9.80665", "[record][station_xml]") {
+    // 1710799.916383270536 by long division; the nearest double in its shortest form.
+    CHECK_THAT(to_station_xml(description()),
+               ContainsSubstring("<Value>1710799.9163832706</Value>"));
+}
+
+TEST_CASE("an oven adds its channels", "[record][station_xml]") {
+    auto station = description();
+    station.has_oven = true;
+    const auto metadata = File(to_station_xml(station)).read();
+    REQUIRE(metadata.channels.size() == 10);
+    CHECK(metadata.channels[5].code == "LK2");
+    CHECK(metadata.channels[6].code == "LK3");
+    CHECK(metadata.channels[6].gain == 0.001);
+    CHECK(metadata.channels[7].code == "LYH");
+    CHECK(metadata.channels[7].gain == 0.01);
+    CHECK(metadata.channels[7].unit == "%");
+}
+
+TEST_CASE("the oven's channels have the rate of their samples", "[record][station_xml]") {
+    auto station = description();
+    station.has_oven = true;
+    CHECK_THAT(to_station_xml(station), !ContainsSubstring("<SampleRate>0.1<"));
+    station.oven_interval = std::chrono::seconds(10);
+    const auto text = to_station_xml(station);
+    std::size_t seen = 0;
+    for (auto at = text.find("<SampleRate>0.1<"); at != std::string::npos; ++seen)
+        at = text.find("<SampleRate>0.1<", at + 1);
+    CHECK(seen == 3);
+    CHECK_THAT(text, ContainsSubstring("<Frequency>0.01<"));  // below half the rate
+}
+
+TEST_CASE("the clock's drift is that of the declared rate", "[record][station_xml]") {
+    CHECK_THAT(to_station_xml(description()), !ContainsSubstring("ClockDrift"));
+    auto station = description();
+    station.declared_rate_hz = 50.001;
+    const auto text = to_station_xml(station);
+    const auto at = text.find("<ClockDrift>");
+    REQUIRE(at != std::string::npos);
+    // 20 ppm of 20 ms; the schema wants it positive.
+    CHECK(std::stod(text.substr(at + 12)) == Approx(4e-7).epsilon(1e-4).margin(0));
+}
+
+TEST_CASE("other codes and axes come back", "[record][station_xml]") {
+    auto station = description();
+    station.codes = {"GR", "AB", "", {"N", "Z", "E"}};
+    const auto metadata = File(to_station_xml(station)).read();
+    CHECK(metadata.codes == station.codes);
+    CHECK(metadata.channels[1].code == "BNZ");
+}
+
+TEST_CASE("the metadata say what a reader has to know", "[record][station_xml]") {
+    const auto text = to_station_xml(description());
+    for (const char* part :
+         {"schemaVersion=\"1.2\"", "device profile A351 (unverified)",
+          "group delay 0.063875 s, already subtracted from the time stamps", "filter k512_fc9",
+          "firmware 258", "<SerialNumber>X0000001</SerialNumber>", "<Model>A352AD10</Model>",
+          "<SampleRate>50</SampleRate>", "<Dip>-90</Dip>", "<Azimuth>90</Azimuth>",
+          "orientation not surveyed", "<Longitude>140.087</Longitude>",
+          "startDate=\"2026-03-01T12:00:00.000000Z\"", "axis y; x, y, z are 1, 2, Z"}) {
+        CHECK_THAT(text, ContainsSubstring(part));
+    }
+    auto station = description();
+    station.is_profile_verified = true;
+    CHECK_THAT(to_station_xml(station), ContainsSubstring("device profile A351 (verified)"));
+}
+
+TEST_CASE("the same description gives the same bytes", "[record][station_xml]") {
+    CHECK(to_station_xml(description()) == to_station_xml(description()));
+}
+
+TEST_CASE("a serial number that is no text still gives XML", "[record][station_xml]") {
+    auto station = description();
+    station.serial_number = "\x01\xFF<&\"";
+    const auto text = to_station_xml(station);
+    CHECK_THAT(text, ContainsSubstring("<SerialNumber>??&lt;&amp;\"</SerialNumber>"));
+    CHECK_NOTHROW(File(text).read());
+}
+
+TEST_CASE("an unknown profile breaks the caller's promise", "[record][station_xml]") {
+    auto station = description();
+    station.profile = "A999";
+    CHECK_THROWS_AS(to_station_xml(station), std::invalid_argument);
+}
+
+TEST_CASE("metadata that cannot be used are refused with the file's name",
+          "[record][station_xml]") {
+    const auto whole = to_station_xml(description());
+    const std::string text = GENERATE_COPY(
+        std::string(), std::string("no xml"), std::string("<a/>"), whole.substr(0, 2000),
+        replaced(whole, "<Value>1710799", "<Value>x"), replaced(whole, "<Value>1", "<Value>-1"),
+        replaced(whole, "code=\"BN1\"", "code=\"LK9\""),
+        replaced(whole, "locationCode=\"00\" startDate=\"2026", "startDate=\"x"),
+        replaced(whole, "<Name>m/s**2</Name>", "<Name/>"),
+        replaced(whole, "<Coefficient number=\"1\">34.987</Coefficient>", ""));
+    const File file(text);
+    CHECK_THROWS_AS(file.read(), InputError);
+    CHECK_THROWS_WITH(file.read(), ContainsSubstring("station.xml: "));
+}
+
+TEST_CASE("a missing file is an input error", "[record][station_xml]") {
+    CHECK_THROWS_AS(read_station_xml("/nonexistent/station.xml"), InputError);
+}
+
+}  // namespace a351::record

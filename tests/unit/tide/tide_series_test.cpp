@@ -1,0 +1,147 @@
+#include "corrector/tide/tide_series.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
+
+#include "corrector/tide/tide_choice.hpp"
+#include "protocol/core/input_error.hpp"
+#include "protocol/text/csv.hpp"
+#include "tests/support/temporary_directory.hpp"
+#include "tests/unit/model/survey_rows.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+using namespace std::chrono_literals;
+
+namespace {
+
+const TideStation kTsukuba{Degrees(36.216), Degrees(140.123), Metres(532.0)};
+const UtcTime kStart = parse_rfc3339("2017-07-01T00:00:00Z").value();
+
+TideSeries series(const std::string& rows) {
+    const test::TemporaryDirectory folder;
+    return TideSeries::read(folder.write("tide.csv", "time,tide_mgal\n" + rows));
+}
+
+TideSeries sampled_tide(std::chrono::seconds step, std::chrono::hours length) {
+    std::string rows;
+    for (UtcTime time = kStart; time <= kStart + length; time += step) {
+        rows += to_rfc3339(time) + ',' + text::shortest(direct_tide(time, kTsukuba).value()) + '\n';
+    }
+    return series(rows);
+}
+
+/// Largest difference from the model that was sampled, between two instants.
+double largest_error_mgal(const TideSeries& tide, UtcTime from, UtcTime to) {
+    double largest = 0.0;
+    for (UtcTime time = from; time <= to; time += 433s) {
+        const auto value = tide.at(time);
+        REQUIRE(value.has_value());
+        largest = std::max(largest, std::abs((*value - direct_tide(time, kTsukuba)).value()));
+    }
+    return largest;
+}
+
+/// 10 x^3 mGal, x in days from kStart: a cubic, which four points determine.
+std::string cubic_row(std::chrono::minutes after) {
+    const double x = seconds_between(kStart, kStart + after) / 86400.0;
+    return to_rfc3339(kStart + after) + ',' + text::shortest(10.0 * x * x * x) + '\n';
+}
+
+}  // namespace
+
+TEST_CASE("a series sampled every 10 minutes gives back its model to a millionth",
+          "[survey][tide_series]") {
+    const auto month = 30 * 24h;
+    const double inside = largest_error_mgal(sampled_tide(600s, month), kStart, kStart + month);
+    const double hourly = largest_error_mgal(sampled_tide(3600s, month), kStart, kStart + month);
+    CAPTURE(inside, hourly);
+    CHECK(inside < 2e-7);
+    CHECK(hourly < 2e-4);
+}
+
+TEST_CASE("unequal steps and both ends follow a cubic exactly", "[survey][tide_series]") {
+    std::string rows;
+    for (const auto minute : {0min, 10min, 25min, 30min, 75min, 100min}) rows += cubic_row(minute);
+    const TideSeries tide = series(rows);
+    for (const auto minute : {0min, 4min, 27min, 60min, 90min, 100min}) {
+        const double x = static_cast<double>(minute.count()) / 1440.0;
+        CHECK(tide.at(kStart + minute).value().value() == Approx(10.0 * x * x * x).margin(1e-15));
+    }
+}
+
+TEST_CASE("outside the series and in a gap there is no value, beside a gap there is",
+          "[survey][tide_series]") {
+    std::string rows;
+    for (const auto minute : {0min, 30min, 60min, 90min, 151min, 180min, 210min, 240min}) {
+        rows += cubic_row(minute);
+    }
+    const TideSeries tide = series(rows);
+    CHECK_FALSE(tide.at(kStart - 1s).has_value());
+    CHECK_FALSE(tide.at(kStart + 240min + 1s).has_value());
+    CHECK_FALSE(tide.at(kStart + 120min).has_value());
+    CHECK(tide.at(kStart + 89min).has_value());
+    CHECK(tide.at(kStart + 152min).has_value());
+}
+
+TEST_CASE("a bad series is refused with line, column and value", "[survey][tide_series]") {
+    const auto [rows, message] = GENERATE(table<std::string, std::string>({
+        {"2017-07-01T00:00:00,0\n", "tide.csv:2: time = 2017-07-01T00:00:00: not an instant"},
+        {"2017-07-01T00:10:00Z,0\n2017-07-01T00:00:00Z,0\n", "tide.csv:3: time = 2017-07-01T00:00"},
+        {"2017-07-01T00:00:00Z,70.1\n", "tide.csv:2: tide_mgal = 70.1: out of range"},
+        {"2017-07-01T00:00:00Z,\n", "tide_mgal = : not a number"},
+        {"2017-07-01T00:00:00Z,0\n", "too few rows; allowed: 4 or more"},
+    }));
+    CAPTURE(rows);
+    CHECK_THROWS_WITH(series(rows), ContainsSubstring(message));
+    CHECK_THROWS_AS(series(rows), InputError);
+}
+
+TEST_CASE("a row that the series does not cover is refused by name", "[survey][tide_series]") {
+    const test::TemporaryDirectory folder;
+    std::string csv = "time,tide_mgal\n";
+    for (int hour = 0; hour < 4; ++hour) {
+        csv += to_rfc3339(made_up::kMorning + std::chrono::hours(hour)) + ",0.05\n";
+    }
+    TideChoice choice;
+    REQUIRE(set_tide_source(choice, folder.write("t.csv", csv).string(), ""));
+    auto rows = made_up::day();
+    CHECK_THROWS_WITH(
+        apply_tide(rows, {}, choice),
+        ContainsSubstring("t.csv: time = 2020-05-01T03:") &&
+            ContainsSubstring("allowed: 2020-05-01T00:00:00Z to 2020-05-01T03:00:00Z"));
+    rows.resize(3);
+    apply_tide(rows, {}, choice);
+    CHECK(rows[2].tide.value() == Approx(0.05));
+}
+
+TEST_CASE("the settings name the tide's source, model, factors and sign", "[survey][tide_series]") {
+    nlohmann::ordered_json settings;
+    TideChoice choice;
+    describe_tide(settings, choice);
+    CHECK(
+        settings.dump() ==
+        R"({"tide":"direct","tide_model":"positions of Moon and Sun, degrees 2 and 3, along the )"
+        R"(ellipsoid's normal","tide_sign":"effect on gravity: positive where gravity is larger; )"
+        R"(subtracted","delta2":1.16,"delta3":1.07})");
+    choice.source = "given";
+    describe_tide(settings, choice);
+    CHECK(settings["tide_model"] == "column earth_tide_mgal");
+    CHECK(settings["delta2"].is_null());
+    CHECK_FALSE(set_tide_source(choice, "moon", ""));
+    CHECK_THROWS_WITH(set_tide_option(choice, "moon"), ContainsSubstring("--tide = moon: neither"));
+}
+
+TEST_CASE("a tide that is to be given must be in the table", "[survey][observations]") {
+    const std::vector<text::Site> sites{
+        {"A", Degrees(140.0), Degrees(36.0), Metres(10.0), MilliGal(979900.0)}};
+    SurveyRow row;
+    row.site = "A";
+    row.time = kStart;
+    std::vector<SurveyRow> rows{row};
+    CHECK_THROWS_WITH(set_given_tide(rows), ContainsSubstring("tide = given"));
+    set_tide(rows, sites, TideModel::direct, kRigidEarth);
+    CHECK(rows[0].tide ==
+          direct_tide(rows[0].time, {Degrees(36.0), Degrees(140.0), Metres(10.0)}, kRigidEarth));
+}

@@ -1,0 +1,173 @@
+#include "corrector/whole_day/day_model.hpp"
+
+#include "tests/support/catch.hpp"
+
+#include "tests/unit/whole_day/made_up_day.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+double coefficient(const DayFit& fit, DayTerm term) {
+    return fit.coefficients.at(static_cast<std::size_t>(term)).value;
+}
+
+}  // namespace
+
+TEST_CASE("the day's model finds what the readings were made of", "[day]") {
+    const MadeUpDay day;
+    const DayRecord record = day.record();
+    const auto fit = fit_day(record, MadeUpDay::stations());
+    REQUIRE(fit);
+    CHECK(fit->fast_lag_s == Approx(day.fast_lag_s).epsilon(0.01));
+    CHECK(fit->slow_lag_s == Approx(day.slow_lag_s).epsilon(0.01));
+    CHECK(coefficient(*fit, DayTerm::level) == Approx(day.level).margin(0.1));
+    CHECK(coefficient(*fit, DayTerm::slow) == Approx(day.slow).margin(0.1));
+    CHECK(coefficient(*fit, DayTerm::fast) == Approx(day.fast).margin(0.02));
+    CHECK(coefficient(*fit, DayTerm::drift) == Approx(day.drift).margin(0.01));
+    CHECK(coefficient(*fit, DayTerm::warm_up) == Approx(day.warm_up).margin(0.3));
+    const Estimate x = fit->coefficients.at(static_cast<std::size_t>(DayTerm::x));
+    CHECK(x.value == Approx(day.x).margin(3.0 * x.standard_error));
+    CHECK(x.standard_error < 10.0);
+    for (std::size_t s = 0; s < MadeUpDay::kSetUps; ++s)
+        CHECK(fit->set_ups[s].corrected.value() ==
+              Approx(MadeUpDay::gravity_mgal(s)).margin(0.001));
+}
+
+TEST_CASE("corrections add up to the corrected value", "[day]") {
+    const auto fit = fit_day(MadeUpDay{.placement_mgal = 1.0}.record(), MadeUpDay::stations());
+    for (const DaySetUp& set_up : fit.value().set_ups) {
+        double effects = 0.0;
+        for (const double effect : set_up.effect_mgal) effects += effect;
+        CHECK((set_up.reading - set_up.flicker).value() - effects ==
+              Approx(set_up.corrected.value()).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("gravity of unknown stations comes with an uncertainty that holds", "[day]") {
+    // Stations 3 and 9, of 40 days whose set-ups scatter by 1.2 mGal.
+    std::size_t count = 0, within = 0;
+    double sum = 0.0;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        auto stations = MadeUpDay::stations();
+        for (const std::size_t s : {3U, 9U}) {
+            stations[s].gravity.reset();
+            stations[s].unknown = s == 3U ? 0U : 1U;
+        }
+        const auto fit =
+            fit_day(MadeUpDay{.placement_mgal = 1.2, .white_mgal = 0.2}.record(seed), stations);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const Estimate g = fit.value().unknown_mgal.at(k);
+            const double error = g.value - MadeUpDay::gravity_mgal(k == 0 ? 3 : 9);
+            sum += error * error;
+            ++count;
+            if (std::abs(error) <= g.standard_error) ++within;
+        }
+    }
+    INFO("rms " << std::sqrt(sum / static_cast<double>(count)) << " mGal, within the stated "
+                << within << " of " << count);
+    CHECK(std::sqrt(sum / static_cast<double>(count)) < 1.6);
+    CHECK(within >= 44);  // 55 to 85 %
+    CHECK(within <= 68);
+}
+
+TEST_CASE("set-ups of one unknown share its value", "[day]") {
+    auto stations = MadeUpDay::stations();
+    for (const std::size_t s : {2U, 13U}) {  // both at the third of eleven stations
+        stations[s].gravity.reset();
+        stations[s].unknown = 0;
+    }
+    const auto fit = fit_day(MadeUpDay{.placement_mgal = 1.0}.record(), stations);
+    const double g = fit.value().unknown_mgal.at(0).value;
+    CHECK(g == Approx(MadeUpDay::gravity_mgal(2)).margin(2.5));
+    const double departure2 = fit->set_ups[2].corrected.value() - g,
+                 departure13 = fit->set_ups[13].corrected.value() - g;
+    CHECK(departure2 == Approx(-departure13).margin(1e-6));
+    CHECK(std::abs(departure2) > 0.05);
+}
+
+TEST_CASE("nothing held determines nothing", "[day]") {
+    auto stations = MadeUpDay::stations();
+    for (DayStation& station : stations) station.gravity.reset();
+    CHECK_FALSE(fit_day(MadeUpDay{}.record(), stations));
+}
+
+TEST_CASE("a fit from nearby is the same fit", "[day]") {
+    const DayRecord record = MadeUpDay{.placement_mgal = 1.0, .white_mgal = 0.2}.record();
+    auto stations = MadeUpDay::stations();
+    const auto all = fit_day(record, stations);
+    stations[5].gravity.reset();
+    const auto afar = fit_day(record, stations), near = fit_day(record, stations, &all.value());
+    CHECK(near.value().unknown_mgal.at(0).value ==
+          Approx(afar.value().unknown_mgal.at(0).value).margin(0.005));
+    CHECK(near->unknown_mgal.at(0).standard_error ==
+          Approx(afar->unknown_mgal.at(0).standard_error).epsilon(0.005));
+}
+
+TEST_CASE("the fit is the same to the bit each time", "[day]") {
+    const DayRecord record = MadeUpDay{.placement_mgal = 1.0}.record();
+    const auto a = fit_day(record, MadeUpDay::stations()),
+               b = fit_day(record, MadeUpDay::stations());
+    CHECK(a.value().log_likelihood == b.value().log_likelihood);
+    for (std::size_t s = 0; s < MadeUpDay::kSetUps; ++s)
+        CHECK(a->set_ups[s].corrected == b->set_ups[s].corrected);
+}
+
+TEST_CASE("priors that are known better hold what the day cannot tell", "[day]") {
+    // Level and slow slope known to 2 mGal/degC each and better together, x to 1 mGal/g.
+    const MadeUpDay day{.placement_mgal = 1.2, .white_mgal = 0.2};
+    DayPriors priors = usual_day_priors();
+    const auto level = DayPriors::place_of(DayTerm::level);
+    const auto slow = DayPriors::place_of(DayTerm::slow), x = DayPriors::place_of(DayTerm::x);
+    Eigen::Matrix3d covariance = Eigen::Vector3d(4.0, 4.0, 1.0).asDiagonal();
+    covariance(0, 1) = covariance(1, 0) = -3.9;  // their sum is known to 0.4
+    priors.observe({level, slow, x}, Eigen::Vector3d(-14.0, -26.0, 900.5), covariance);
+    const auto usual = fit_day(day.record(), MadeUpDay::stations());
+    const auto fit = fit_day(day.record(), MadeUpDay::stations(), nullptr, priors);
+    REQUIRE(fit);
+    CHECK(coefficient(*fit, DayTerm::level) + coefficient(*fit, DayTerm::slow) ==
+          Approx(-40.0).margin(1.2));
+    CHECK(coefficient(*fit, DayTerm::x) == Approx(900.5).margin(0.2));
+    CHECK(fit->coefficients.at(static_cast<std::size_t>(DayTerm::x)).standard_error ==
+          Approx(1.0).margin(0.01));
+    CHECK(fit->coefficients.at(static_cast<std::size_t>(DayTerm::level)).standard_error <=
+          Approx(2.0));
+    CHECK(usual->coefficients.at(static_cast<std::size_t>(DayTerm::x)).standard_error > 50.0);
+    // Estimates are the prior's mean moved by the shift.
+    const DayPriors::Vector moved = priors.mean + priors.factor * fit->shift;
+    CHECK(moved(level) == Approx(coefficient(*fit, DayTerm::level)));
+    CHECK(moved(slow) == Approx(coefficient(*fit, DayTerm::slow)));
+    CHECK(std::exp(moved(0)) == Approx(fit->fast_lag_s));
+    const DayPriors::Matrix left =
+        priors.factor * fit->shift_covariance * priors.factor.transpose();
+    CHECK(std::sqrt(left(slow, slow)) ==
+          Approx(fit->coefficients.at(static_cast<std::size_t>(DayTerm::slow)).standard_error));
+}
+
+TEST_CASE("a measurement may be as exact as it likes", "[day]") {
+    const auto x = DayPriors::place_of(DayTerm::x);
+    for (const double variance : {1.0, 1e-10, 1e-20}) {
+        DayPriors priors = usual_day_priors();
+        priors.observe({x}, Eigen::VectorXd::Constant(1, 900.0),
+                       Eigen::MatrixXd::Constant(1, 1, variance));
+        CHECK(priors.factor(x, x) == Approx(std::sqrt(variance)).epsilon(1e-5));
+        CHECK(priors.factor.allFinite());
+        CHECK(priors.mean(x) == Approx(900.0).margin(1e-3));
+    }
+}
+
+TEST_CASE("a lag that is tied to a slope takes it along", "[day]") {
+    // The fast lag's logarithm moves by 1 when the slope does by 10.
+    const MadeUpDay day;
+    DayPriors priors = usual_day_priors();
+    Eigen::Matrix2d covariance;
+    covariance << 0.04, 0.4, 0.4, 4.0 + 1e-6;
+    priors.observe({0, DayPriors::place_of(DayTerm::fast)}, Eigen::Vector2d(std::log(45.0), 7.0),
+                   covariance);
+    const auto fit = fit_day(day.record(), MadeUpDay::stations(), nullptr, priors);
+    REQUIRE(fit);
+    CHECK(std::log(fit->fast_lag_s / 45.0) * 10.0 ==
+          Approx(coefficient(*fit, DayTerm::fast) - 7.0).margin(0.01));
+    CHECK(fit->fast_lag_s == Approx(day.fast_lag_s).epsilon(0.01));
+}

@@ -1,0 +1,88 @@
+#pragma once
+/// @file
+/// A day of set-ups whose readings follow the model exactly, noise apart.
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "corrector/whole_day/day_columns.hpp"
+#include "corrector/whole_day/day_model.hpp"
+
+namespace a351::corrector {
+
+struct MadeUpDay {
+    double level = -15.0, slow = -25.0, fast = 9.0, drift = 0.4, warm_up = 12.0, x = 900.0;
+    double fast_lag_s = 55.0, slow_lag_s = 2200.0;
+    double constant = 1838.0;
+    double placement_mgal = 0.0, white_mgal = 1e-4;
+
+    static constexpr std::size_t kSetUps = 16;
+    static constexpr std::size_t kBins = 14;
+
+    [[nodiscard]] static UtcTime start() { return *parse_rfc3339("2026-05-01T00:00:00Z"); }
+
+    /// Ten hours at 2 s: a daily course and faster waves.
+    [[nodiscard]] static TimeSeries<DegC> temperature() {
+        std::vector<double> degc(18000);
+        for (std::size_t i = 0; i < degc.size(); ++i) {
+            const double t_h = static_cast<double>(i) / 1800.0;
+            degc[i] = 42.5 + 0.3 * std::sin(0.6 * t_h) + 0.08 * std::sin(5.0 * t_h) +
+                      0.01 * std::sin(2.0 * std::numbers::pi * t_h * 4.0);
+        }
+        return {start(), Hertz(0.5), degc};
+    }
+
+    [[nodiscard]] static double gravity_mgal(std::size_t set_up) {
+        return 979900.0 + 13.0 * static_cast<double>(set_up % 11);
+    }
+
+    [[nodiscard]] DayRecord record(std::uint64_t seed = 1) const {
+        DayRecord day{{temperature(), 0.0}, {}};
+        std::mt19937_64 random(seed);
+        std::normal_distribution<double> normal;
+        for (std::size_t s = 0; s < kSetUps; ++s) {
+            const StandardGravity tilt(0.002 * normal(random));
+            for (std::size_t b = 0; b < kBins; ++b) {
+                DayBin bin;
+                bin.set_up = s;
+                for (std::size_t i = 0; i < kBinSamples; ++i)
+                    bin.times.push_back(
+                        start() + from_seconds(3600.0 * (2.0 + 0.5 * static_cast<double>(s)) +
+                                               2.0 * static_cast<double>(b * kBinSamples + i)));
+                bin.time = bin.times[kBinSamples / 2];
+                bin.x = tilt;
+                day.bins.push_back(bin);
+            }
+        }
+        const BinMeans means(day.temperature.series, day.bins);
+        const auto& degc = day.temperature.series;
+        const auto level_degc = means.of(degc.values());
+        const auto fast_degc = means.of(lagged(degc, fast_lag_s));
+        const auto slow_degc = means.of(lagged(degc, slow_lag_s));
+        const UtcTime middle =
+            day.bins.front().time + (day.bins.back().time - day.bins.front().time) / 2;
+        double placement = 0.0;
+        for (std::size_t i = 0; i < day.bins.size(); ++i) {
+            DayBin& bin = day.bins[i];
+            const auto k = static_cast<Eigen::Index>(i);
+            if (i % kBins == 0) placement = placement_mgal * normal(random);
+            bin.reading = MilliGal(
+                gravity_mgal(bin.set_up) + constant + level * (level_degc(k) - 42.5) +
+                fast * 3600.0 * (level_degc(k) - fast_degc(k)) / fast_lag_s +
+                slow * (slow_degc(k) - 42.5) + drift * seconds_between(middle, bin.time) / 3600.0 +
+                warm_up * std::exp(-seconds_between(start(), bin.time) / 9000.0) +
+                x * bin.x.value() + placement + white_mgal * normal(random));
+        }
+        return day;
+    }
+
+    [[nodiscard]] static std::vector<DayStation> stations() {
+        std::vector<DayStation> all;
+        for (std::size_t s = 0; s < kSetUps; ++s)
+            all.push_back({MilliGal(0.0), MilliGal(gravity_mgal(s)), 0});
+        return all;
+    }
+};
+
+}  // namespace a351::corrector

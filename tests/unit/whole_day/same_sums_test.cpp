@@ -1,0 +1,23 @@
+#include <Eigen/Core>
+#include "corrector/whole_day/search_grid.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace a351::corrector;
+
+TEST_CASE("Eigen sums in the same order on every processor", "[day]") {
+#ifdef EIGEN_VECTORIZE
+    FAIL("Eigen uses the vectors of this architecture");
+#endif
+    CHECK(Eigen::l1CacheSize() == 32768);
+    CHECK(Eigen::l2CacheSize() == 262144);
+    CHECK(Eigen::l3CacheSize() == 2097152);
+}
+
+TEST_CASE("where a search looks and what it sees does not depend on last bits", "[day]") {
+    for (const double value : {0.3, -1.7, 11.25, 1e-9}) {
+        CHECK(search_point(value) == search_point(value * (1.0 + 1e-13)));
+        CHECK(search_point(value) == Approx(value).margin(3.1e-5));
+        CHECK(search_cost(100.0 * value) == search_cost(100.0 * value * (1.0 + 1e-13)));
+        CHECK(search_cost(100.0 * value) == Approx(100.0 * value).margin(1e-8));
+    }
+}
