@@ -24,7 +24,7 @@
 #include "daemon/page/assets.hpp"
 #include "daemon/page/message.hpp"
 #include "daemon/page/page_use.hpp"
-#include "daemon/page/status.hpp"
+#include "daemon/status/status.hpp"
 #include "daemon/survey/occupations.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "protocol/events/event_log.hpp"

@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string_view>
 
-#include "daemon/page/status.hpp"
+#include "daemon/status/status.hpp"
 #include "daemon/survey/field_status.hpp"
 #include "daemon/survey/occupations.hpp"
 #include "protocol/events/event_log.hpp"

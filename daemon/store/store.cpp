@@ -4,7 +4,7 @@
 #include <system_error>
 #include <utility>
 
-#include "daemon/store/assess.hpp"
+#include "daemon/status/assess.hpp"
 #include "protocol/archive/time_gate.hpp"
 
 namespace a351::daemon {

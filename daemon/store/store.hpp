@@ -10,9 +10,9 @@
 #include <mutex>
 #include <string>
 
-#include "daemon/page/status.hpp"
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/read_queue.hpp"
+#include "daemon/status/status.hpp"
 #include "daemon/store/archive_thread.hpp"
 #include "daemon/store/chunk_queue.hpp"
 #include "daemon/store/data_root.hpp"

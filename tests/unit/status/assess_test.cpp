@@ -1,4 +1,4 @@
-#include "daemon/store/assess.hpp"
+#include "daemon/status/assess.hpp"
 
 #include "tests/support/catch.hpp"
 

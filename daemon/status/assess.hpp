@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "daemon/page/status.hpp"
 #include "daemon/source/oven_link.hpp"
 #include "daemon/source/sensor_link.hpp"
+#include "daemon/status/status.hpp"
 
 namespace a351::daemon {
 

@@ -1,4 +1,4 @@
-#include "daemon/store/status_log.hpp"
+#include "daemon/status/status_log.hpp"
 
 #include <spdlog/spdlog.h>
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "daemon/page/status.hpp"
+#include "daemon/status/status.hpp"
 
 namespace spdlog {
 class logger;

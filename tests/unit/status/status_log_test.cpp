@@ -1,4 +1,4 @@
-#include "daemon/store/status_log.hpp"
+#include "daemon/status/status_log.hpp"
 
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
