@@ -1,6 +1,6 @@
 #include "corrector/command/figures_option.hpp"
 
-#include "corrector/report/drawing.hpp"
+#include "corrector/figure/drawing.hpp"
 
 namespace a351::corrector {
 

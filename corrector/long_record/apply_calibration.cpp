@@ -6,8 +6,8 @@
 #include <complex>
 #include <limits>
 
-#include "corrector/long_record/fourier.hpp"
-#include "corrector/long_record/regression.hpp"
+#include "corrector/correlation/fourier.hpp"
+#include "corrector/correlation/regression.hpp"
 #include "corrector/whole_day/day_columns.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"

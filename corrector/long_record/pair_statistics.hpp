@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "corrector/long_record/cross_correlation.hpp"
-#include "corrector/long_record/regression.hpp"
+#include "corrector/correlation/cross_correlation.hpp"
+#include "corrector/correlation/regression.hpp"
 
 namespace a351::corrector {
 

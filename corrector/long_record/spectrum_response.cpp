@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "corrector/long_record/fourier.hpp"
-#include "corrector/long_record/regression.hpp"
+#include "corrector/correlation/fourier.hpp"
+#include "corrector/correlation/regression.hpp"
 #include "corrector/long_record/response.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "corrector/long_record/fourier.hpp"
-#include "corrector/long_record/regression.hpp"
+#include "corrector/correlation/fourier.hpp"
+#include "corrector/correlation/regression.hpp"
 #include "corrector/whole_day/day_columns.hpp"
 #include "corrector/whole_day/search_grid.hpp"
 #include "protocol/core/units.hpp"

@@ -1,6 +1,6 @@
 #include "corrector/report/html.hpp"
 
-#include "corrector/report/escaping.hpp"
+#include "corrector/figure/escaping.hpp"
 
 namespace a351::corrector {
 namespace {

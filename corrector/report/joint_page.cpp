@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corrector/report/escaping.hpp"
+#include "corrector/figure/escaping.hpp"
 #include "corrector/report/html.hpp"
 #include "corrector/result/joint_table.hpp"
 #include "protocol/text/aligned_text.hpp"

@@ -2,11 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "corrector/figure/applied_figures.hpp"
+#include "corrector/figure/escaping.hpp"
+#include "corrector/figure/long_record_figures.hpp"
 #include "corrector/long_record/applied_tables.hpp"
-#include "corrector/report/applied_figures.hpp"
-#include "corrector/report/escaping.hpp"
 #include "corrector/report/html.hpp"
-#include "corrector/report/long_record_figures.hpp"
 #include "corrector/report/page_parts.hpp"
 #include "corrector/report/result_tables.hpp"
 #include "protocol/text/aligned_text.hpp"

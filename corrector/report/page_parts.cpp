@@ -1,7 +1,7 @@
 #include "corrector/report/page_parts.hpp"
 
-#include "corrector/report/escaping.hpp"
-#include "corrector/report/inline_svg.hpp"
+#include "corrector/figure/escaping.hpp"
+#include "corrector/figure/inline_svg.hpp"
 #include "protocol/text/write_together.hpp"
 
 namespace a351::corrector {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "corrector/report/drawing.hpp"
+#include "corrector/figure/drawing.hpp"
 #include "protocol/text/write_together.hpp"
 
 namespace a351::corrector {

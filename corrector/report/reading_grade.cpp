@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "corrector/figure/reading_name.hpp"
 #include "corrector/model/outlier_tests.hpp"
 #include "corrector/report/closure.hpp"
-#include "corrector/report/reading_name.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {

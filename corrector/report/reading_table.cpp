@@ -2,8 +2,8 @@
 
 #include <functional>
 
+#include "corrector/figure/reading_name.hpp"
 #include "corrector/report/html.hpp"
-#include "corrector/report/reading_name.hpp"
 #include "corrector/result/table_text.hpp"
 #include "protocol/text/aligned_text.hpp"
 

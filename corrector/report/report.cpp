@@ -2,17 +2,17 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corrector/report/drawing.hpp"
-#include "corrector/report/escaping.hpp"
+#include "corrector/figure/drawing.hpp"
+#include "corrector/figure/escaping.hpp"
+#include "corrector/figure/map_figure.hpp"
+#include "corrector/figure/record_figures.hpp"
+#include "corrector/figure/table_figures.hpp"
+#include "corrector/figure/temperature_figure.hpp"
 #include "corrector/report/html.hpp"
-#include "corrector/report/map_figure.hpp"
 #include "corrector/report/page_parts.hpp"
 #include "corrector/report/reading_table.hpp"
-#include "corrector/report/record_figures.hpp"
 #include "corrector/report/result_tables.hpp"
 #include "corrector/report/summary.hpp"
-#include "corrector/report/table_figures.hpp"
-#include "corrector/report/temperature_figure.hpp"
 
 namespace a351::corrector {
 namespace {

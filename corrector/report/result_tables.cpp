@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "corrector/figure/reading_name.hpp"
 #include "corrector/report/closure.hpp"
 #include "corrector/report/html.hpp"
-#include "corrector/report/reading_name.hpp"
 #include "corrector/result/table_text.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/input_file.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "corrector/figure/reading_name.hpp"
 #include "corrector/report/html.hpp"
-#include "corrector/report/reading_name.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {

@@ -2,7 +2,7 @@
 
 #include "tests/support/catch.hpp"
 
-#include "corrector/report/reading_name.hpp"
+#include "corrector/figure/reading_name.hpp"
 
 using namespace a351;
 using namespace a351::corrector;

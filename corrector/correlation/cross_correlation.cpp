@@ -1,10 +1,10 @@
-#include "corrector/long_record/cross_correlation.hpp"
+#include "corrector/correlation/cross_correlation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
-#include "corrector/long_record/regression.hpp"
+#include "corrector/correlation/regression.hpp"
 
 namespace a351::corrector {
 namespace {

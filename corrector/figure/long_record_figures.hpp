@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "corrector/figure/figure.hpp"
 #include "corrector/long_record/record_result.hpp"
-#include "corrector/report/figure.hpp"
 
 namespace a351::corrector {
 

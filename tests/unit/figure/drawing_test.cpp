@@ -1,9 +1,9 @@
-#include "corrector/report/drawing.hpp"
+#include "corrector/figure/drawing.hpp"
 
 #include "tests/support/catch.hpp"
 
-#include "corrector/report/escaping.hpp"
-#include "corrector/report/program_run.hpp"
+#include "corrector/figure/escaping.hpp"
+#include "corrector/figure/program_run.hpp"
 #include "tests/unit/report/path_variable.hpp"
 
 using namespace a351;

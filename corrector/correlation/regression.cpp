@@ -1,4 +1,4 @@
-#include "corrector/long_record/regression.hpp"
+#include "corrector/correlation/regression.hpp"
 
 #include <algorithm>
 #include <cmath>

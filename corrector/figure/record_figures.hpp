@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "corrector/figure/figure.hpp"
 #include "corrector/model/survey_correction.hpp"
 #include "corrector/reading/representative_value.hpp"
-#include "corrector/report/figure.hpp"
 
 namespace a351::corrector {
 

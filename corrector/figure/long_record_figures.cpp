@@ -1,4 +1,4 @@
-#include "corrector/report/long_record_figures.hpp"
+#include "corrector/figure/long_record_figures.hpp"
 
 #include <algorithm>
 #include <cmath>

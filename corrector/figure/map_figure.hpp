@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "corrector/figure/figure.hpp"
 #include "corrector/model/survey_correction.hpp"
-#include "corrector/report/figure.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::corrector {

@@ -1,10 +1,10 @@
-#include "corrector/report/map_figure.hpp"
+#include "corrector/figure/map_figure.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "corrector/report/escaping.hpp"
+#include "corrector/figure/escaping.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
 

@@ -1,11 +1,11 @@
-#include "corrector/report/record_figures.hpp"
+#include "corrector/figure/record_figures.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "corrector/eemd/extrema.hpp"
-#include "corrector/report/escaping.hpp"
-#include "corrector/report/reading_name.hpp"
+#include "corrector/figure/escaping.hpp"
+#include "corrector/figure/reading_name.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {

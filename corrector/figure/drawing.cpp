@@ -1,4 +1,4 @@
-#include "corrector/report/drawing.hpp"
+#include "corrector/figure/drawing.hpp"
 
 #include <stdlib.h>
 
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "corrector/report/program_run.hpp"
+#include "corrector/figure/program_run.hpp"
 #include "protocol/text/text_file.hpp"
 
 namespace a351::corrector {

@@ -2,10 +2,10 @@
 #include <regex>
 #include "tests/support/catch.hpp"
 
-#include "corrector/report/map_figure.hpp"
-#include "corrector/report/record_figures.hpp"
-#include "corrector/report/table_figures.hpp"
-#include "corrector/report/temperature_figure.hpp"
+#include "corrector/figure/map_figure.hpp"
+#include "corrector/figure/record_figures.hpp"
+#include "corrector/figure/table_figures.hpp"
+#include "corrector/figure/temperature_figure.hpp"
 #include "tests/golden/tsukuba_table.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 

@@ -4,7 +4,7 @@
 #include <complex>
 #include <numbers>
 
-#include "corrector/report/long_record_figures.hpp"
+#include "corrector/figure/long_record_figures.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
 

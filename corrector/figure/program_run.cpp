@@ -1,4 +1,4 @@
-#include "corrector/report/program_run.hpp"
+#include "corrector/figure/program_run.hpp"
 
 #include <fcntl.h>
 #include <poll.h>

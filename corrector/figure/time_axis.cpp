@@ -1,8 +1,8 @@
-#include "corrector/report/time_axis.hpp"
+#include "corrector/figure/time_axis.hpp"
 
 #include <chrono>
 
-#include "corrector/report/escaping.hpp"
+#include "corrector/figure/escaping.hpp"
 
 namespace a351::corrector {
 

@@ -1,8 +1,8 @@
-#include "corrector/long_record/fourier.hpp"
+#include "corrector/correlation/fourier.hpp"
 
 #include <unsupported/Eigen/FFT>
 
-#include "corrector/long_record/regression.hpp"
+#include "corrector/correlation/regression.hpp"
 
 namespace a351::corrector {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "corrector/report/figure.hpp"
+#include "corrector/figure/figure.hpp"
 #include "corrector/result/result_files.hpp"
 #include "protocol/text/write_together.hpp"
 

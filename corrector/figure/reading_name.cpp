@@ -1,4 +1,4 @@
-#include "corrector/report/reading_name.hpp"
+#include "corrector/figure/reading_name.hpp"
 
 namespace a351::corrector {
 

@@ -1,4 +1,4 @@
-#include "corrector/report/escaping.hpp"
+#include "corrector/figure/escaping.hpp"
 
 #include "tests/support/catch.hpp"
 

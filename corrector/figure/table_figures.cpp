@@ -1,12 +1,12 @@
-#include "corrector/report/table_figures.hpp"
+#include "corrector/figure/table_figures.hpp"
 
 #include <algorithm>
 #include <functional>
 
+#include "corrector/figure/escaping.hpp"
+#include "corrector/figure/reading_name.hpp"
+#include "corrector/figure/time_axis.hpp"
 #include "corrector/model/linear_fit.hpp"
-#include "corrector/report/escaping.hpp"
-#include "corrector/report/reading_name.hpp"
-#include "corrector/report/time_axis.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {

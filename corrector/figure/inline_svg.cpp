@@ -1,4 +1,4 @@
-#include "corrector/report/inline_svg.hpp"
+#include "corrector/figure/inline_svg.hpp"
 
 #include <cstring>
 #include <pugixml.hpp>

@@ -1,4 +1,4 @@
-#include "corrector/report/figure.hpp"
+#include "corrector/figure/figure.hpp"
 
 #include <cmath>
 

@@ -1,10 +1,10 @@
-#include "corrector/report/temperature_figure.hpp"
+#include "corrector/figure/temperature_figure.hpp"
 
 #include <chrono>
 
-#include "corrector/report/escaping.hpp"
-#include "corrector/report/reading_name.hpp"
-#include "corrector/report/time_axis.hpp"
+#include "corrector/figure/escaping.hpp"
+#include "corrector/figure/reading_name.hpp"
+#include "corrector/figure/time_axis.hpp"
 
 namespace a351::corrector {
 

@@ -1,9 +1,9 @@
-#include "corrector/report/applied_figures.hpp"
+#include "corrector/figure/applied_figures.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "corrector/long_record/regression.hpp"
+#include "corrector/correlation/regression.hpp"
 #include "protocol/core/units.hpp"
 
 namespace a351::corrector {

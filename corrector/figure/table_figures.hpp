@@ -5,8 +5,8 @@
 
 #include <vector>
 
+#include "corrector/figure/figure.hpp"
 #include "corrector/model/survey_correction.hpp"
-#include "corrector/report/figure.hpp"
 
 namespace a351::corrector {
 

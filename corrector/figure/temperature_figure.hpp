@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "corrector/figure/figure.hpp"
 #include "corrector/model/survey_correction.hpp"
 #include "corrector/reading/temperature_course.hpp"
-#include "corrector/report/figure.hpp"
 
 namespace a351::corrector {
 

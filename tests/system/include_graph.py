@@ -1,0 +1,44 @@
+"""The rooms of the product include each other as the map in CONTRIBUTING.md says, and never upwards."""
+
+import collections
+import re
+
+from programs import TOP, demand
+
+COMPONENTS = ("protocol", "daemon", "sim", "corrector")
+MOST_MODULES = 22  # More than a reader keeps in view; the largest rooms have as many today.
+ROW = re.compile(r"^\| `([a-z0-9_/]+)` \|[^|]*\|([^|]*)\|$", re.MULTILINE)
+INCLUDE = re.compile(r'^#include "([^"]+)/[^/"]+"', re.MULTILINE)
+
+
+def rooms_of_map():
+    """Returns the rooms in the order of the map, each with the rooms that it may include."""
+    text = (TOP / "CONTRIBUTING.md").read_text()
+    return {room: set(re.findall(r"`([a-z0-9_/]+)`", below)) for room, below in ROW.findall(text)}
+
+
+def rooms_of_sources():
+    """Returns the rooms with the rooms that their sources include, and with their modules."""
+    below, modules = collections.defaultdict(set), collections.defaultdict(set)
+    for component in COMPONENTS:
+        for source in (TOP / component).rglob("*.[ch]pp"):
+            room = source.parent.relative_to(TOP).as_posix()
+            modules[room].add(source.stem)
+            below[room] |= set(INCLUDE.findall(source.read_text())) - {room}
+    return below, modules
+
+
+allowed = rooms_of_map()
+included, modules = rooms_of_sources()
+demand(f"every one of {len(modules)} rooms is on the map, and no other", set(allowed) == set(modules))
+above = set(allowed)
+for room, below in allowed.items():
+    above.discard(room)
+    demand(f"{room} includes what the map says: not on the map {sorted(included[room] - below)}, "
+           f"no longer included {sorted(below - included[room])}", included[room] == below)
+    demand(f"{room} includes no room of a later row", not below & above and room not in below)
+largest = max(modules, key=lambda room: len(modules[room]))
+demand(f"the largest room is {largest} with {len(modules[largest])} modules, must be at most {MOST_MODULES}",
+       len(modules[largest]) <= MOST_MODULES)
+arrows = sum(len(below) for below in included.values())
+print(f"{len(modules)} rooms, {arrows} arrows, {sum(len(one) for one in modules.values())} modules")
