@@ -5,7 +5,6 @@
 #include <span>
 
 #include "corrector/reading/disturbance.hpp"
-#include "corrector/reading/lowered_rate.hpp"
 #include "corrector/reading/smoother.hpp"
 #include "protocol/signal/decimation.hpp"
 
@@ -62,12 +61,8 @@ void bridge(std::vector<double>& values, std::size_t before, std::size_t after) 
 
 }  // namespace
 
-std::vector<DayBin> bin_set_up(std::size_t set_up, const OccupationRecord& record,
-                               double threshold) {
-    const DecimationFilter filter = design_decimation(kFactor);
-    const auto x = decimate(record.x, filter, kStages), y = decimate(record.y, filter, kStages),
-               z = decimate(record.z, filter, kStages);
-    const TimeSeries<StandardGravity> size = norm(x, y, z);
+std::vector<DayBin> bin_set_up(std::size_t set_up, const DecimatedAxes& axes, double threshold) {
+    const TimeSeries<StandardGravity> size = norm(axes.x, axes.y, axes.z);
     const std::vector<bool> is_quiet = quiet_samples(size.values(), threshold);
 
     std::vector<DayBin> bins;
@@ -82,8 +77,8 @@ std::vector<DayBin> bin_set_up(std::size_t set_up, const OccupationRecord& recor
             bin.times.push_back(size.time_of(static_cast<double>(i)));
             after_s += seconds_between(size.start(), bin.times.back());
             reading_g += size.values()[i] - 1.0;
-            x_g += x.values()[i];
-            y_g += y.values()[i];
+            x_g += axes.x.values()[i];
+            y_g += axes.y.values()[i];
         }
         if (bin.times.size() < kFewestOfBin) continue;
         const auto n = static_cast<double>(bin.times.size());
@@ -100,7 +95,8 @@ std::optional<DayTemperature> day_temperature(const TimeSeries<DegC>& raw) {
     const TimeSeries<DegC> decimated = decimate(raw, design_decimation(kFactor), kStages);
     const double cutoff = kCutoff_s * decimated.rate().value();
     std::vector<double> values = decimated.values();
-    const std::vector<Stretch> runs = runs_between_gaps(values, static_cast<std::size_t>(cutoff) / 2);
+    const std::vector<Stretch> runs =
+        runs_between_gaps(values, static_cast<std::size_t>(cutoff) / 2);
     std::size_t valid = 0, longest_gap = 0;
     for (const Stretch& run : runs) {
         valid += run.behind - run.first;

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "corrector/reading/representative_value.hpp"
+#include "corrector/reading/decimated_axes.hpp"
 #include "protocol/core/time_series.hpp"
 #include "protocol/core/units.hpp"
 
@@ -27,9 +27,8 @@ inline constexpr std::size_t kBinSamples = 25;
 /// The bins of a set-up, those with fewer than eight samples left out.  A sample takes part where all
 /// axes are valid and no disturbance (find_disturbances()) is nearer than 10 s, the reach of the
 /// decimation filters.
-/// @param record     at the sensor's rate.
 /// @param threshold  of a disturbance, > 0.
-[[nodiscard]] std::vector<DayBin> bin_set_up(std::size_t set_up, const OccupationRecord& record,
+[[nodiscard]] std::vector<DayBin> bin_set_up(std::size_t set_up, const DecimatedAxes& axes,
                                              double threshold);
 
 /// The course of the temperature: decimated to 1/100 of the rate and smoothed with a cut-off of

@@ -185,17 +185,20 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     const auto average = [&](std::size_t i) {
         const OccupationWindow& window = stays.list.windows[i];
         const auto record = cut_occupation(samples, stays.channels, window.start, window.end);
-        auto& value = values[i];
-        if (record) value = representative_value(*record, source.averaging);
         if (!record) {
             troubles[i] = "no samples";
-        } else if (!value) {
+            return;
+        }
+        const DecimatedAxes axes = decimate_axes(*record);
+        auto& value = values[i];
+        value = representative_value(*record, axes, source.averaging);
+        if (!value) {
             troubles[i] = "too few samples in a row";
         } else if (!value->temperature) {
             troubles[i] = "no temperature";
         } else {
             rows[i] = row_of(window, *value);
-            bins[i] = bin_set_up(0, *record, source.averaging.disturbance_threshold);
+            bins[i] = bin_set_up(0, axes, source.averaging.disturbance_threshold);
         }
     };
     on_all_cores(list.windows.size(), average, progress);

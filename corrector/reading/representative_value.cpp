@@ -8,7 +8,6 @@
 #include <string>
 
 #include "corrector/reading/disturbance.hpp"
-#include "corrector/reading/lowered_rate.hpp"
 #include "corrector/reading/interval.hpp"
 #include "corrector/reading/smoother.hpp"
 
@@ -156,11 +155,11 @@ std::string_view flag_name(OccupationFlag flag) noexcept {
 }
 
 std::optional<RepresentativeValue> representative_value(const OccupationRecord& record,
+                                                        const DecimatedAxes& axes,
                                                         const RepresentativeOptions& options) {
     validate(options);
     const DecimationFilter filter = design_decimation(kFactor);
-    TimeSeries<MilliGal> series =
-        decimated_norm(record.x, record.y, record.z, options.norm, filter, kStages);
+    TimeSeries<MilliGal> series = gravity_series(record, axes, options.norm);
     const TimeSeries<DegC> temperature = decimate_temperature(record, filter);
     const Run run = longest_valid_run(series.values());
     if (run.size < kShortestRun) return std::nullopt;
@@ -191,8 +190,9 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
         return MilliGal(mean(std::span(values).subspan(interval.first, length)));
     };
 
-    const auto summarise = [&](const TimeSeries<StandardGravity>& axis) {
-        return summarise_axis(axis, decimate(axis, filter, kStages), kRatio, first, last);
+    const auto summarise = [&](const TimeSeries<StandardGravity>& axis,
+                               const TimeSeries<StandardGravity>& decimated) {
+        return summarise_axis(axis, decimated, kRatio, first, last);
     };
     const std::vector<std::size_t> present = count_present(record);
     const auto temperature_summary = summarise_temperature(temperature, first, last);
@@ -213,9 +213,9 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
                           temperature_summary.has_value(),
                           options.trend == TrendMethod::eemd || smoothed.converged),
         .counts = count_samples(present, series.size(), reach_of(filter)),
-        .x = summarise(record.x),
-        .y = summarise(record.y),
-        .z = summarise(record.z),
+        .x = summarise(record.x, axes.x),
+        .y = summarise(record.y, axes.y),
+        .z = summarise(record.z, axes.z),
         .rectification = {},
         .noise_level = MilliGal(trend.noise_level),
         .series = series,

@@ -8,23 +8,14 @@
 #include <string_view>
 #include <vector>
 
+#include "corrector/reading/decimated_axes.hpp"
 #include "corrector/reading/interval_statistics.hpp"
 #include "corrector/reading/trend_curve.hpp"
 #include "protocol/core/time_series.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
-#include "protocol/signal/norm.hpp"
 
 namespace a351::corrector {
-
-/// What was recorded at a site.  Missing samples are NaN.  The axes hold the occupation and nothing
-/// beyond it; the temperature may begin earlier and end later, on the same grid of instants.
-struct OccupationRecord {
-    TimeSeries<StandardGravity> x;  ///< Horizontal.
-    TimeSeries<StandardGravity> y;  ///< Horizontal.
-    TimeSeries<StandardGravity> z;  ///< Along gravity.
-    TimeSeries<DegC> temperature;
-};
 
 /// Of the smoother's cut-off.  Shorter is no trend; longer than an occupation's waves it bends them,
 /// and at 10 Hz its samples would be too many.
@@ -90,6 +81,7 @@ struct RepresentativeValue {
 /// pulses, decomposes that (EEMD of 80 members, noise ratio 0.1, ten sifts) and smooths it, chooses the
 /// interval by the trend curve and averages both curves over it.
 ///
+/// @param axes  decimate_axes(record).
 /// @return std::nullopt when that part has fewer than 16 samples (32 s at 50 Hz): too short.
 /// @throws std::invalid_argument  the axes, or axes and temperature, are not on one grid; an option
 ///                                is out of range.
@@ -97,6 +89,7 @@ struct RepresentativeValue {
 /// basic performances of accelerometer with crystal oscillator" (in Japanese).  Departs from it by
 /// default in the order of norm and decimation, in the trend curve and in its mirrored ends (eemd.md).
 [[nodiscard]] std::optional<RepresentativeValue> representative_value(
-    const OccupationRecord& record, const RepresentativeOptions& options = {});
+    const OccupationRecord& record, const DecimatedAxes& axes,
+    const RepresentativeOptions& options = {});
 
 }  // namespace a351::corrector

@@ -6,12 +6,6 @@
 namespace a351::corrector {
 namespace {
 
-TimeSeries<MilliGal> in_milligal(const TimeSeries<StandardGravity>& series) {
-    std::vector<double> values_mgal = series.values();
-    for (double& value : values_mgal) value *= kMilliGalPerStandardGravity;
-    return {series.start(), series.rate(), std::move(values_mgal)};
-}
-
 bool same_grid(const TimeSeries<StandardGravity>& a, const TimeSeries<StandardGravity>& b) {
     return a.start() == b.start() && a.rate() == b.rate() && a.size() == b.size();
 }
@@ -32,17 +26,6 @@ TimeSeries<StandardGravity> norm(const TimeSeries<StandardGravity>& x,
         values[i] = std::sqrt(a * a + b * b + c * c);
     }
     return {x.start(), x.rate(), std::move(values)};
-}
-
-TimeSeries<MilliGal> decimated_norm(const TimeSeries<StandardGravity>& x,
-                                    const TimeSeries<StandardGravity>& y,
-                                    const TimeSeries<StandardGravity>& z, NormOrder order,
-                                    const DecimationFilter& filter, int stages) {
-    if (order == NormOrder::as_published) {
-        return in_milligal(decimate(norm(x, y, z), filter, stages));
-    }
-    return in_milligal(norm(decimate(x, filter, stages), decimate(y, filter, stages),
-                            decimate(z, filter, stages)));
 }
 
 MilliGal rectification_bias(MilliGal rms_x, MilliGal rms_y, MilliGal gravity) {

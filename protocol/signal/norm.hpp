@@ -4,7 +4,6 @@
 
 #include "protocol/core/time_series.hpp"
 #include "protocol/core/units.hpp"
-#include "protocol/signal/decimation.hpp"
 
 namespace a351::corrector {
 
@@ -13,21 +12,6 @@ namespace a351::corrector {
 [[nodiscard]] TimeSeries<StandardGravity> norm(const TimeSeries<StandardGravity>& x,
                                                const TimeSeries<StandardGravity>& y,
                                                const TimeSeries<StandardGravity>& z);
-
-/// What comes first.  The norm of samples that vibrate sideways is too large by
-/// rectification_bias(), and no later filter takes that away.
-enum class NormOrder {
-    decimate_first,  ///< Norm of the decimated axes: free of that bias.
-    as_published,    ///< Decimated norm of the raw axes.
-};
-
-/// Magnitude of gravity at rate / M^stages.
-/// @throws std::invalid_argument  the axes differ in start, rate or length.
-[[nodiscard]] TimeSeries<MilliGal> decimated_norm(const TimeSeries<StandardGravity>& x,
-                                                  const TimeSeries<StandardGravity>& y,
-                                                  const TimeSeries<StandardGravity>& z,
-                                                  NormOrder order, const DecimationFilter& filter,
-                                                  int stages);
 
 /// How much the mean of a norm of raw samples exceeds gravity, to second order in the vibration:
 ///

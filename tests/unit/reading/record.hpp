@@ -52,6 +52,11 @@ OccupationRecord make_record(double seconds, Level level, Temperature temperatur
             TimeSeries<DegC>(kSiteStart - from_seconds(lead_s), Hertz(50.0), std::move(degc))};
 }
 
+inline std::optional<RepresentativeValue> value_of(const OccupationRecord& record,
+                                                   const RepresentativeOptions& options = {}) {
+    return representative_value(record, decimate_axes(record), options);
+}
+
 /// The same axis with the samples first..last missing.
 template <class Unit>
 TimeSeries<Unit> without(const TimeSeries<Unit>& series, std::size_t first, std::size_t last) {

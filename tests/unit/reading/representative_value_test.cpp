@@ -34,7 +34,7 @@ OccupationRecord with_pulse(OccupationRecord record, double begin_s, double leng
 }  // namespace
 
 TEST_CASE("a constant without noise comes back as it is") {
-    const auto value = representative_value(make_record(900, kConstantLevel, kConstantTemperature));
+    const auto value = value_of(make_record(900, kConstantLevel, kConstantTemperature));
     REQUIRE(value);
     CHECK(std::abs(value->acceleration.value() - kGravity) < 1e-6);
     CHECK(std::abs(value->series_mean.value() - kGravity) < 1e-6);
@@ -52,8 +52,7 @@ TEST_CASE("a constant without noise comes back as it is") {
 }
 
 TEST_CASE("a constant in noise comes back within its standard error") {
-    const auto value =
-        representative_value(make_record(900, kConstantLevel, kConstantTemperature, 50.0));
+    const auto value = value_of(make_record(900, kConstantLevel, kConstantTemperature, 50.0));
     REQUIRE(value);
     // 50 mGal white at 50 Hz: 50 / sqrt(44 000) = 0.24 mGal for the mean.
     REQUIRE(value->standard_error);
@@ -71,7 +70,7 @@ TEST_CASE("ramps of gravity and temperature come back with their values at mid-i
     const auto record = make_record(
         1200, [](double t) { return kGravity + t / 360.0; },
         [](double t) { return 42.5 + 0.3 * t / 3600.0; }, 0.0, 100.0);
-    const auto value = representative_value(record);
+    const auto value = value_of(record);
     REQUIRE(value);
     const double middle = 600.0;  // samples 5 ... 595 of 2 s
     // What is left of the noise that the decomposition adds, four standard deviations.
@@ -85,9 +84,9 @@ TEST_CASE("ramps of gravity and temperature come back with their values at mid-i
 
 TEST_CASE("temperature beyond the occupation serves its ends and is not shifted by it") {
     const auto degc = [](double t) { return 42.5 + 0.3 * t / 3600.0; };
-    const auto alone = representative_value(make_record(900, kConstantLevel, degc, 20.0, 0.0));
+    const auto alone = value_of(make_record(900, kConstantLevel, degc, 20.0, 0.0));
     for (const double lead_s : {0.02, 7.34, 60.0, 1000.0}) {
-        const auto led = representative_value(make_record(900, kConstantLevel, degc, 20.0, lead_s));
+        const auto led = value_of(make_record(900, kConstantLevel, degc, 20.0, lead_s));
         CHECK(led->temperature->mean.value() == Approx(alone->temperature->mean.value()));
         CHECK(led->temperature->slope_degc_per_h == Approx(0.3).epsilon(1e-6));
     }
@@ -97,9 +96,9 @@ TEST_CASE("temperature on another grid is refused") {
     auto record = make_record(100, kConstantLevel, kConstantTemperature);
     record.temperature =
         TimeSeries<DegC>(kSiteStart + from_seconds(0.01), Hertz(50.0), record.temperature.values());
-    CHECK_THROWS_AS(representative_value(record), std::invalid_argument);
+    CHECK_THROWS_AS(value_of(record), std::invalid_argument);
     record.temperature = TimeSeries<DegC>(kSiteStart, Hertz(25.0), record.temperature.values());
-    CHECK_THROWS_AS(representative_value(record), std::invalid_argument);
+    CHECK_THROWS_AS(value_of(record), std::invalid_argument);
 }
 
 TEST_CASE("disturbed ends and a pulse do not move the value of either trend and are flagged") {
@@ -122,7 +121,7 @@ TEST_CASE("disturbed ends and a pulse do not move the value of either trend and 
     // Noise of 1.8 mGal per 2 s sample, intervals of 5 minutes and more: 0.15 mGal for the mean.
     const double limit = 4.0 * 0.15;
     SECTION("start") {
-        const auto value = representative_value(with_pulse(quiet, 14.0, 10.0, pulse_mgal), options);
+        const auto value = value_of(with_pulse(quiet, 14.0, 10.0, pulse_mgal), options);
         REQUIRE(value);
         CHECK(has(*value, OccupationFlag::disturbed_start));
         CHECK_FALSE(has(*value, OccupationFlag::disturbed_end));
@@ -130,8 +129,7 @@ TEST_CASE("disturbed ends and a pulse do not move the value of either trend and 
         CHECK(std::abs(value->acceleration.value() - mean_level(*value)) < limit);
     }
     SECTION("end") {
-        const auto value =
-            representative_value(with_pulse(quiet, 1170.0, 10.0, pulse_mgal), options);
+        const auto value = value_of(with_pulse(quiet, 1170.0, 10.0, pulse_mgal), options);
         REQUIRE(value);
         CHECK(has(*value, OccupationFlag::disturbed_end));
         CHECK_FALSE(has(*value, OccupationFlag::disturbed_start));
@@ -140,8 +138,7 @@ TEST_CASE("disturbed ends and a pulse do not move the value of either trend and 
         CHECK(std::abs(value->acceleration.value() - mean_level(*value)) < limit);
     }
     SECTION("inside") {
-        const auto value =
-            representative_value(with_pulse(quiet, 300.0, 10.0, pulse_mgal), options);
+        const auto value = value_of(with_pulse(quiet, 300.0, 10.0, pulse_mgal), options);
         REQUIRE(value);
         CHECK(has(*value, OccupationFlag::pulse));
         CHECK(has(*value, OccupationFlag::disturbed_start));
@@ -153,16 +150,16 @@ TEST_CASE("disturbed ends and a pulse do not move the value of either trend and 
 TEST_CASE("a record whose parts between pulses are too short is too short") {
     const auto record = with_pulse(make_record(60, kConstantLevel, kConstantTemperature, 20.0),
                                    30.0, 0.5, 10'000.0);
-    CHECK(representative_value(record));  // all of it lies next to an end: no pulse
+    CHECK(value_of(record));  // all of it lies next to an end: no pulse
     RepresentativeOptions options;
     options.end_margin_s = 0.0;
-    CHECK_FALSE(representative_value(record, options));
+    CHECK_FALSE(value_of(record, options));
 }
 
 TEST_CASE("a gap is not bridged: the longer run is used and the samples are counted") {
     auto record = make_record(900, kConstantLevel, kConstantTemperature, 20.0);
     record.y = without(record.y, 15'000, 15'004);
-    const auto value = representative_value(record);
+    const auto value = value_of(record);
     REQUIRE(value);
     CHECK(has(*value, OccupationFlag::gap));
     CHECK_FALSE(has(*value, OccupationFlag::pulse));
@@ -171,14 +168,13 @@ TEST_CASE("a gap is not bridged: the longer run is used and the samples are coun
     CHECK(value->counts.valid == 441 - 9);
     CHECK(value->counts.valid + value->counts.partial + value->counts.missing == 450);
     record.y = without(record.y, 15'000, 25'000);
-    CHECK(representative_value(record)->counts.missing > 80);
+    CHECK(value_of(record)->counts.missing > 80);
 }
 
 TEST_CASE("a record of fewer than 16 valid samples is too short, one of 16 is not") {
     // 16 outputs 5 ... 20 need raw samples up to 2000 + 451.
     const auto lasting = [](double samples) {
-        return representative_value(
-            make_record(samples / 50.0, kConstantLevel, kConstantTemperature, 20.0));
+        return value_of(make_record(samples / 50.0, kConstantLevel, kConstantTemperature, 20.0));
     };
     CHECK_FALSE(lasting(0));
     CHECK_FALSE(lasting(100));
@@ -190,7 +186,7 @@ TEST_CASE("a record of fewer than 16 valid samples is too short, one of 16 is no
 TEST_CASE("a record without temperature has none, and says so") {
     auto record = make_record(900, kConstantLevel, kConstantTemperature, 20.0);
     record.temperature = without(record.temperature, 0, record.temperature.size() - 1);
-    const auto value = representative_value(record);
+    const auto value = value_of(record);
     REQUIRE(value);
     CHECK_FALSE(value->temperature);
     CHECK(has(*value, OccupationFlag::no_temperature));
@@ -203,8 +199,8 @@ TEST_CASE("the norm order as published carries the rectification bias that it re
                                      level.temperature};
     RepresentativeOptions options;
     options.norm = NormOrder::as_published;
-    const auto published = representative_value(record, options);
-    const auto ours = representative_value(record);
+    const auto published = value_of(record, options);
+    const auto ours = value_of(record);
     CHECK(ours->acceleration.value() == Approx(kGravity).margin(1e-3).epsilon(0));
     CHECK(published->acceleration.value() - ours->acceleration.value() ==
           Approx(published->rectification.value()).epsilon(0.01));
@@ -214,9 +210,9 @@ TEST_CASE("the norm order as published carries the rectification bias that it re
 TEST_CASE("the value is the same on any number of threads") {
     const auto record = make_record(900, kConstantLevel, kConstantTemperature, 50.0);
     RepresentativeOptions options;
-    const auto one = representative_value(record, options);
+    const auto one = value_of(record, options);
     options.threads = 3;
-    const auto three = representative_value(record, options);
+    const auto three = value_of(record, options);
     CHECK(three->curve.values() == one->curve.values());
     CHECK(three->acceleration == one->acceleration);
 }
@@ -227,9 +223,9 @@ TEST_CASE("both trends are averaged over one interval, and the one asked for is 
     };
     auto record = make_record(1200, level, kConstantTemperature, 20.0);
     RepresentativeOptions options;
-    const auto by_eemd = representative_value(record, options);
+    const auto by_eemd = value_of(record, options);
     options.trend = TrendMethod::smoother;
-    const auto by_smoother = representative_value(record, options);
+    const auto by_smoother = value_of(record, options);
     CHECK(by_eemd->acceleration == by_eemd->eemd_mean);
     CHECK(by_smoother->acceleration == by_smoother->smoother_mean);
     // An undisturbed record: the interval is the whole of it for either curve.
@@ -257,8 +253,7 @@ TEST_CASE("a wave of the cut-off period stands half as high in the smoother's tr
     RepresentativeOptions options;
     options.trend = TrendMethod::smoother;
     options.cutoff_s = 100.0;
-    const auto value =
-        representative_value(make_record(1200, level, kConstantTemperature), options);
+    const auto value = value_of(make_record(1200, level, kConstantTemperature), options);
     const auto& curve = value->curve.values();
     const auto middle = curve.begin() + static_cast<std::ptrdiff_t>(curve.size() / 2);
     const auto [least, most] = std::minmax_element(middle - 50, middle + 50);
@@ -276,22 +271,22 @@ TEST_CASE("a value whose weights did not settle is flagged when it is the smooth
     RepresentativeOptions options;
     options.cutoff_s = 24.0;
     options.disturbance_threshold = 1e9;
-    CHECK_FALSE(has(*representative_value(record, options), OccupationFlag::unsettled));
+    CHECK_FALSE(has(*value_of(record, options), OccupationFlag::unsettled));
     options.trend = TrendMethod::smoother;
-    CHECK(has(*representative_value(record, options), OccupationFlag::unsettled));
+    CHECK(has(*value_of(record, options), OccupationFlag::unsettled));
 }
 
 TEST_CASE("an option outside its range is refused") {
     const auto record = make_record(100, kConstantLevel, kConstantTemperature);
     RepresentativeOptions options;
     options.end_margin_s = -1.0;
-    CHECK_THROWS_AS(representative_value(record, options), std::invalid_argument);
+    CHECK_THROWS_AS(value_of(record, options), std::invalid_argument);
     options = {};
     options.disturbance_threshold = 0.0;
-    CHECK_THROWS_AS(representative_value(record, options), std::invalid_argument);
+    CHECK_THROWS_AS(value_of(record, options), std::invalid_argument);
     options = {};
     options.cutoff_s = 501.0;
-    CHECK_THROWS_AS(representative_value(record, options), std::invalid_argument);
+    CHECK_THROWS_AS(value_of(record, options), std::invalid_argument);
 }
 
 TEST_CASE("every flag has the name it has in the enumeration") {

@@ -27,7 +27,7 @@ OccupationRecord still(double seconds) {
 }  // namespace
 
 TEST_CASE("bins hold the mean norm and the mean horizontal axes", "[day]") {
-    const auto bins = bin_set_up(3, still(400.0), 8.0);
+    const auto bins = bin_set_up(3, decimate_axes(still(400.0)), 8.0);
     REQUIRE(bins.size() == 8);
     for (const DayBin& bin : bins) {
         CHECK(bin.set_up == 3);
@@ -45,7 +45,7 @@ TEST_CASE("samples near a disturbance take no part", "[day]") {
     std::vector<double> z = record.z.values();
     for (std::size_t i = 7400; i < 7500; ++i) z[i] += 0.01;  // 148 to 150 s
     record.z = {kStart, kRate, z};
-    for (const DayBin& bin : bin_set_up(0, record, 8.0)) {
+    for (const DayBin& bin : bin_set_up(0, decimate_axes(record), 8.0)) {
         for (const UtcTime time : bin.times)
             CHECK(std::abs(seconds_between(kStart, time) - 149.0) > 10.0);
         CHECK(bin.reading.value() == Approx(979686.0).epsilon(0.0).margin(5.0));
@@ -57,7 +57,7 @@ TEST_CASE("a bin of few samples is left out", "[day]") {
     std::vector<double> z = record.z.values();
     std::fill(z.begin() + 1000, z.begin() + 2600, std::numeric_limits<double>::quiet_NaN());
     record.z = {kStart, kRate, z};
-    const auto bins = bin_set_up(0, record, 8.0);
+    const auto bins = bin_set_up(0, decimate_axes(record), 8.0);
     REQUIRE(bins.size() == 1);
     CHECK(seconds_between(kStart, bins[0].times.front()) > 60.0);
 }
