@@ -81,12 +81,10 @@ double spread(const std::vector<double>& values, double centre, double share) {
 double half_range(double spread_of_98) { return std::max(1.2 * spread_of_98, 1e-3); }
 
 /// What of the record stands for the reading.
-std::string averaged_text(const SurveyCorrection& result, const SurveyRow& row, double mean_mgal) {
-    const auto averaged_s = row.detail("averaged_s");
-    if (result.model != "day" || !averaged_s)
-        return "mean over the interval " + text::fixed(mean_mgal, 3) + " mGal.";
-    return "the model day averages " + text::fixed(*averaged_s, 0) + " s of it to " +
-           text::fixed(row.acceleration.value(), 3) +
+std::string averaged_text(const CorrectedRow& row, double mean_mgal) {
+    if (!row.day) return "mean over the interval " + text::fixed(mean_mgal, 3) + " mGal.";
+    return "the model day averages " + text::fixed(row.day->averaged_s, 0) + " s of it to " +
+           text::fixed(row.row.acceleration.value(), 3) +
            " mGal; trend and interval are what the other models take.";
 }
 
@@ -124,7 +122,7 @@ Figure reading_figure(const SurveyCorrection& result, const ReadingRecord& recor
     return Figure{
         name,
         reading + ", from " + to_rfc3339(value.series.start()) + ": " +
-            averaged_text(result, result.rows[record.row].row, mean_mgal),
+            averaged_text(result.rows[record.row], mean_mgal),
         script_head(name, 480, 300) + "mean = " + text::fixed(mean_mgal, 3) + '\n' + "set title " +
             gnuplot_string(reading) + "\nset xlabel 'Minutes'\nset ylabel " +
             gnuplot_string("Acceleration - " + text::fixed(mean_mgal, 1) + " (mGal)") +

@@ -23,8 +23,8 @@ const std::vector<Eigen::Index> kThermalPlaces{DayPriors::place_of(DayTerm::leve
 
 MilliGal tilt_effect(const SurveyRow& row, const std::optional<AxisBias>& bias) {
     if (!bias) return MilliGal(0.0);
-    return MilliGal(bias->values(0) * row.detail_for("calibration", "mean_x_g") +
-                    bias->values(1) * row.detail_for("calibration", "mean_y_g"));
+    return MilliGal(bias->values(0) * row.record_for("calibration").x.mean.value() +
+                    bias->values(1) * row.record_for("calibration").y.mean.value());
 }
 
 bool is_contradicted(const std::optional<Disagreement>& test) {
@@ -170,8 +170,7 @@ SurveyCorrection correct_with_calibration(const std::vector<SurveyRow>& rows,
         const MilliGal effect = tilt_effect(row.row, calibration.axis_bias);
         row.row.acceleration = row.row.acceleration + effect;
         if (row.difference) row.difference = *row.difference + effect;
-        row.tilt_correction = row.tilt_correction - effect;
-        row.row.set_detail("tilt_correction_mgal", row.tilt_correction.value());
+        row.tilt_correction = row.tilt() - effect;
         sum += effect.value();
         squares += effect.value() * effect.value();
     }

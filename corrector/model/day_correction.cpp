@@ -141,7 +141,7 @@ MilliGal row_uncertainty(const DayFit& fit, const std::vector<DayStation>& stati
 void set_left_out(CorrectedRow& out, MilliGal predicted, MilliGal uncertainty) {
     out.u_corrected = uncertainty;
     if (!out.row.reference) return;
-    out.row.details.back().value = predicted.value();
+    out.day->left_out = predicted;
     out.studentised_residual = (*out.row.reference - predicted).value() / uncertainty.value();
 }
 
@@ -182,11 +182,10 @@ void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits, const Av
     out.drift_correction = -(effect(DayTerm::drift) + effect(DayTerm::warm_up));
     out.tilt_correction = -(effect(DayTerm::x) + effect(DayTerm::y));
     out.corrected = set_up.corrected;
-    out.row.details.push_back({"averaged_s", averaged.seconds()});
-    out.row.details.push_back({"fast_rate_degc_per_h", set_up.rate_degc_per_h});
-    out.row.details.push_back({"tilt_correction_mgal", out.tilt_correction.value()});
-    out.row.details.push_back({"flicker_correction_mgal", -set_up.flicker.value()});
-    out.row.details.push_back({"left_out_mgal", std::nullopt});
+    out.day = WholeDayPart{.averaged_s = averaged.seconds(),
+                           .fast_rate_degc_per_h = set_up.rate_degc_per_h,
+                           .flicker_correction = -set_up.flicker,
+                           .left_out = std::nullopt};
     if (out.row.reference) {
         out.difference = out.row.acceleration - *out.row.reference - out.row.tide;
         out.residual = *out.row.reference - out.corrected;

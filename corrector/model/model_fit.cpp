@@ -131,8 +131,8 @@ Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<Survey
         }
         if (model.has_axes) {
             const std::string wanted_by = "model = " + std::string(kAxesModel.name);
-            columns(i, k++) = row.detail_for(wanted_by, "mean_x_g");
-            columns(i, k) = row.detail_for(wanted_by, "mean_y_g");
+            columns(i, k++) = row.record_for(wanted_by).x.mean.value();
+            columns(i, k) = row.record_for(wanted_by).y.mean.value();
         }
     }
     return columns;

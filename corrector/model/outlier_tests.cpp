@@ -12,12 +12,13 @@ std::string temperature_doubt(const SurveyRow& row) {
     if (std::abs(row.rate_degc_per_h) > kGreatestRate_degc_per_h) {
         reasons = "rate " + text::fixed(row.rate_degc_per_h, 3) + " degC/h";
     }
-    const double range_degc = row.detail("temperature_range_degc").value_or(0.0);
+    if (!row.record) return reasons;
+    const double range_degc = row.record->temperature_range.value();
     if (!(range_degc > kGreatestRange_degc)) return reasons;
     const std::string join = reasons.empty() ? "" : ";";
-    if (row.detail("temperature_is_monotone").value_or(0.0) > 0.0) {
+    if (row.record->temperature_shape == TemperatureShape::monotone) {
         reasons += join + "monotone over " + text::fixed(range_degc, 3) + " degC";
-    } else if (row.detail("temperature_is_half_wave").value_or(0.0) > 0.0) {
+    } else if (row.record->temperature_shape == TemperatureShape::half_wave) {
         reasons += join + "half a wave of " + text::fixed(range_degc, 3) + " degC";
     }
     return reasons;

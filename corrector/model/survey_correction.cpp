@@ -97,7 +97,6 @@ void correct_linear(SurveyCorrection& result, const LinearModel& model, const Ap
         if (model.has_time) out.drift_correction = -effect(k++);
         if (model.has_axes) {
             out.tilt_correction = -(effect(k) + effect(k + 1));
-            out.row.set_detail("tilt_correction_mgal", out.tilt_correction.value());
         }
         out.corrected = out.row.acceleration - out.row.tide - MilliGal(fit.at(x));
         if (out.row.reference) out.residual = *out.row.reference - out.corrected;

@@ -33,6 +33,15 @@ struct SurveyOptions {
     std::optional<Calibration> calibration;  ///< Of the unit.
 };
 
+/// What only the whole-day model tells of a row.
+struct WholeDayPart {
+    double averaged_s = 0.0;  ///< Length of the undisturbed samples together.
+    double fast_rate_degc_per_h =
+        0.0;  ///< What its fast term takes for the rate of the temperature.
+    MilliGal flicker_correction;
+    std::optional<MilliGal> left_out;  ///< Value with the reference of the station hidden.
+};
+
 /// One row and what became of it.  corrected = acceleration - tide + the corrections, of which
 /// `day` has one of flicker too; the constant is in the temperature correction.
 struct CorrectedRow {
@@ -42,17 +51,21 @@ struct CorrectedRow {
     MilliGal temperature_correction;
     MilliGal rate_correction;
     MilliGal drift_correction;
-    MilliGal tilt_correction;  ///< `day`, `t-rate-drift-axes`, or with a calibration.
+    std::optional<MilliGal>
+        tilt_correction;  ///< `day`, `t-rate-drift-axes`, or with a calibration.
     MilliGal corrected;
     std::optional<MilliGal> residual;     ///< reference - corrected.
     std::optional<double> leverage;       ///< Of an unused row: as at its place.  Not for `day`.
     std::optional<MilliGal> u_corrected;  ///< s sqrt(1 + leverage): as of a new station.
     std::optional<double> studentised_residual;  ///< External; not for `paper`.
     std::optional<MilliGal> corrected1;          ///< `paper` only: before the drift step.
-    std::optional<double> weight;  ///< `robust` only, rows in use: 1 counts fully, 0 not at all.
+    std::optional<double> weight;     ///< `robust` only, rows in use: 1 counts fully, 0 not at all.
+    std::optional<WholeDayPart> day;  ///< `day` only.
     /// Reasons of outlier_tests.hpp, empty when there are none.  They leave no row out.
     std::string doubt_physical;
     std::string doubt_statistical;
+
+    [[nodiscard]] MilliGal tilt() const { return tilt_correction.value_or(MilliGal(0.0)); }
 };
 
 struct StationValue {

@@ -13,15 +13,15 @@ std::string trend_comparison_text(const SurveyCorrection& result) {
     std::string where;
     std::size_t count = 0;
     for (const CorrectedRow& row : result.rows) {
-        for (const SurveyRow::Detail& detail : row.row.details) {
-            if (detail.name != "smoother_minus_eemd_mgal" || !detail.value) continue;
-            ++count;
-            sum += *detail.value;
-            squares += *detail.value * *detail.value;
-            if (std::abs(*detail.value) < std::abs(largest)) continue;
-            largest = *detail.value;
-            where = row.row.site + " (" + std::to_string(row.row.occupation) + ")";
-        }
+        if (!row.row.record) continue;
+        const double difference =
+            (row.row.record->smoother_mean - row.row.record->eemd_mean).value();
+        ++count;
+        sum += difference;
+        squares += difference * difference;
+        if (std::abs(difference) < std::abs(largest)) continue;
+        largest = difference;
+        where = row.row.site + " (" + std::to_string(row.row.occupation) + ")";
     }
     if (count == 0) return {};
     const double n = static_cast<double>(count);

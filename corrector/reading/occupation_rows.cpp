@@ -12,12 +12,6 @@
 namespace a351::corrector {
 namespace {
 
-void add_axis(std::vector<SurveyRow::Detail>& details, const std::string& name,
-              const AxisSummary& axis) {
-    details.push_back({"mean_" + name + "_g", axis.mean.value()});
-    details.push_back({"rms_" + name + "_mgal", axis.rms.value()});
-}
-
 constexpr std::chrono::minutes kMargin(1);  // for the filters of the temperature
 constexpr std::chrono::hours kBefore(8);    // what the slowest response to it remembers
 
@@ -135,29 +129,19 @@ SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& valu
     row.temperature = temperature.mean;
     row.rate_degc_per_h = temperature.slope_degc_per_h;
 
-    auto& details = row.details;
-    details.push_back({"series_mean_mgal", value.series_mean.value()});
-    details.push_back(
-        {"series_minus_curve_mgal", (value.series_mean - value.acceleration).value()});
-    details.push_back({"standard_error_mgal", std::nullopt});
-    if (value.standard_error) details.back().value = value.standard_error->value();
-    details.push_back({"temperature_range_degc", temperature.range.value()});
-    details.push_back(
-        {"temperature_is_monotone", temperature.shape == TemperatureShape::monotone ? 1.0 : 0.0});
-    details.push_back(
-        {"temperature_is_half_wave", temperature.shape == TemperatureShape::half_wave ? 1.0 : 0.0});
-    details.push_back({"valid_samples", static_cast<double>(value.counts.valid)});
-    details.push_back({"partial_samples", static_cast<double>(value.counts.partial)});
-    details.push_back({"missing_samples", static_cast<double>(value.counts.missing)});
-    add_axis(details, "x", value.x);
-    add_axis(details, "y", value.y);
-    add_axis(details, "z", value.z);
-    details.push_back({"rectification_mgal", value.rectification.value()});
-    details.push_back({"eemd_mgal", value.eemd_mean.value()});
-    details.push_back({"smoother_mgal", value.smoother_mean.value()});
-    details.push_back({"u_smoother_mgal", value.smoother_standard_error.value()});
-    details.push_back(
-        {"smoother_minus_eemd_mgal", (value.smoother_mean - value.eemd_mean).value()});
+    row.record = RecordSummary{.series_mean = value.series_mean,
+                               .curve_mean = value.acceleration,
+                               .eemd_mean = value.eemd_mean,
+                               .smoother_mean = value.smoother_mean,
+                               .smoother_standard_error = value.smoother_standard_error,
+                               .standard_error = value.standard_error,
+                               .temperature_range = temperature.range,
+                               .temperature_shape = temperature.shape,
+                               .counts = value.counts,
+                               .x = value.x,
+                               .y = value.y,
+                               .z = value.z,
+                               .rectification = value.rectification};
     return row;
 }
 

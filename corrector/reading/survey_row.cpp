@@ -59,26 +59,10 @@ int whole_number(const text::CsvTable& table, std::size_t row, std::string_view 
 
 }  // namespace
 
-void SurveyRow::set_detail(std::string_view name, std::optional<double> value) {
-    for (Detail& one : details) {
-        if (one.name != name) continue;
-        one.value = value;
-        return;
-    }
-    details.push_back({std::string(name), value});
-}
-
-std::optional<double> SurveyRow::detail(std::string_view name) const {
-    for (const Detail& known : details) {
-        if (known.name == name) return known.value;
-    }
-    return std::nullopt;
-}
-
-double SurveyRow::detail_for(std::string_view wanted_by, std::string_view name) const {
-    if (const std::optional<double> value = detail(name)) return *value;
+const RecordSummary& SurveyRow::record_for(std::string_view wanted_by) const {
+    if (record) return *record;
     throw InputError(std::string(wanted_by) + ": " + site + " (" + std::to_string(occupation) +
-                     ") has no " + std::string(name) + "; allowed: rows from records");
+                     ") has no mean_x_g; allowed: rows from records");
 }
 
 std::vector<SurveyRow> read_observations(const std::filesystem::path& file,

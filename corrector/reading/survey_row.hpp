@@ -6,20 +6,30 @@
 #include <string_view>
 #include <vector>
 
+#include "corrector/reading/representative_value.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::corrector {
 
+/// What is known of the record behind a row, within its averaging interval.
+struct RecordSummary {
+    MilliGal series_mean;                    ///< Of the decimated series.
+    MilliGal curve_mean;                     ///< Of the trend that was asked for.
+    MilliGal eemd_mean;                      ///< Of the decomposition's trend.
+    MilliGal smoother_mean;                  ///< Of the smoother's trend.
+    MilliGal smoother_standard_error;        ///< For white noise.
+    std::optional<MilliGal> standard_error;  ///< Of series_mean, from blocks of 60 s.
+    DegC temperature_range;
+    TemperatureShape temperature_shape = TemperatureShape::monotone;
+    SampleCounts counts;
+    AxisSummary x, y, z;
+    MilliGal rectification;  ///< rectification_bias().
+};
+
 /// One occupation, or one set-up of it: averages over an interval without disturbance.
 struct SurveyRow {
-    /// A further figure about the record behind the row; the same names in every row of a survey.
-    struct Detail {
-        std::string name;  ///< With its unit: a column of occupations.csv.
-        std::optional<double> value;
-    };
-
     std::string site;
     int occupation = 1;            ///< Counts the stays at this site.
     UtcTime time;                  ///< Middle of the averaging interval.
@@ -32,19 +42,13 @@ struct SurveyRow {
     DegC temperature;
     double rate_degc_per_h = 0.0;  ///< Of the temperature.
     std::optional<MilliGal> given_tide;
-    MilliGal tide;                      ///< Effect on gravity; to be subtracted.
-    std::optional<MilliGal> reference;  ///< Known gravity of the site.
-    std::vector<Detail> details;
-
-    /// Value of a detail; absent where the row has none of that name.
-    [[nodiscard]] std::optional<double> detail(std::string_view name) const;
+    MilliGal tide;                        ///< Effect on gravity; to be subtracted.
+    std::optional<MilliGal> reference;    ///< Known gravity of the site.
+    std::optional<RecordSummary> record;  ///< Absent: the row is of a table of averages.
 
     /// @param wanted_by  opens the message.
-    /// @throws InputError  it is absent: only rows from records have all.
-    [[nodiscard]] double detail_for(std::string_view wanted_by, std::string_view name) const;
-
-    /// In the place of the one that has this name, if there is one.
-    void set_detail(std::string_view name, std::optional<double> value);
+    /// @throws InputError  the row is of a table of averages.
+    [[nodiscard]] const RecordSummary& record_for(std::string_view wanted_by) const;
 };
 
 /// An occupation that has no row.

@@ -94,10 +94,11 @@ void add_residual(ReadingGrade& reading, const CorrectedRow& row, bool is_left_o
 }
 
 void add_trends(ReadingGrade& reading, const SurveyRow& row) {
-    const auto difference = row.detail("smoother_minus_eemd_mgal");
-    if (!difference || std::abs(*difference) <= kTrendDifference_mgal) return;
+    if (!row.record) return;
+    const double difference = (row.record->smoother_mean - row.record->eemd_mean).value();
+    if (std::abs(difference) <= kTrendDifference_mgal) return;
     add(reading, Grade::care,
-        "its two trends (smoother, EEMD) differ by " + text::fixed(*difference, 2) + " mGal");
+        "its two trends (smoother, EEMD) differ by " + text::fixed(difference, 2) + " mGal");
 }
 
 /// What readings of one station scatter by after all corrections.

@@ -28,7 +28,7 @@ std::string averaged_between(const CorrectedRow& row) {
 }
 
 std::string averaged_s(const CorrectedRow& row) {
-    if (const auto seconds = row.row.detail("averaged_s")) return text::fixed(*seconds, 0);
+    if (row.day) return text::fixed(row.day->averaged_s, 0);
     if (!row.row.start || !row.row.end) return "-";
     return text::fixed(seconds_between(*row.row.start, *row.row.end), 0);
 }
@@ -45,10 +45,10 @@ Column number(const std::string& title, std::optional<MilliGal> CorrectedRow::*v
             }};
 }
 
-Column detail(const std::string& title, const std::string& name) {
-    return {title, 'r', [name](const CorrectedRow& row) {
-                return text::fixed_or(row.row.detail(name), 3, "-");
-            }};
+/// Of rows by the whole-day model.
+Column of_day(const std::string& title, double (*value)(const WholeDayPart&)) {
+    return {title, 'r',
+            [value](const CorrectedRow& row) { return text::fixed(value(row.day.value()), 3); }};
 }
 
 std::vector<Column> columns_of(const SurveyCorrection& result) {
@@ -71,7 +71,8 @@ std::vector<Column> columns_of(const SurveyCorrection& result) {
                            return text::fixed(row.row.temperature.value(), 3);
                        }});
     if (is_day) {
-        columns.push_back(detail("°C/h", "fast_rate_degc_per_h"));
+        columns.push_back(
+            of_day("°C/h", [](const WholeDayPart& day) { return day.fast_rate_degc_per_h; }));
     } else {
         columns.push_back({"°C/h", 'r', [](const CorrectedRow& row) {
                                return text::fixed(row.row.rate_degc_per_h, 3);
@@ -84,15 +85,21 @@ std::vector<Column> columns_of(const SurveyCorrection& result) {
     columns.push_back(number("Rate corr.", &CorrectedRow::rate_correction));
     columns.push_back(number("Drift corr.", &CorrectedRow::drift_correction));
     if (is_day) {
-        columns.push_back(number("Tilt corr.", &CorrectedRow::tilt_correction));
-        columns.push_back(detail("Flicker corr.", "flicker_correction_mgal"));
+        columns.push_back(number("Tilt corr.", &CorrectedRow::tilt_correction, 3));
+        columns.push_back(of_day("Flicker corr.", [](const WholeDayPart& day) {
+            return day.flicker_correction.value();
+        }));
     }
     columns.push_back(number("Corrected", &CorrectedRow::corrected));
     columns.push_back({"Reference", 'r', [](const CorrectedRow& row) {
                            return text::fixed_or(row.row.reference, 3, "-");
                        }});
     columns.push_back(number("Residual", &CorrectedRow::residual, 3));
-    if (is_day) columns.push_back(detail("Left out", "left_out_mgal"));
+    if (is_day) {
+        columns.push_back({"Left out", 'r', [](const CorrectedRow& row) {
+                               return text::fixed_or(row.day.value().left_out, 3, "-");
+                           }});
+    }
     columns.push_back(number("u", &CorrectedRow::u_corrected, 2));
     columns.push_back({"t", 'r', [](const CorrectedRow& row) {
                            return text::fixed_or(row.studentised_residual, 2, "-");

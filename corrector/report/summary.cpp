@@ -26,8 +26,8 @@ std::string grade_text(Grade grade) {
 /// Of the value that u belongs to: for the model day the one without the reading's station.
 std::optional<double> error_of(const CorrectedRow& row, bool is_day) {
     if (!row.residual) return std::nullopt;
-    const auto left_out_mgal = row.row.detail("left_out_mgal");
-    if (is_day && left_out_mgal) return row.row.reference->value() - *left_out_mgal;
+    if (is_day && row.day && row.day->left_out)
+        return (*row.row.reference - *row.day->left_out).value();
     return row.residual->value();
 }
 

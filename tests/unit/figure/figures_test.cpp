@@ -151,7 +151,7 @@ TEST_CASE("a record belongs to the row that averages more of it", "[report][figu
     row.start = made_up::kMorning + std::chrono::hours(1);
     row.end = *row.start + std::chrono::minutes(5);
     row.acceleration = MilliGal(981702.125);
-    row.details = {{"averaged_s", 280.0}};
+    result.rows[0].day.emplace().averaged_s = 280.0;
     const auto records = find_records(result, values);
     REQUIRE(records.size() == 1);
     CHECK(records.front().value == &values[1]);

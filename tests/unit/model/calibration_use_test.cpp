@@ -28,7 +28,7 @@ std::vector<SurveyRow> rows_of(const DayRecord& day) {
         row.temperature = DegC(42.5 + 0.1 * static_cast<double>(s * s % 7));
         row.reference = MilliGal(MadeUpDay::gravity_mgal(s));
         const double x_g = day.bins[s * MadeUpDay::kBins].x.value();
-        row.details = {{"mean_x_g", x_g}, {"mean_y_g", 0.0}};
+        row.record.emplace().x.mean = StandardGravity(x_g);
         row.acceleration = *row.reference + MilliGal(1838.0 + kDay.x * x_g) -
                            MilliGal(30.0 * (row.temperature.value() - 42.6));
         rows.push_back(row);
@@ -181,7 +181,7 @@ TEST_CASE("other models read what tilt has not changed", "[survey][calibration]"
         CHECK(row.row.acceleration == rows[i].acceleration);
         CHECK(row.difference.value().value() ==
               Approx((rows[i].acceleration - *rows[i].reference).value()));
-        CHECK((row.row.acceleration + row.temperature_correction + row.tilt_correction).value() ==
+        CHECK((row.row.acceleration + row.temperature_correction + row.tilt()).value() ==
               Approx(row.corrected.value()).epsilon(1e-12));
     }
     REQUIRE(result.calibration);
@@ -197,9 +197,9 @@ TEST_CASE("other models read what tilt has not changed", "[survey][calibration]"
 TEST_CASE("a row without a mean of an axis is refused where a bias is to be taken off it",
           "[survey][calibration]") {
     auto rows = rows_of(kDay.record());
-    rows[3].set_detail("mean_y_g", std::nullopt);
+    rows[3].record.reset();
     CHECK_THROWS_WITH(correct_with_calibration(rows, with(calibration(), "t"), nullptr),
-                      "calibration: S3 (1) has no mean_y_g; allowed: rows from records");
+                      "calibration: S3 (1) has no mean_x_g; allowed: rows from records");
     Calibration known = calibration();
     known.axis_bias.reset();
     known.thermal = thermal(kDay);
@@ -233,17 +233,14 @@ TEST_CASE("fitted axes and calibrated ones are one correction of tilt", "[survey
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const double y_g = 0.001 * static_cast<double>(i * i % 5);
         rows[i].rate_degc_per_h = 0.01 * static_cast<double>(i * i % 3);
-        rows[i].set_detail("mean_y_g", y_g);
+        rows[i].record->y.mean = StandardGravity(y_g);
     }
     const auto result =
         correct_with_calibration(rows, with(calibration(), "t-rate-drift-axes"), nullptr);
     for (const CorrectedRow& row : result.rows) {
-        CHECK(row.row.detail("tilt_correction_mgal") == row.tilt_correction.value());
-        CHECK(std::count_if(row.row.details.begin(), row.row.details.end(), [](const auto& one) {
-                  return one.name == "tilt_correction_mgal";
-              }) == 1);
+        REQUIRE(row.tilt_correction);
         const MilliGal sum = row.row.acceleration - row.row.tide + row.temperature_correction +
-                             row.rate_correction + row.drift_correction + row.tilt_correction;
+                             row.rate_correction + row.drift_correction + *row.tilt_correction;
         CHECK(sum.value() == Approx(row.corrected.value()).epsilon(1e-12));
     }
 }

@@ -46,15 +46,15 @@ TEST_CASE("rate, shape with range, fallback and pulse are physical doubts, with 
     CHECK(physical_doubt(row) == "rate -0.201 degC/h;pulse;fallback");
 
     SurveyRow shaped;
-    shaped.details = {{"temperature_range_degc", 0.06},
-                      {"temperature_is_monotone", 0.0},
-                      {"temperature_is_half_wave", 0.0}};
+    RecordSummary& record = shaped.record.emplace();
+    record.temperature_range = DegC(0.06);
+    record.temperature_shape = TemperatureShape::turning;
     CHECK(physical_doubt(shaped).empty());
-    shaped.details[2].value = 1.0;
+    record.temperature_shape = TemperatureShape::half_wave;
     CHECK(physical_doubt(shaped) == "half a wave of 0.060 degC");
-    shaped.details[1].value = 1.0;
+    record.temperature_shape = TemperatureShape::monotone;
     CHECK(physical_doubt(shaped) == "monotone over 0.060 degC");
-    shaped.details[0].value = 0.05;
+    record.temperature_range = DegC(0.05);
     CHECK(physical_doubt(shaped).empty());
 }
 

@@ -2,6 +2,7 @@
 
 #include "tests/support/catch.hpp"
 
+using namespace a351;
 using namespace a351::corrector;
 
 namespace {
@@ -10,8 +11,11 @@ CorrectedRow row(const std::string& site, int occupation, std::optional<double> 
     CorrectedRow corrected;
     corrected.row.site = site;
     corrected.row.occupation = occupation;
-    corrected.row.details = {{"eemd_mgal", 979'800.0},
-                             {"smoother_minus_eemd_mgal", difference_mgal}};
+    if (difference_mgal) {
+        RecordSummary& record = corrected.row.record.emplace();
+        record.eemd_mean = MilliGal(979'800.0);
+        record.smoother_mean = record.eemd_mean + MilliGal(*difference_mgal);
+    }
     return corrected;
 }
 

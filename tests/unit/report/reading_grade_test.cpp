@@ -61,12 +61,13 @@ TEST_CASE("a temperature that moves means repeat, with a rate term care", "[repo
 
 TEST_CASE("a temperature that goes one way counts from its range", "[report][grade]") {
     SurveyCorrection result = quiet(1);
-    result.rows[0].row.details = {{"temperature_range_degc", 0.051},
-                                  {"temperature_is_monotone", 1.0}};
+    RecordSummary& record = result.rows[0].row.record.emplace();
+    record.temperature_range = DegC(0.051);
+    record.temperature_shape = TemperatureShape::monotone;
     CHECK(first_grade(result) == Grade::repeat);
-    result.rows[0].row.details[1].value = 0.0;
+    record.temperature_shape = TemperatureShape::turning;
     CHECK(first_grade(result) == Grade::trust);
-    result.rows[0].row.details.push_back({"temperature_is_half_wave", 1.0});
+    record.temperature_shape = TemperatureShape::half_wave;
     CHECK(first_grade(result) == Grade::repeat);
 }
 
@@ -101,7 +102,7 @@ TEST_CASE("set-ups of one station count against the placement of the whole-day m
 TEST_CASE("what befell the trend is no doubt of the whole-day model", "[report][grade]") {
     SurveyCorrection result = quiet(1);
     result.rows[0].row.notes = {"fallback", "disturbed_end"};
-    result.rows[0].row.details = {{"smoother_minus_eemd_mgal", 3.0}};
+    result.rows[0].row.record.emplace().smoother_mean = MilliGal(3.0);
     CHECK(first_grade(result) == Grade::care);
     result.model = "day";
     CHECK(first_grade(result) == Grade::trust);
@@ -132,10 +133,10 @@ TEST_CASE("a residual of more than two u means care, of three repeat", "[report]
 
 TEST_CASE("trends that disagree mean care", "[report][grade]") {
     SurveyCorrection result = quiet(1);
-    result.rows[0].row.details = {{"smoother_minus_eemd_mgal", -0.51}};
+    result.rows[0].row.record.emplace().smoother_mean = MilliGal(-0.51);
     CHECK(first_grade(result) == Grade::care);
     CHECK_THAT(first_reasons(result), ContainsSubstring("differ by -0.51 mGal"));
-    result.rows[0].row.details[0].value = 0.5;
+    result.rows[0].row.record->smoother_mean = MilliGal(0.5);
     CHECK(first_grade(result) == Grade::trust);
 }
 

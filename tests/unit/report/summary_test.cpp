@@ -126,7 +126,7 @@ TEST_CASE("the whole-day model's error is that of its prediction without the sta
     SurveyCorrection result = corrected(scattered_day());
     CorrectedRow& row = result.rows[0];
     row.row.notes = {"gap"};
-    row.row.details = {{"left_out_mgal", row.row.reference->value() - 7.77}};
+    row.day.emplace().left_out = *row.row.reference - MilliGal(7.77);
     CHECK_THAT(summary_html(result, {}, {}), !ContainsSubstring("7.77"));
     result.model = "day";
     CHECK_THAT(summary_html(result, {}, {}), ContainsSubstring("Error mGal (station left out)") &&

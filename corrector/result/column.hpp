@@ -1,0 +1,78 @@
+#pragma once
+/// @file
+/// A table's columns, declared once and written as CSV and as JSON.
+
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "protocol/core/units.hpp"
+#include "protocol/core/utc_time.hpp"
+
+namespace a351::corrector {
+
+/// What a cell holds; nothing where the row has no value.
+using Cell = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
+
+[[nodiscard]] inline Cell cell(double value) { return value; }
+[[nodiscard]] inline Cell cell(const std::optional<double>& value) {
+    return value ? Cell(*value) : Cell();
+}
+[[nodiscard]] inline Cell cell(MilliGal value) { return value.value(); }
+[[nodiscard]] inline Cell cell(const std::optional<MilliGal>& value) {
+    return value ? Cell(value->value()) : Cell();
+}
+[[nodiscard]] inline Cell cell_of_count(std::size_t count) {
+    return static_cast<std::int64_t>(count);
+}
+
+/// RFC 3339, to the millisecond.
+[[nodiscard]] inline Cell cell(UtcTime time) { return to_rfc3339(time, 3); }
+[[nodiscard]] inline Cell cell(const std::optional<UtcTime>& time) {
+    return time ? Cell(to_rfc3339(*time, 3)) : Cell();
+}
+
+template <class Row>
+struct Column {
+    std::string_view key;  ///< Name in every format, with the unit.
+    std::function<Cell(const Row&)> value;
+};
+
+/// Numbers with six decimals, yes and no as 1 and 0, nothing for no value.
+[[nodiscard]] std::string csv_text(const Cell& cell);
+
+/// Numbers in full, null for no value.
+[[nodiscard]] nlohmann::ordered_json json_value(const Cell& cell);
+
+/// The header line.
+template <class Row>
+[[nodiscard]] std::string csv_header(const std::vector<Column<Row>>& columns) {
+    std::string line;
+    for (const Column<Row>& column : columns) (line += line.empty() ? "" : ",") += column.key;
+    return line + '\n';
+}
+
+template <class Row>
+[[nodiscard]] std::string csv_line(const std::vector<Column<Row>>& columns, const Row& row) {
+    std::string line;
+    for (const Column<Row>& column : columns) (line += csv_text(column.value(row))) += ',';
+    line.back() = '\n';
+    return line;
+}
+
+/// An object with a member for each column.
+template <class Row>
+[[nodiscard]] nlohmann::ordered_json json_object(const std::vector<Column<Row>>& columns,
+                                                 const Row& row) {
+    nlohmann::ordered_json object;
+    for (const Column<Row>& column : columns)
+        object[std::string(column.key)] = json_value(column.value(row));
+    return object;
+}
+
+}  // namespace a351::corrector
