@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "corrector/result/result_files.hpp"
 #include "protocol/text/input_file.hpp"
 #include "protocol/unit/calibration.hpp"
 

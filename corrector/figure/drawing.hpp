@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "corrector/figure/figure.hpp"
-#include "corrector/result/result_files.hpp"
 #include "protocol/text/write_together.hpp"
 
 namespace a351::corrector {

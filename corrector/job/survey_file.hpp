@@ -6,10 +6,10 @@
 #include <string>
 
 #include "corrector/model/survey_correction.hpp"
+#include "corrector/reading/decimated_axes.hpp"
 #include "corrector/reading/trend_curve.hpp"
 #include "corrector/tide/tide_choice.hpp"
 #include "protocol/core/utc_time.hpp"
-#include "protocol/signal/norm.hpp"
 
 namespace a351::corrector {
 
@@ -26,7 +26,8 @@ struct SurveyFile {
     std::optional<UtcTime> to;          ///< ... and before this; neither: a log's last day.
     SurveyOptions survey;
     TideChoice tide;
-    std::optional<TrendCurve> curve;  ///< Absent: the signal's default.  `paper` has its own.
+    std::optional<TrendCurve>
+        curve;  ///< Absent: RepresentativeOptions' default.  `paper` has its own.
     TrendMethod trend = TrendMethod::eemd;
     double cutoff_s = 300.0;  ///< Of the smoother's trend.
     NormOrder norm = NormOrder::decimate_first;

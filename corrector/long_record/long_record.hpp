@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "corrector/result/result_files.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "protocol/text/input_file.hpp"
 

@@ -23,8 +23,8 @@ const std::vector<Eigen::Index> kThermalPlaces{DayPriors::place_of(DayTerm::leve
 
 MilliGal tilt_effect(const SurveyRow& row, const std::optional<AxisBias>& bias) {
     if (!bias) return MilliGal(0.0);
-    return MilliGal(bias->values(0) * row.record_for("calibration").x.mean.value() +
-                    bias->values(1) * row.record_for("calibration").y.mean.value());
+    return MilliGal(bias->values(0) * row.axes_for("calibration").x.mean.value() +
+                    bias->values(1) * row.axes_for("calibration").y.mean.value());
 }
 
 bool is_contradicted(const std::optional<Disagreement>& test) {
@@ -170,7 +170,7 @@ SurveyCorrection correct_with_calibration(const std::vector<SurveyRow>& rows,
         const MilliGal effect = tilt_effect(row.row, calibration.axis_bias);
         row.row.acceleration = row.row.acceleration + effect;
         if (row.difference) row.difference = *row.difference + effect;
-        row.tilt_correction = row.tilt() - effect;
+        row.tilt_correction = row.tilt_correction_or_zero() - effect;
         sum += effect.value();
         squares += effect.value() * effect.value();
     }

@@ -113,7 +113,10 @@ const LinearModel* find_linear_model(std::string_view name) {
     for (const LinearModel& model : kLinearModels) {
         if (model.name == name) return &model;
     }
-    return name == kAxesModel.name ? &kAxesModel : nullptr;
+    for (const LinearModel& model : kModelsOnRequest) {
+        if (model.name == name) return &model;
+    }
+    return nullptr;
 }
 
 Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<SurveyRow>& rows,
@@ -123,23 +126,25 @@ Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<Survey
     for (Eigen::Index i = 0; i < columns.rows(); ++i) {
         const SurveyRow& row = rows[static_cast<std::size_t>(i)];
         Eigen::Index k = 0;
-        columns(i, k++) = (row.temperature - kReferenceTemperature).value();
+        if (model.has_temperature)
+            columns(i, k++) = (row.temperature - kReferenceTemperature).value();
         if (model.has_rate) columns(i, k++) = row.rate_degc_per_h;
         if (model.has_time) {
             columns(i, k++) =
                 seconds_between(origin, row.time) / kSecondsPerHour - kReferenceTime_h;
         }
         if (model.has_axes) {
-            const std::string wanted_by = "model = " + std::string(kAxesModel.name);
-            columns(i, k++) = row.record_for(wanted_by).x.mean.value();
-            columns(i, k) = row.record_for(wanted_by).y.mean.value();
+            const std::string wanted_by = "model = " + std::string(model.name);
+            columns(i, k++) = row.axes_for(wanted_by).x.mean.value();
+            columns(i, k) = row.axes_for(wanted_by).y.mean.value();
         }
     }
     return columns;
 }
 
 std::vector<std::string> coefficient_names(const LinearModel& model) {
-    std::vector<std::string> names{"constant_mgal", "temperature_mgal_per_degc"};
+    std::vector<std::string> names{"constant_mgal"};
+    if (model.has_temperature) names.emplace_back("temperature_mgal_per_degc");
     if (model.has_rate) names.emplace_back("rate_mgal_per_degc_per_h");
     if (model.has_time) names.emplace_back("time_mgal_per_h");
     if (model.has_axes) names.insert(names.end(), {"x_mgal_per_g", "y_mgal_per_g"});

@@ -2,7 +2,7 @@
 /// @file
 /// Linear models of what the sensor reads beyond gravity, fitted to known stations:
 ///
-///     D_i = b0 + bT (T_i - T0) [+ bR R_i] [+ b1 (t_i - t0)] [+ bx x_i + by y_i] + noise,
+///     D_i = b0 [+ bT (T_i - T0)] [+ bR R_i] [+ b1 (t_i - t0)] [+ bx x_i + by y_i] + noise,
 ///     D = acceleration - g - tide
 ///
 /// T0 and t0 only shift the constant; they keep the numbers small.
@@ -25,30 +25,37 @@ inline constexpr double kReferenceTime_h = 5.0;     ///< t0, after the first row
 
 struct LinearModel {
     std::string_view name;
+    bool has_temperature = false;
     bool has_rate = false;
     bool has_time = false;
     bool has_axes = false;  ///< x, y: means of the horizontal axes, which a tilt brings in.
 
     [[nodiscard]] std::size_t parameter_count() const {
-        return 2U + (has_rate ? 1U : 0U) + (has_time ? 1U : 0U) + (has_axes ? 2U : 0U);
+        return 1U + (has_temperature ? 1U : 0U) + (has_rate ? 1U : 0U) + (has_time ? 1U : 0U) +
+               (has_axes ? 2U : 0U);
     }
 };
 
 /// The models that `auto` chooses from, fixed beforehand.
 inline constexpr std::array<LinearModel, 4> kLinearModels{{
-    {"t", false, false},
-    {"t-rate", true, false},
-    {"t-drift", false, true},
-    {"t-rate-drift", true, true},
+    {"t", true, false, false},
+    {"t-rate", true, true, false},
+    {"t-drift", true, false, true},
+    {"t-rate-drift", true, true, true},
 }};
 
-/// For rows from records: the whole-day model's regressors as far as means of occupations have them.
-inline constexpr LinearModel kAxesModel{"t-rate-drift-axes", true, true, true};
+/// Models that are fitted on request only.  With axes, for rows from records: the whole-day model's
+/// regressors as far as means of occupations have them.  Drift alone, for a box whose temperature
+/// hardly changes, or to see what the other terms bring.
+inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
+    {"t-rate-drift-axes", true, true, true, true},
+    {"drift", false, false, true},
+}};
 
-/// Null when the name is neither of kLinearModels nor kAxesModel's.
+/// Null when the name is in neither list.
 [[nodiscard]] const LinearModel* find_linear_model(std::string_view name);
 
-/// Columns of the model (T - T0, R, t - t0, x, y as present), one row per survey row.
+/// Columns of the model (those of T - T0, R, t - t0, x, y that it has), one row per survey row.
 /// @param origin  instant from which t counts.
 /// @throws InputError  the model has axes and a row has no means of them.
 [[nodiscard]] Eigen::MatrixXd model_columns(const LinearModel& model,

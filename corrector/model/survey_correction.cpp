@@ -44,6 +44,11 @@ std::vector<SurveyRow> chosen_rows(const std::vector<SurveyRow>& rows,
     return result;
 }
 
+bool is_on_request(const LinearModel& model) {
+    return std::any_of(kModelsOnRequest.begin(), kModelsOnRequest.end(),
+                       [&](const LinearModel& one) { return one.name == model.name; });
+}
+
 ScoredRowSet score_all_models(const std::string& name, const std::vector<SurveyRow>& rows,
                               const std::vector<bool>& in_use, const SurveyOptions& options) {
     ScoredRowSet set{name, {score_paper_model(rows, in_use, options.base)}};
@@ -92,7 +97,9 @@ void correct_linear(SurveyCorrection& result, const LinearModel& model, const Ap
         };
         const Eigen::VectorXd x = applied.columns.row(at).transpose();
         Eigen::Index k = 0;
-        out.temperature_correction = -(MilliGal(fit.coefficients(0)) + effect(k++));
+        out.temperature_correction = -MilliGal(fit.coefficients(0));
+        if (model.has_temperature)
+            out.temperature_correction = -(MilliGal(fit.coefficients(0)) + effect(k++));
         if (model.has_rate) out.rate_correction = -effect(k++);
         if (model.has_time) out.drift_correction = -effect(k++);
         if (model.has_axes) {
@@ -235,7 +242,7 @@ const std::vector<std::string>& model_names() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> list{"auto", "paper", "day"};
         for (const LinearModel& model : kLinearModels) list.emplace_back(model.name);
-        list.emplace_back(kAxesModel.name);
+        for (const LinearModel& model : kModelsOnRequest) list.emplace_back(model.name);
         list.emplace_back("network");
         list.emplace_back("robust");
         return list;
@@ -327,7 +334,7 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
         result.score = result.row_sets[options.use_flags ? 0 : 1].scores.back();
         correct_robust(result, *model, applied, used, origin);
     } else if (model != nullptr) {
-        if (model->has_axes) {
+        if (is_on_request(*model)) {
             for (std::size_t k = 0; k < 2; ++k) {
                 result.row_sets[k].scores.push_back(score_linear_model(
                     *model, chosen_rows(rows, k == 0 ? unflagged_usable : usable), origin, priors));

@@ -16,7 +16,7 @@
 
 namespace a351::corrector {
 
-/// Names for SurveyOptions::model: auto, paper, day, those of kLinearModels, kAxesModel's,
+/// Names for SurveyOptions::model: auto, paper, day, those of kLinearModels and kModelsOnRequest,
 /// network, robust.
 [[nodiscard]] const std::vector<std::string>& model_names();
 
@@ -51,8 +51,8 @@ struct CorrectedRow {
     MilliGal temperature_correction;
     MilliGal rate_correction;
     MilliGal drift_correction;
-    std::optional<MilliGal>
-        tilt_correction;  ///< `day`, `t-rate-drift-axes`, or with a calibration.
+    /// `day`, `t-rate-drift-axes`, or with a calibration: in every row, or in none.
+    std::optional<MilliGal> tilt_correction;
     MilliGal corrected;
     std::optional<MilliGal> residual;     ///< reference - corrected.
     std::optional<double> leverage;       ///< Of an unused row: as at its place.  Not for `day`.
@@ -60,12 +60,20 @@ struct CorrectedRow {
     std::optional<double> studentised_residual;  ///< External; not for `paper`.
     std::optional<MilliGal> corrected1;          ///< `paper` only: before the drift step.
     std::optional<double> weight;     ///< `robust` only, rows in use: 1 counts fully, 0 not at all.
-    std::optional<WholeDayPart> day;  ///< `day` only.
+    std::optional<WholeDayPart> day;  ///< `day` only: in every row.
     /// Reasons of outlier_tests.hpp, empty when there are none.  They leave no row out.
     std::string doubt_physical;
     std::string doubt_statistical;
 
-    [[nodiscard]] MilliGal tilt() const { return tilt_correction.value_or(MilliGal(0.0)); }
+    /// reference - corrected1, the publication's Error (1) (Table 2); `residual` is its Error (2).
+    [[nodiscard]] std::optional<MilliGal> residual1() const {
+        if (!row.reference || !corrected1) return std::nullopt;
+        return *row.reference - *corrected1;
+    }
+
+    [[nodiscard]] MilliGal tilt_correction_or_zero() const {
+        return tilt_correction.value_or(MilliGal(0.0));
+    }
 };
 
 struct StationValue {

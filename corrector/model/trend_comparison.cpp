@@ -14,8 +14,7 @@ std::string trend_comparison_text(const SurveyCorrection& result) {
     std::size_t count = 0;
     for (const CorrectedRow& row : result.rows) {
         if (!row.row.record) continue;
-        const double difference =
-            (row.row.record->smoother_mean - row.row.record->eemd_mean).value();
+        const double difference = row.row.record->smoother_minus_eemd().value();
         ++count;
         sum += difference;
         squares += difference * difference;

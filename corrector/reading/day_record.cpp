@@ -92,7 +92,8 @@ std::vector<DayBin> bin_set_up(std::size_t set_up, const DecimatedAxes& axes, do
 }
 
 std::optional<DayTemperature> day_temperature(const TimeSeries<DegC>& raw) {
-    const TimeSeries<DegC> decimated = decimate(raw, design_decimation(kFactor), kStages);
+    const TimeSeries<DegC> decimated =
+        decimate(raw, design_decimation(kDecimationFactor), kDecimationStages);
     const double cutoff = kCutoff_s * decimated.rate().value();
     std::vector<double> values = decimated.values();
     const std::vector<Stretch> runs =

@@ -4,11 +4,13 @@
 /// readings of every set-up in means of 50 s.
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "corrector/reading/decimated_axes.hpp"
 #include "protocol/core/time_series.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/core/utc_time.hpp"
 
 namespace a351::corrector {
 
@@ -27,6 +29,7 @@ inline constexpr std::size_t kBinSamples = 25;
 /// The bins of a set-up, those with fewer than eight samples left out.  A sample takes part where all
 /// axes are valid and no disturbance (find_disturbances()) is nearer than 10 s, the reach of the
 /// decimation filters.
+/// @param axes       decimate_axes() of the set-up.
 /// @param threshold  of a disturbance, > 0.
 [[nodiscard]] std::vector<DayBin> bin_set_up(std::size_t set_up, const DecimatedAxes& axes,
                                              double threshold);

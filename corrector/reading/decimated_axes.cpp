@@ -12,16 +12,17 @@ TimeSeries<MilliGal> in_milligal(const TimeSeries<StandardGravity>& series) {
 }  // namespace
 
 DecimatedAxes decimate_axes(const OccupationRecord& record) {
-    const DecimationFilter filter = design_decimation(kFactor);
-    return {decimate(record.x, filter, kStages), decimate(record.y, filter, kStages),
-            decimate(record.z, filter, kStages)};
+    const DecimationFilter filter = design_decimation(kDecimationFactor);
+    return {decimate(record.x, filter, kDecimationStages),
+            decimate(record.y, filter, kDecimationStages),
+            decimate(record.z, filter, kDecimationStages)};
 }
 
 TimeSeries<MilliGal> gravity_series(const OccupationRecord& record, const DecimatedAxes& axes,
                                     NormOrder order) {
     if (order == NormOrder::decimate_first) return in_milligal(norm(axes.x, axes.y, axes.z));
-    return in_milligal(
-        decimate(norm(record.x, record.y, record.z), design_decimation(kFactor), kStages));
+    return in_milligal(decimate(norm(record.x, record.y, record.z),
+                                design_decimation(kDecimationFactor), kDecimationStages));
 }
 
 }  // namespace a351::corrector

@@ -12,9 +12,10 @@
 namespace a351::corrector {
 
 /// Decimation before an average: two stages by 10, one value for 100 samples, at 50 samples/s every 2 s.
-inline constexpr int kFactor = 10;
-inline constexpr int kStages = 2;
-inline constexpr std::size_t kRatio = 100;
+inline constexpr int kDecimationFactor = 10;
+inline constexpr int kDecimationStages = 2;
+inline constexpr std::size_t kDecimationRatio = 100;
+static_assert(kDecimationFactor * kDecimationFactor == kDecimationRatio && kDecimationStages == 2);
 
 /// What was recorded at a site.  Missing samples are NaN.  The axes hold the occupation and nothing
 /// beyond it; the temperature may begin earlier and end later, on the same grid of instants.
@@ -30,6 +31,7 @@ struct DecimatedAxes {
     TimeSeries<StandardGravity> x, y, z;
 };
 
+/// Decimates each axis; NaN where a sample under the filters is missing.
 [[nodiscard]] DecimatedAxes decimate_axes(const OccupationRecord& record);
 
 /// What comes first.  The norm of samples that vibrate sideways is too large by

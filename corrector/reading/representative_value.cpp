@@ -76,7 +76,7 @@ SampleCounts count_samples(const std::vector<std::size_t>& present, std::size_t 
     const std::size_t n = present.size() - 1;
     SampleCounts counts;
     for (std::size_t k = 0; k < output_count; ++k) {
-        const std::size_t centre = k * kRatio;
+        const std::size_t centre = k * kDecimationRatio;
         const std::size_t begin = centre - std::min(centre, reach);
         const std::size_t end = std::min(n, centre + reach + 1);
         const std::size_t there = present[end] - present[begin];
@@ -97,10 +97,10 @@ TimeSeries<DegC> decimate_temperature(const OccupationRecord& record,
         throw std::invalid_argument(
             "representative_value: temperature and axes are not on one grid of instants");
     }
-    const std::size_t lead = (reach_of(filter) + kRatio - 1) / kRatio;
+    const std::size_t lead = (reach_of(filter) + kDecimationRatio - 1) / kDecimationRatio;
     const auto origin = static_cast<std::ptrdiff_t>(std::llround(shift)) -
-                        static_cast<std::ptrdiff_t>(lead * kRatio);
-    std::vector<double> around(record.x.size() + 2 * lead * kRatio,
+                        static_cast<std::ptrdiff_t>(lead * kDecimationRatio);
+    std::vector<double> around(record.x.size() + 2 * lead * kDecimationRatio,
                                std::numeric_limits<double>::quiet_NaN());
     for (std::size_t i = 0; i < around.size(); ++i) {
         const std::ptrdiff_t source = origin + static_cast<std::ptrdiff_t>(i);
@@ -108,9 +108,10 @@ TimeSeries<DegC> decimate_temperature(const OccupationRecord& record,
             around[i] = all.values()[static_cast<std::size_t>(source)];
         }
     }
-    const TimeSeries<DegC> decimated = decimate(
-        TimeSeries<DegC>(record.x.start(), all.rate(), std::move(around)), filter, kStages);
-    const std::size_t count = (record.x.size() + kRatio - 1) / kRatio;
+    const TimeSeries<DegC> decimated =
+        decimate(TimeSeries<DegC>(record.x.start(), all.rate(), std::move(around)), filter,
+                 kDecimationStages);
+    const std::size_t count = (record.x.size() + kDecimationRatio - 1) / kDecimationRatio;
     const auto begin = decimated.values().begin() + static_cast<std::ptrdiff_t>(lead);
     return {record.x.start(), decimated.rate(),
             std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(count))};
@@ -158,7 +159,7 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
                                                         const DecimatedAxes& axes,
                                                         const RepresentativeOptions& options) {
     validate(options);
-    const DecimationFilter filter = design_decimation(kFactor);
+    const DecimationFilter filter = design_decimation(kDecimationFactor);
     TimeSeries<MilliGal> series = gravity_series(record, axes, options.norm);
     const TimeSeries<DegC> temperature = decimate_temperature(record, filter);
     const Run run = longest_valid_run(series.values());
@@ -192,7 +193,7 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
 
     const auto summarise = [&](const TimeSeries<StandardGravity>& axis,
                                const TimeSeries<StandardGravity>& decimated) {
-        return summarise_axis(axis, decimated, kRatio, first, last);
+        return summarise_axis(axis, decimated, kDecimationRatio, first, last);
     };
     const std::vector<std::size_t> present = count_present(record);
     const auto temperature_summary = summarise_temperature(temperature, first, last);

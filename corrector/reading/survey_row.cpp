@@ -59,7 +59,7 @@ int whole_number(const text::CsvTable& table, std::size_t row, std::string_view 
 
 }  // namespace
 
-const RecordSummary& SurveyRow::record_for(std::string_view wanted_by) const {
+const RecordSummary& SurveyRow::axes_for(std::string_view wanted_by) const {
     if (record) return *record;
     throw InputError(std::string(wanted_by) + ": " + site + " (" + std::to_string(occupation) +
                      ") has no mean_x_g; allowed: rows from records");

@@ -13,7 +13,7 @@
 
 namespace a351::corrector {
 
-/// What is known of the record behind a row, within its averaging interval.
+/// What is known of the record behind a row; within its averaging interval, if nothing else is said.
 struct RecordSummary {
     MilliGal series_mean;                    ///< Of the decimated series.
     MilliGal curve_mean;                     ///< Of the trend that was asked for.
@@ -23,9 +23,11 @@ struct RecordSummary {
     std::optional<MilliGal> standard_error;  ///< Of series_mean, from blocks of 60 s.
     DegC temperature_range;
     TemperatureShape temperature_shape = TemperatureShape::monotone;
-    SampleCounts counts;
-    AxisSummary x, y, z;
+    SampleCounts counts;     ///< Of the whole occupation.
+    AxisSummary x, y, z;     ///< Horizontal, horizontal, along gravity.
     MilliGal rectification;  ///< rectification_bias().
+
+    [[nodiscard]] MilliGal smoother_minus_eemd() const { return smoother_mean - eemd_mean; }
 };
 
 /// One occupation, or one set-up of it: averages over an interval without disturbance.
@@ -42,13 +44,14 @@ struct SurveyRow {
     DegC temperature;
     double rate_degc_per_h = 0.0;  ///< Of the temperature.
     std::optional<MilliGal> given_tide;
-    MilliGal tide;                        ///< Effect on gravity; to be subtracted.
-    std::optional<MilliGal> reference;    ///< Known gravity of the site.
-    std::optional<RecordSummary> record;  ///< Absent: the row is of a table of averages.
+    MilliGal tide;                      ///< Effect on gravity; to be subtracted.
+    std::optional<MilliGal> reference;  ///< Known gravity of the site.
+    std::optional<RecordSummary>
+        record;  ///< In every row of a survey, or in none: a table of averages.
 
     /// @param wanted_by  opens the message.
     /// @throws InputError  the row is of a table of averages.
-    [[nodiscard]] const RecordSummary& record_for(std::string_view wanted_by) const;
+    [[nodiscard]] const RecordSummary& axes_for(std::string_view wanted_by) const;
 };
 
 /// An occupation that has no row.

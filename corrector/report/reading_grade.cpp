@@ -95,7 +95,7 @@ void add_residual(ReadingGrade& reading, const CorrectedRow& row, bool is_left_o
 
 void add_trends(ReadingGrade& reading, const SurveyRow& row) {
     if (!row.record) return;
-    const double difference = (row.record->smoother_mean - row.record->eemd_mean).value();
+    const double difference = row.record->smoother_minus_eemd().value();
     if (std::abs(difference) <= kTrendDifference_mgal) return;
     add(reading, Grade::care,
         "its two trends (smoother, EEMD) differ by " + text::fixed(difference, 2) + " mGal");

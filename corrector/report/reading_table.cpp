@@ -10,7 +10,7 @@
 namespace a351::corrector {
 namespace {
 
-struct Column {
+struct PageColumn {
     std::string title;
     char alignment = 'r';
     std::function<std::string(const CorrectedRow&)> cell;
@@ -33,27 +33,27 @@ std::string averaged_s(const CorrectedRow& row) {
     return text::fixed(seconds_between(*row.row.start, *row.row.end), 0);
 }
 
-Column number(const std::string& title, MilliGal CorrectedRow::*value) {
+PageColumn number(const std::string& title, MilliGal CorrectedRow::*value) {
     return {title, 'r',
             [value](const CorrectedRow& row) { return text::fixed((row.*value).value(), 3); }};
 }
 
-Column number(const std::string& title, std::optional<MilliGal> CorrectedRow::*value,
-              int decimals) {
+PageColumn number(const std::string& title, std::optional<MilliGal> CorrectedRow::*value,
+                  int decimals) {
     return {title, 'r', [value, decimals](const CorrectedRow& row) {
                 return text::fixed_or(row.*value, decimals, "-");
             }};
 }
 
 /// Of rows by the whole-day model.
-Column of_day(const std::string& title, double (*value)(const WholeDayPart&)) {
+PageColumn of_day(const std::string& title, double (*value)(const WholeDayPart&)) {
     return {title, 'r',
             [value](const CorrectedRow& row) { return text::fixed(value(row.day.value()), 3); }};
 }
 
-std::vector<Column> columns_of(const SurveyCorrection& result) {
+std::vector<PageColumn> columns_of(const SurveyCorrection& result) {
     const bool is_day = result.model == "day";
-    std::vector<Column> columns;
+    std::vector<PageColumn> columns;
     if (result.rows.front().row.start) {
         columns.push_back({"Averaged UTC", 'n', averaged_between});
         columns.push_back({"s", 'r', averaged_s});
@@ -132,10 +132,10 @@ std::string explanation(const SurveyCorrection& result) {
 }  // namespace
 
 std::string occupations_html(const SurveyCorrection& result) {
-    const std::vector<Column> columns = columns_of(result);
+    const std::vector<PageColumn> columns = columns_of(result);
     std::string alignment = "n";
     HtmlCells header{"Reading"};
-    for (const Column& column : columns) {
+    for (const PageColumn& column : columns) {
         alignment += column.alignment;
         header.push_back(column.title);
     }
@@ -153,7 +153,7 @@ std::string occupations_html(const SurveyCorrection& result) {
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         add_left_out_before(result.rows[i].row.time);
         HtmlCells& cells = lines.emplace_back(1, reading_name(result.rows, i));
-        for (const Column& column : columns) cells.push_back(column.cell(result.rows[i]));
+        for (const PageColumn& column : columns) cells.push_back(column.cell(result.rows[i]));
     }
     add_left_out_before(UtcTime::max());
     return html_table(alignment, header, lines) + html_paragraph(explanation(result));

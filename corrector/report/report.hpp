@@ -9,7 +9,6 @@
 #include "corrector/model/survey_correction.hpp"
 #include "corrector/reading/representative_value.hpp"
 #include "corrector/reading/temperature_course.hpp"
-#include "corrector/result/result_files.hpp"
 #include "protocol/text/input_file.hpp"
 #include "protocol/text/sites.hpp"
 #include "protocol/text/write_together.hpp"

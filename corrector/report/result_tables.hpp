@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "corrector/model/survey_correction.hpp"
-#include "corrector/result/result_files.hpp"
 #include "protocol/text/input_file.hpp"
 
 namespace a351::corrector {

@@ -52,19 +52,20 @@ Columns columns_of_records() {
         of_record("eemd_mgal", [](R r) { return cell(r.eemd_mean); }),
         of_record("smoother_mgal", [](R r) { return cell(r.smoother_mean); }),
         of_record("u_smoother_mgal", [](R r) { return cell(r.smoother_standard_error); }),
-        of_record("smoother_minus_eemd_mgal",
-                  [](R r) { return cell(r.smoother_mean - r.eemd_mean); }),
+        of_record("smoother_minus_eemd_mgal", [](R r) { return cell(r.smoother_minus_eemd()); }),
     };
 }
 
-const Column<CorrectedRow> kTilt{"tilt_correction_mgal",
-                                 [](const CorrectedRow& row) { return cell(row.tilt_correction); }};
+Column<CorrectedRow> tilt_column() {
+    return {"tilt_correction_mgal",
+            [](const CorrectedRow& row) { return cell(row.tilt_correction); }};
+}
 
 Columns columns_of_day() {
     using D = const WholeDayPart&;
     return {of_day("averaged_s", [](D day) { return cell(day.averaged_s); }),
             of_day("fast_rate_degc_per_h", [](D day) { return cell(day.fast_rate_degc_per_h); }),
-            kTilt,
+            tilt_column(),
             of_day("flicker_correction_mgal", [](D day) { return cell(day.flicker_correction); }),
             of_day("left_out_mgal", [](D day) { return cell(day.left_out); })};
 }
@@ -96,13 +97,14 @@ std::vector<Column<CorrectedRow>> occupation_columns(const SurveyCorrection& res
         {"u_corrected_mgal", [](Row row) { return cell(row.u_corrected); }},
         {"studentised_residual", [](Row row) { return cell(row.studentised_residual); }},
         {"corrected1_mgal", [](Row row) { return cell(row.corrected1); }},
+        {"residual1_mgal", [](Row row) { return cell(row.residual1()); }},
     };
     const CorrectedRow& first = result.rows.front();
     if (first.row.record) append(columns, columns_of_records());
     if (first.day)
         append(columns, columns_of_day());
     else if (first.tilt_correction)
-        columns.push_back(kTilt);
+        columns.push_back(tilt_column());
     append(columns, {{"weight", [](Row row) { return cell(row.weight); }},
                      {"doubt_physical", [](Row row) { return row.doubt_physical; }},
                      {"doubt_statistical", [](Row row) { return row.doubt_statistical; }}});

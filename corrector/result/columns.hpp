@@ -10,7 +10,8 @@
 
 namespace a351::corrector {
 
-/// @param result  outlives the columns.  Rows from records and rows of the whole-day model have more columns.
+/// The first seven, from the site to the flags, are those that a left-out occupation has too.
+/// @param result  outlives the columns; has at least one row.  Rows from records and rows of the whole-day model have more columns.
 [[nodiscard]] std::vector<Column<CorrectedRow>> occupation_columns(const SurveyCorrection& result);
 
 [[nodiscard]] std::vector<Column<StationValue>> station_columns();

@@ -88,7 +88,7 @@ std::string gsadjust_csv(const SurveyCorrection& result, const std::vector<text:
         const bool is_kept_out =
             row.row.is_excluded || (row.row.is_flagged && result.options.use_flags);
         const MilliGal gravity = row.row.acceleration - row.row.tide + row.temperature_correction +
-                                 row.rate_correction + row.tilt();
+                                 row.rate_correction + row.tilt_correction_or_zero();
         for (const MilliGal value : {gravity - u, gravity + u}) {
             if (is_kept_out) csv += "% ";
             csv += gsadjust_name(row.row.site) + ',' + text::fixed(site->latitude.value(), 7) +

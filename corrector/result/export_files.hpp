@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "corrector/model/survey_correction.hpp"
-#include "corrector/result/result_files.hpp"
 #include "protocol/text/sites.hpp"
 #include "protocol/text/write_together.hpp"
 

@@ -1,13 +1,11 @@
 #include "corrector/result/result_files.hpp"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "corrector/model/calibration_use.hpp"
 #include "corrector/result/columns.hpp"
 #include "corrector/result/network_report.hpp"
 #include "corrector/result/table_text.hpp"
-#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -108,14 +106,16 @@ std::string result_json(const SurveyCorrection& result, const Json& settings,
     json["calibration"] = calibration_json(result);
     json["remarks"] = result.remarks;
     json["models"] = Json::array();
+    const auto of_scores = score_columns(result);
     for (const ScoredRowSet& set : result.row_sets) {
         for (const ModelScore& score : set.scores) {
-            json["models"].push_back(json_object(score_columns(result), ScoreRow{&set, &score}));
+            json["models"].push_back(json_object(of_scores, ScoreRow{&set, &score}));
         }
     }
     json["stations"] = Json::array();
+    const auto of_stations = station_columns();
     for (const StationValue& station : result.stations) {
-        json["stations"].push_back(json_object(station_columns(), station));
+        json["stations"].push_back(json_object(of_stations, station));
     }
     json["occupations"] = Json::array();
     const auto columns = occupation_columns(result);

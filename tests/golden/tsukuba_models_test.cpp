@@ -98,10 +98,21 @@ TEST_CASE("the program's paper model has the RMS before and after the drift step
     // "3.1 leave-one-out"
     CHECK(result.score.loo_mgal.value() == within(3.1, 0.05));
     const auto expected = tsukuba::printed("corrected2_mgal");
+    const auto error1 = tsukuba::printed("error1_mgal");
     for (std::size_t i = 0; i < expected.size(); ++i) {
         CAPTURE(i);
         CHECK(std::abs(result.rows[i].corrected.value() - expected[i]) <= 0.30);
+        CHECK(std::abs(result.rows[i].residual1().value().value() - error1[i]) <= 0.30);
     }
+}
+
+TEST_CASE("drift alone explains no more of the 16 rows than their scatter", "[golden][tsukuba]") {
+    const SurveyCorrection result = correct("drift", true);
+    REQUIRE(result.coefficients.size() == 2);
+    CHECK(result.coefficients[1].name == "time_mgal_per_h");
+    CHECK(result.row_sets[0].scores.back().model == "drift");
+    CHECK(result.score.loso_mgal.value() > 2.0 * correct("t", true).score.loso_mgal.value());
+    CHECK(correct("auto", true).row_sets[0].scores.size() == 5);  // paper and the four
 }
 
 TEST_CASE("auto takes the temperature line on 16 rows and adds the rate on 19",

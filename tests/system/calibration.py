@@ -37,7 +37,7 @@ with Scratch() as scratch:
     print(correct("calibrate", "--tilt", "tilt-series", "--out", "c.toml", cwd=scratch).stdout)
     text = (scratch / "c.toml").read_text()
     unit = tomllib.loads(text)
-    page = (TOP / "corrector" / "calibration" / "calibration-format.md").read_text()
+    page = (TOP / "protocol" / "unit" / "calibration-format.md").read_text()
     lacking = sorted(key for key in keys(unit) if f"`{key}`" not in page and f"`[{key}]`" not in page and f"`[[{key}]]`" not in page)
     demand(f"it is TOML; of {len(keys(unit))} keys its page lacks {lacking or 'none'}", not lacking)
     values, covariance = unit["axis_bias"]["values"], unit["axis_bias"]["covariance"]

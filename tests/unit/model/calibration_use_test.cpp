@@ -181,8 +181,8 @@ TEST_CASE("other models read what tilt has not changed", "[survey][calibration]"
         CHECK(row.row.acceleration == rows[i].acceleration);
         CHECK(row.difference.value().value() ==
               Approx((rows[i].acceleration - *rows[i].reference).value()));
-        CHECK((row.row.acceleration + row.temperature_correction + row.tilt()).value() ==
-              Approx(row.corrected.value()).epsilon(1e-12));
+        CHECK((row.row.acceleration + row.temperature_correction + row.tilt_correction_or_zero())
+                  .value() == Approx(row.corrected.value()).epsilon(1e-12));
     }
     REQUIRE(result.calibration);
     CHECK_FALSE(result.calibration->is_prior);

@@ -1,0 +1,74 @@
+#include "corrector/result/columns.hpp"
+
+#include "tests/support/catch.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+const std::string kHead =
+    "site,occupation,time_utc,start_utc,end_utc,used,flags,acceleration_mgal,temperature_degc,"
+    "rate_degc_per_h,tide_mgal,difference_mgal,temperature_correction_mgal,rate_correction_mgal,"
+    "drift_correction_mgal,corrected_mgal,reference_mgal,residual_mgal,leverage,u_corrected_mgal,"
+    "studentised_residual,corrected1_mgal,residual1_mgal,";
+const std::string kOfRecords =
+    "series_mean_mgal,series_minus_curve_mgal,standard_error_mgal,temperature_range_degc,"
+    "temperature_is_monotone,temperature_is_half_wave,valid_samples,partial_samples,"
+    "missing_samples,mean_x_g,rms_x_mgal,mean_y_g,rms_y_mgal,mean_z_g,rms_z_mgal,"
+    "rectification_mgal,eemd_mgal,smoother_mgal,u_smoother_mgal,smoother_minus_eemd_mgal,";
+const std::string kTail = "weight,doubt_physical,doubt_statistical\n";
+
+SurveyCorrection one_row() {
+    SurveyCorrection result;
+    CorrectedRow& row = result.rows.emplace_back();
+    row.row.site = "No.0";
+    row.is_used = true;
+    row.corrected1 = MilliGal(979859.533);
+    return result;
+}
+
+std::string header(const SurveyCorrection& result) {
+    return csv_header(occupation_columns(result));
+}
+
+}  // namespace
+
+TEST_CASE("occupations have the columns of what is known of them", "[result][columns]") {
+    SurveyCorrection result = one_row();
+    CorrectedRow& row = result.rows.front();
+    CHECK(header(result) == kHead + kTail);
+    row.tilt_correction = MilliGal(1.0);
+    CHECK(header(result) == kHead + "tilt_correction_mgal," + kTail);
+    row.row.record.emplace();
+    CHECK(header(result) == kHead + kOfRecords + "tilt_correction_mgal," + kTail);
+    row.day.emplace();
+    CHECK(header(result) == kHead + kOfRecords +
+                                "averaged_s,fast_rate_degc_per_h,tilt_correction_mgal,"
+                                "flicker_correction_mgal,left_out_mgal," +
+                                kTail);
+}
+
+TEST_CASE(
+    "a cell is a number of six decimals in CSV, in full in JSON, and empty or null without a value",
+    "[result][columns]") {
+    CHECK(csv_text(cell(1.0 / 3.0)) == "0.333333");
+    CHECK(json_value(cell(1.0 / 3.0)) == 1.0 / 3.0);
+    CHECK(csv_text(Cell(true)) == "1");
+    CHECK(json_value(Cell(false)) == false);
+    CHECK(csv_text(cell_of_count(19)) == "19");
+    CHECK(json_value(cell_of_count(19)) == 19);
+    CHECK(csv_text(cell(std::optional<MilliGal>())).empty());
+    CHECK(json_value(cell(std::optional<double>())).is_null());
+    CHECK(csv_text(cell(UtcTime{})) == "1970-01-01T00:00:00.000Z");
+}
+
+TEST_CASE("the publication's Error (1) is there with a reference only", "[result][columns]") {
+    SurveyCorrection result = one_row();
+    const auto error1 = [&] {
+        return json_object(occupation_columns(result), result.rows.front())["residual1_mgal"];
+    };
+    CHECK(error1().is_null());
+    result.rows.front().row.reference = MilliGal(979860.210);
+    CHECK(error1().get<double>() == Approx(0.677).margin(1e-9));
+}
