@@ -8,7 +8,7 @@ seed; a seed that is there is not computed again.
 Every calibration is measured: `calibrate --tilt` on the scenario tilt-series, `calibrate FILE` on a night of 12 h (indoor)
 and on two days with their warmth (week) of the same unit.  One datum: nine occupations of seven stations, of which No.0,
 occupied three times, is the only datum.  The error is that of stations.csv at the six unknown stations.  Without a
-calibration the model is the network with the priors of a351-correct(1), which is what there is with one datum.
+calibration the model is the network with the priors of a351-survey.toml(5), which is what there is with one datum.
 Thermal prior: the error is leave-one-station-out over 19 occupations.  Another unit's calibration, drawn within +-60 % and
 measured in two days, under this unit's serial number: its error, how often the report says that the readings contradict
 it, and how often it harms a day by more than is allowed without a word.

@@ -1,4 +1,5 @@
-"""The manual pages name every option of --help and no other; a351d.toml(5) every key the parser accepts."""
+"""The manual pages name every option of --help and no other, those of a351-correct subcommand by subcommand; the pages
+of the configuration and of the survey file every key the parser accepts."""
 
 import re
 
@@ -9,23 +10,64 @@ PAGES = {
     "a351ctl": ("daemon/ctl/a351ctl.1",
                 ["status", "watch", "start", "stop", "setup", "discard", "rename", "note", "target", "sites", "list"]),
     "a351-sim": ("sim/a351-sim.1", ["device", "replay", "survey", "plan"]),
-    "a351-correct": ("corrector/a351-correct.1",
-                     ["survey", "table", "calibrate", "decimate", "emd", "export", "record", "retime", "smooth", "tide"]),
 }
+OPTION = r"(?<![\w-])--[a-z][a-z0-9-]*"
+
+
+def offered_options(help_text):
+    return set(re.findall(OPTION, "\n".join(line for line in help_text.splitlines() if line.lstrip().startswith("-"))))
+
+
+def demand_options(name, page, described, offered):
+    demand(f"{name}: {page} describes {sorted(offered - described) or 'all options'}", offered <= described)
+    demand(f"{name}: {page} invents {sorted(described - offered) or 'no option'}", described <= offered)
+
+
+def section_of(page_text, title):
+    return page_text.split(f"\n.SH {title}\n")[1].split("\n.SH ")[0]
+
 
 for program, (page, commands) in PAGES.items():
     helps = [run(BIN / program, *command, "--help").stdout for command in [[]] + [[c] for c in commands]]
-    offered = set(re.findall(r"(?<![\w-])--[a-z][a-z0-9-]*", "\n".join(
-        line for text in helps for line in text.splitlines() if line.lstrip().startswith("-"))))
     page_text = (TOP / page).read_text().replace("\\-", "-")
     lines = [line for line in page_text.splitlines() if line.startswith((".TP", ".B", ".BI", ".BR"))]
-    described = set(re.findall(r"(?<![\w-])--[a-z][a-z0-9-]*", "\n".join(lines)))
-    demand(f"{program}: {page} describes {sorted(offered - described) or 'all options'}",
-           offered <= described)
-    demand(f"{program}: {page} invents {sorted(described - offered) or 'no option'}", described <= offered)
+    demand_options(program, page, set(re.findall(OPTION, "\n".join(lines))), offered_options("\n".join(helps)))
     for command in commands:
         demand(f"{program}: {page} names {command}", re.search(rf"\b{command}\b", page_text) is not None)
     demand(f"{program} --version", run(BIN / program, "--version").stdout.startswith(program + " "))
+
+help_text = run(BIN / "a351-correct", "--help").stdout
+commands = re.findall(r"^  ([a-z]+) ", help_text.split("\nSubcommands:\n")[1], re.M)
+folder = TOP / "corrector" / "command"
+overview = folder.parent / "a351-correct.1"
+helps = {overview: ("a351-correct", help_text)} | {
+    folder / f"a351-correct-{command}.1": (f"a351-correct {command}", run(BIN / "a351-correct", command, "--help").stdout)
+    for command in commands}
+for page, (name, help_text) in helps.items():
+    page_text = page.read_text().replace("\\-", "-")
+    entries = "\n".join(re.findall(r"^\.TP\n(.*)$", section_of(page_text, "OPTIONS"), re.M))
+    demand_options(name, page.name, set(re.findall(OPTION, entries)), offered_options(help_text))
+    shown = set(re.findall(OPTION, section_of(page_text, "SYNOPSIS")))
+    demand(f"its synopsis shows {sorted(shown) or 'no option'}", shown <= offered_options(help_text))
+for command in commands:
+    demand(f"{overview.name} names {command} and its page", f".BR a351-correct-{command} (1)\n.BR {command} :\n" in
+           overview.read_text().replace("\\-", "-"))
+demand("no page is of another subcommand", set(folder.glob("*.1")) == set(helps) - {overview})
+installed = re.search(r"foreach\(command IN ITEMS ([a-z ]+)\)\n +install\(FILES \S+/a351-correct-\$\{command\}\.1\s",
+                      (TOP / "config" / "CMakeLists.txt").read_text())
+demand("every page is installed", installed and sorted(installed[1].split()) == sorted(commands))
+demand("a351-correct --version", run(BIN / "a351-correct", "--version").stdout.startswith("a351-correct "))
+
+page_text = (folder / "a351-survey.toml.5").read_text()
+for table in ("survey", "prior"):
+    listed = page_text.split(f"\n[{table}]")[1].split("\n.fi")[0].split("\n[")[0]
+    described = set(re.findall(r"^([a-z0-9_]+) = ", listed, re.M))
+    with Scratch() as scratch:
+        (scratch / "day.toml").write_text(f"[{table}]\nzzz = 1\n")
+        message = run(BIN / "a351-correct", "survey", scratch / "day.toml", check=False).stderr
+    accepted = set(message.split("allowed: ")[1].strip().split(", ")) - {"zzz"}
+    demand(f"[{table}] of the survey file: the page lacks {sorted(accepted - described) or 'no key'}, invents "
+           f"{sorted(described - accepted) or 'none'}", accepted == described)
 
 page_text = (TOP / "daemon" / "a351d.toml.5").read_text()
 position = "[station]\nlatitude = 36.2\nlongitude = 140.1\nelevation_m = 400.0\n"
