@@ -53,7 +53,7 @@ with Scratch() as scratch:
              30 * SLOWER)
     ctl(session, "target", "0.01")
     demand("the target is not reached", not session.status()["occupation"]["reading"]["is_good_enough"])
-    demand("how long it will take is told", session.status()["occupation"]["reading"]["needed_s"] > 0)
+    wait_for("how long it will take", lambda: session.status()["occupation"]["reading"]["needed_s"], 10 * SLOWER)
     ctl(session, "target", "5")
     wait_for("a lesser target is", lambda: session.status()["occupation"]["reading"]["is_good_enough"], 10 * SLOWER)
     wait_for("a further set-up is proposed", lambda: session.status()["occupation"]["propose_set_up"],
