@@ -25,8 +25,8 @@ SurveySource source_of(const SurveyFile& survey) {
     return source;
 }
 
-/// Adds the files that the survey file names besides those of the record: the survey first, what
-/// is no sample before the archive.
+/// Adds the other files that a survey file names, in the order of result.json: the survey file first,
+/// calibration and tide before the archive.
 void add_inputs(std::vector<text::InputFile>& inputs, const SurveyFile& survey) {
     std::vector<text::InputFile> more;
     if (!survey.calibration.empty())
@@ -63,7 +63,7 @@ SurveyOptions with_sites_of(OccupationRows& read, SurveyOptions options) {
     };
     if (!options.base.empty() && is_absent(options.base) && options.model != "paper") {
         read.warnings.push_back("base " + options.base +
-                                " has no occupation with a value: the first site stands in");
+                                " has no occupation with a value: the first site is used instead");
         options.base.clear();
     }
     auto& datum = options.datum;

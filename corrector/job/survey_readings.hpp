@@ -13,13 +13,12 @@ namespace a351::corrector {
 ///                     calibration is of another unit; the tide is not known for all readings.
 [[nodiscard]] OccupationRows read_survey(const SurveyFile& survey, const Progress& progress);
 
-/// The options without a base or datum stations that have no row, each with a warning; as they are
-/// where the result would be another: for `paper`, whose drift step needs the base, and when no datum
-/// station would be left.
+/// Removes a base and datum stations that have no row from the options, each with a warning.  The base of
+/// `paper` stays, because its drift step needs it; the datum stays if no station of it would be left.
 [[nodiscard]] SurveyOptions with_sites_of(OccupationRows& read, SurveyOptions options);
 
-/// What is doubtful about the survey's calibration, in sentences.
-/// @param serial_number  of the record; empty: not told.
+/// Returns the doubts about the survey's calibration, one sentence each.
+/// @param serial_number  of the record; empty: not known.
 /// @throws InputError  it is of another unit.
 [[nodiscard]] std::vector<std::string> check_calibration(
     const SurveyFile& survey, const std::string& serial_number,

@@ -33,16 +33,15 @@ struct SurveyOptions {
     std::optional<Calibration> calibration;  ///< Of the unit.
 };
 
-/// What only the whole-day model tells of a row.
+/// Figures of a row that only the whole-day model has.
 struct WholeDayPart {
-    double averaged_s = 0.0;  ///< Length of the undisturbed samples together.
-    double fast_rate_degc_per_h =
-        0.0;  ///< What its fast term takes for the rate of the temperature.
+    double averaged_s = 0.0;            ///< Length of the undisturbed samples together.
+    double fast_rate_degc_per_h = 0.0;  ///< Rate of the temperature in its fast term.
     MilliGal flicker_correction;
     std::optional<MilliGal> left_out;  ///< Value with the reference of the station hidden.
 };
 
-/// One row and what became of it.  corrected = acceleration - tide + the corrections, of which
+/// A row with its corrections.  corrected = acceleration - tide + the corrections, of which
 /// `day` has one of flicker too; the constant is in the temperature correction.
 struct CorrectedRow {
     SurveyRow row;

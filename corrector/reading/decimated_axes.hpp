@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The samples of a set-up, and what all averages of it begin with.
+/// Samples of a set-up, and their decimation before any average.
 
 #include <cstddef>
 
@@ -17,8 +17,8 @@ inline constexpr int kDecimationStages = 2;
 inline constexpr std::size_t kDecimationRatio = 100;
 static_assert(kDecimationFactor * kDecimationFactor == kDecimationRatio && kDecimationStages == 2);
 
-/// What was recorded at a site.  Missing samples are NaN.  The axes hold the occupation and nothing
-/// beyond it; the temperature may begin earlier and end later, on the same grid of instants.
+/// Samples recorded at a site; missing ones are NaN.  The axes hold the occupation only; the
+/// temperature may begin earlier and end later, on the same grid of instants.
 struct OccupationRecord {
     TimeSeries<StandardGravity> x;  ///< Horizontal.
     TimeSeries<StandardGravity> y;  ///< Horizontal.
@@ -34,7 +34,7 @@ struct DecimatedAxes {
 /// Decimates each axis; NaN where a sample under the filters is missing.
 [[nodiscard]] DecimatedAxes decimate_axes(const OccupationRecord& record);
 
-/// What comes first.  The norm of samples that vibrate sideways is too large by
+/// Order of norm and decimation.  The norm of samples that vibrate sideways is too large by
 /// rectification_bias(), and no later filter takes that away.
 enum class NormOrder {
     decimate_first,  ///< Norm of the decimated axes: free of that bias.

@@ -49,11 +49,11 @@ struct OccupationRows {
     std::vector<MinuteTemperature> temperature_course;  ///< Over the whole survey.
     std::optional<DayRecord> day;       ///< Set-ups numbered as the rows; absent: no temperature.
     std::vector<LeftOut> left_out;      ///< Occupations without a value, by start.
-    std::vector<std::string> warnings;  ///< What is doubtful or left out, and why.
+    std::vector<std::string> warnings;  ///< Doubts and omissions, with the reason.
     std::vector<Amendment> amendments;
     std::vector<text::Site> sites;
     std::vector<text::InputFile> inputs;  ///< Every file read.
-    std::string serial_number;            ///< Of the sensor; empty: the metadata do not tell.
+    std::string serial_number;            ///< Of the sensor; empty: not in the metadata.
 };
 
 /// The representative value of a record as a row of the survey, reference and tide left open.

@@ -13,7 +13,7 @@
 
 namespace a351::corrector {
 
-/// What is known of the record behind a row; within its averaging interval, if nothing else is said.
+/// Figures of the record behind a row, within its averaging interval unless stated otherwise.
 struct RecordSummary {
     MilliGal series_mean;                    ///< Of the decimated series.
     MilliGal curve_mean;                     ///< Of the trend that was asked for.

@@ -16,7 +16,7 @@
 
 namespace a351::corrector {
 
-/// What a cell holds; nothing where the row has no value.
+/// Value of a cell; std::monostate if the row has none.
 using Cell = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
 
 [[nodiscard]] inline Cell cell(double value) { return value; }

@@ -70,6 +70,7 @@ with Scratch() as scratch:
         wait_for(claim, is_so, 10)
 
     shipped = slope_limit(session)
+    demand(f"the shipped threshold is shown: {shipped} degC/h", shipped is not None)
     reload(given + "[verdict]\nslope_degc_per_h = 0.001\n", "the threshold that SIGHUP brought",
            lambda: slope_limit(session) == 0.001)
     wait_for("settling by it", lambda: state(session) == "settling", 10)
