@@ -20,10 +20,11 @@ constexpr Nanoseconds kGrace = 2s;
 /// What was written passes the kernel's flip buffer before it counts as waiting to be read.
 constexpr Nanoseconds kSettle = 200ms;
 constexpr Nanoseconds kQuiet = 10ms;
-/// Before the port is pulled out the host may read what it got: what is known to have been sent
-/// should have arrived.
-constexpr Nanoseconds kShortestLeave = 20ms;
-constexpr Nanoseconds kLongestLeave = 1s;
+/// Before the port is pulled out the host may read what it got, so that what was sent has arrived.
+/// Counted in turns of a batch each: a host that pauses lets time pass, but gives no turn, neither
+/// to the reader nor to the kernel's worker that empties the flip buffer.
+constexpr int kQuietTurns = 20;
+constexpr int kMostTurns = 1000;
 
 }  // namespace
 
@@ -95,17 +96,16 @@ void SensorPort::move_plug(const Instant& now) {
     if (const auto asked = faults_->take_hang_up()) {
         if (plug_ == Plug::in) {
             plug_ = Plug::leaving;
-            leaving_since_ = now.steady;
+            turns_ = quiet_turns_ = 0;
             hang_up_ = *asked;
         }
         hang_up_.until = std::max(hang_up_.until, asked->until);
         hang_up_.loses_power = hang_up_.loses_power || asked->loses_power;
     }
     if (plug_ == Plug::leaving) {
-        const Nanoseconds since = now.steady - leaving_since_;
-        const std::size_t unread = pty_.unread();
-        if ((since > kShortestLeave && unread == 0) || since > kLongestLeave) {
-            if (unread > 0) bytes_unread_ += pty_.take_back();
+        quiet_turns_ = pty_.unread() == 0 ? quiet_turns_ + 1 : 0;
+        if (quiet_turns_ == kQuietTurns || ++turns_ == kMostTurns) {
+            bytes_unread_ += pty_.take_back();
             pty_.hang_up();
             plug_ = Plug::out;
         }

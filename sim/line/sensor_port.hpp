@@ -68,7 +68,7 @@ private:
     bool is_blocked_ = false;  ///< The terminal takes no more.
     Plug plug_ = Plug::in;
     FaultInjector::HangUp hang_up_;
-    Nanoseconds leaving_since_{0};
+    int turns_ = 0, quiet_turns_ = 0;  ///< Since it is leaving; and with nothing unread.
     std::string trouble_;  ///< That keeps it out.
     std::size_t bytes_unread_ = 0;
     Nanoseconds first_sent_{0}, last_sent_{0};

@@ -12,6 +12,7 @@ import time
 from programs import BIN, compare_truth, daemon_config, demand, read_json, run, unused_port
 
 INTACT, DAMAGED, LOST, REPEATED, MISPLACED = range(5)
+FRAME = 24  # Bytes
 
 
 def ask(scratch, line):
@@ -150,6 +151,13 @@ class Session:
             demand(f"{name}: {counted['missing']:.0f} of {counted['truth']:.0f} intact frames missing, "
                    f"{counted['steps']:.0f} time steps (allowed {missing} and {steps})",
                    counted["missing"] == missing and (steps is None or counted["steps"] == steps))
+
+
+def require_unread(report, frames, outages):
+    """Demands that this many frames, handed over and not received, are those that the emulator took back at outages."""
+    unread = report["bytes_unread"]
+    demand(f"{frames} frames were not received; {unread} bytes were unread when the port was unplugged {outages} times",
+           unread <= FRAME * frames < unread + FRAME * outages or unread == frames == 0)
 
 
 def gaps_of(truth):

@@ -6,10 +6,10 @@ import signal
 import subprocess
 import time
 
-from emulated_session import Session, ask, gaps_of, wait_for
+from emulated_session import FRAME, Session, ask, gaps_of, require_unread, wait_for
 from programs import BIN, Scratch, compare_truth, demand, read_json
 
-FRAME = 24
+ANSWER = 4  # Bytes
 
 # What the daemon counts of each fault of single frames; of what is not named here, nothing.  A flipped bit or a byte
 # too many may hit a marker or not: then only the bytes and the gap are certain, and how often the decoder starts anew
@@ -73,15 +73,17 @@ def play(session, order, expected, by_chance):
         demand(f"{order}: damage is seen as damage ({chance})", chance > 0)
 
 
-def bytes_agree(report, counters):
-    arrived = report["bytes_handed_over"] - report["bytes_of_answers"]
-    demand(f"{counters['bytes']} bytes received are the {arrived} handed over",
-           counters["bytes"] == arrived)
-    damaged = arrived - report["bytes_of_frames"]
-    demand(f"{counters['bytes_skipped']} bytes skipped are the {damaged} outside whole frames",
-           counters["bytes_skipped"] == damaged)
-    demand(f"{counters['frames']} frames are the {report['frames_sent']} that were sent whole",
-           counters["frames"] == report["frames_sent"])
+def bytes_agree(report, counters, outages=0):
+    """On a host that is held up a few answers come after their time-out: they are received as part of the stream."""
+    unread_frames = report["frames_sent"] - counters["frames"]
+    require_unread(report, unread_frames, outages)
+    arrived = report["bytes_handed_over"] - report["bytes_of_answers"] - report["bytes_unread"]
+    late = counters["bytes"] - arrived
+    demand(f"{counters['bytes']} bytes received are the {arrived} handed over, and {late} of answers after their time-out",
+           late in range(0, 5 * ANSWER, ANSWER))
+    damaged = arrived - FRAME * counters["frames"]
+    demand(f"{counters['bytes_skipped']} bytes skipped are the {damaged} outside whole frames and the late answers",
+           counters["bytes_skipped"] == damaged + late)
 
 
 with Scratch() as scratch:
@@ -130,10 +132,9 @@ with Scratch() as scratch:
         wait_for(f"sampling again after {fault}", lambda: len(session.emulated()["runs"]) == runs)
     wait_for("frames of the last run", lambda: session.emulated()["runs"][-1]["frames"] > 500)
     report, counters = session.end()
-    bytes_agree(report, counters)
+    bytes_agree(report, counters, outages=1)
     demand(f"{runs} runs are as many sessions", counters["sessions"] == len(report["runs"]) == runs)
-    demand("nothing was unread when the port was pulled out", report["bytes_unread"] == 0)
-    session.archive_is_true(missing=0)
+    session.archive_is_true(missing=report["frames_sent"] - counters["frames"])
     common = [(values, first_samples[instant]) for instant, values in session.samples().items()
               if instant in first_samples]
     demand(f"{len(common)} samples at equal instants of two runs are equal",

@@ -10,7 +10,7 @@ from programs import IS_SANITIZED, Scratch
 SPEED = 20 if IS_SANITIZED else 100
 # Between a sample's time and its place by the header's rate; as three_days.py allows a live archive.
 LARGEST_DEPARTURE_US = 4500
-BEFORE = datetime.timedelta(minutes=3)
+BEFORE_MIN = 10  # Of simulated time: at 100x the daemon has 6 s to start sampling before midnight.
 # The first instant of a day, and the days of the year before and after it.
 MIDNIGHTS = [("2023-03-01", "end of February", "2023.059", "2023.060"),
              ("2024-02-29", "leap day begins", "2024.059", "2024.060"),
@@ -29,11 +29,11 @@ scratches = [Scratch() for _ in MIDNIGHTS]
 sessions = []
 for scratch, (day, *_) in zip(scratches, MIDNIGHTS):
     path = scratch.__enter__()
-    start = (datetime.datetime.fromisoformat(day) - BEFORE).strftime("%Y-%m-%dT%H:%M:%SZ")
+    start = (datetime.datetime.fromisoformat(day) - datetime.timedelta(minutes=BEFORE_MIN)).strftime("%Y-%m-%dT%H:%M:%SZ")
     (path / "midnight.toml").write_text(SCENARIO.replace("START", start))
     sessions.append(Session(path, speed=SPEED, scenario="midnight.toml", start=start))
 for session in sessions:
-    session.wait_for_frames(6 * 60 * 50)
+    session.wait_for_frames((BEFORE_MIN + 3) * 60 * 50)
 for session, (day, name, before, after) in zip(sessions, MIDNIGHTS):
     session.end()
     midnight_us = datetime.datetime.fromisoformat(day + "T00:00:00+00:00").timestamp() * 1e6

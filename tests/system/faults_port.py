@@ -7,7 +7,7 @@ import re
 import signal
 import time
 
-from emulated_session import Session, gaps_of, wait_for
+from emulated_session import Session, gaps_of, require_unread, wait_for
 from fault_table import FaultTable
 from programs import Scratch
 
@@ -41,7 +41,10 @@ with Scratch() as scratch:
     status = session.status()
     report, counters = session.end()
     gaps, missing = gaps_of(session.truth())
-    is_true = is_archive_true(session)
+    unread = report["frames_sent"] - counters["frames"]
+    require_unread(report, unread, outages=4)
+    missing += unread
+    is_true = is_archive_true(session, unread)
     is_one = (status["session"] == first and counters["sessions"] == len(report["runs"]) == 1
               and counters["link_adoptions"] == 4 and status["device"]["assumed"])
     table.note(9, "unplugged, back under another name",
