@@ -37,13 +37,14 @@ namespace {
 using namespace a351;
 using namespace a351::daemon;
 
-constexpr std::chrono::seconds kStale{3};  // Of instrument time, but never less than
+// Age of the last sample from which the verdict is "no data": instrument time, and least real time.
+constexpr std::chrono::seconds kStale{3};
 constexpr std::chrono::milliseconds kShortestRealStale{500};
 
 enum ExitStatus { kDone = 0, kFailed = 1, kBadUsage = 2, kAlreadyRunning = 3 };
 
 std::shared_ptr<spdlog::logger> make_log() {
-    // A full log must not stop the acquisition: the oldest lines give way.
+    // A full log queue must not stop the acquisition, so the oldest lines are dropped.
     spdlog::init_thread_pool(4096, 1);
     auto sink = std::make_shared<spdlog::sinks::stderr_sink_mt>();
     auto log = std::make_shared<spdlog::async_logger>(
@@ -53,7 +54,7 @@ std::shared_ptr<spdlog::logger> make_log() {
     return log;
 }
 
-/// Whatever ends the program: what was logged is written before the log goes.
+/// Writes all log lines before the program ends, however it ends.
 struct LogEnd {
     LogEnd() = default;
     LogEnd(const LogEnd&) = delete;
@@ -78,7 +79,8 @@ void recall_past(const Config& config, UtcTime now, spdlog::logger& log, LiveRec
     try {
         take_archived_past(config.storage.root / "archive", config.station.codes, now, live);
     } catch (const std::exception& error) {
-        log.warn("the verdict does without what was recorded before: {}", error.what());
+        log.warn("archived data could not be loaded, the verdict starts without them: {}",
+                 error.what());
     }
 }
 
@@ -106,25 +108,31 @@ Status snapshot(const Config& config, const HostClock& clock, const SensorLink& 
 
 void log_recovery(spdlog::logger& log, const record::RecoveryReport& report) {
     if (report.journal) {
-        log.warn("recovery: {} bytes cut from {} at {}: {}", report.journal->byte_count,
-                 report.journal->file.string(), report.journal->offset, report.journal->reason);
+        log.warn("recovery: {} bytes removed from {} from offset {} on: {}",
+                 report.journal->byte_count, report.journal->file.string(), report.journal->offset,
+                 report.journal->reason);
     }
     for (const record::TornTail& tail : report.archive) {
-        log.warn("recovery: {} bytes cut from {} at {}", tail.byte_count, tail.file.string(),
-                 tail.offset);
+        log.warn("recovery: {} bytes removed from {} from offset {} on", tail.byte_count,
+                 tail.file.string(), tail.offset);
     }
-    log.info("recovery: {} records added, {} confirmed", report.records_added,
-             report.records_confirmed);
+    log.info("recovery: {} records added to the archive, {} were already there",
+             report.records_added, report.records_confirmed);
     if (report.chunks_lost > 0) {
-        log.error("recovery: {} chunks of the journal could not be understood", report.chunks_lost);
+        log.error(
+            "recovery: {} chunks of the journal could not be processed and are missing from the "
+            "archive",
+            report.chunks_lost);
     }
     if (report.records_conflicting > 0) {
-        log.error("recovery: {} records of the archive disagree with the journal",
-                  report.records_conflicting);
+        log.error(
+            "recovery: {} records of the archive differ from the journal; those of the archive are "
+            "kept",
+            report.records_conflicting);
     }
 }
 
-/// A file must not become what the log is written to because the shell closed it.
+/// Opens standard streams that the shell closed, so that the log is not written to a data file.
 void open_standard_streams() {
     while (true) {
         const int descriptor = open("/dev/null", O_RDWR | O_CLOEXEC);
@@ -133,8 +141,8 @@ void open_standard_streams() {
     }
 }
 
-/// Blocks the signals in this thread, and in all that it starts, so that run() can wait for them.
-/// A reader of the log that went away must not end the acquisition.
+/// Blocks the signals in this thread and all threads that it starts, so that run() can wait for
+/// them.  SIGPIPE is ignored, because a closed log pipe must not end the acquisition.
 sigset_t block_signals() {
     std::signal(SIGPIPE, SIG_IGN);
     sigset_t signals;
@@ -149,7 +157,8 @@ std::string brief(const Status& status) {
                                   : status.link_state + "; " + status.reasons.front();
 }
 
-/// The verdict's own gap is instrument time too, and must not be shorter than a pause of the host.
+/// Returns the thresholds of the verdict.  gap_s is instrument time and must not be shorter than a
+/// pause of the host.
 VerdictOptions thresholds_of(const Config& config, const HostClock& clock) {
     VerdictOptions options = config.verdict;
     const std::chrono::duration<double> shortest = clock.instrument_span(kShortestRealStale);
@@ -161,8 +170,8 @@ Occupations::Options occupation_options(const Config& config) {
     return {.planned = config.survey.planned, .target = MilliGal(config.verdict.target_mgal)};
 }
 
-/// What SIGHUP asks for: sites, planned length and thresholds.  A file that is refused changes
-/// nothing.
+/// Reads the configuration again after SIGHUP, and takes sites, planned length and thresholds from
+/// it.  A file that is refused changes nothing.
 void reload(const std::filesystem::path& config_file, const HostClock& clock, spdlog::logger& log,
             LiveRecord& live, Occupations& occupations, Server& page) {
     try {
@@ -171,9 +180,10 @@ void reload(const std::filesystem::path& config_file, const HostClock& clock, sp
         page.post([&occupations, sites = fresh.survey.sites, options = occupation_options(fresh)] {
             occupations.use(sites, options);
         });
-        log.info("SIGHUP: [verdict], sites and occupation_min are those of the file now");
+        log.info("SIGHUP: [verdict], sites and occupation_min were read again and are in use");
     } catch (const std::exception& error) {
-        log.error("SIGHUP: nothing was changed: {}", error.what());
+        log.error("SIGHUP: the configuration was refused and nothing was changed: {}",
+                  error.what());
     }
 }
 
@@ -226,7 +236,8 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
          .assets = config.page.assets,
          .stale_after = std::max<Nanoseconds>(kStale, clock.instrument_span(kShortestRealStale))});
     for (const std::string& address : page.addresses()) log.info("page at http://{}", address);
-    if (page.is_exposed()) log.warn("the page can be reached from other hosts");
+    if (page.is_exposed())
+        log.warn("the page can be reached from other hosts; changes need the token");
 
     store.start();
     link.start();
@@ -239,7 +250,7 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
         const int signal = sigtimedwait(&signals, nullptr, &kSecond);
         const Status status = snapshot(config, clock, link, oven, store, live);
         status_log.note(status, std::chrono::steady_clock::now());
-        notice.beat(store.has_come_round(), brief(status));
+        notice.beat(store.is_alive(), brief(status));
         if (signal == SIGHUP) reload(config.file, clock, log, live, occupations, page);
         if (signal == SIGINT || signal == SIGTERM) break;
     }
@@ -249,9 +260,11 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
     if (oven) oven->stop();
     link.stop();
     const bool is_on_disk = store.stop();
-    if (!is_recovered) log.warn("the archive is behind the journal; the next start brings it in");
+    if (!is_recovered)
+        log.warn(
+            "the archive is incomplete; the next start adds the missing data from the journal");
     if (is_on_disk) return kDone;
-    log.error("not everything is on disk");
+    log.error("some data could not be written to disk or archived; see the messages above");
     return kFailed;
 }
 
@@ -264,16 +277,19 @@ int complain_and_end(ExitStatus status, const std::string& trouble) {
 
 int main(int argc, char** argv) {
     open_standard_streams();
-    CLI::App app("Records an M-A351 accelerometer and shows the operator how it is.", "a351d");
+    CLI::App app("Records data from an M-A351 accelerometer and reports its state to the operator.",
+                 "a351d");
     app.set_version_flag("--version", std::string("a351d ") + A351_VERSION);
     std::string config_file;
     std::string clock_text;
     bool is_check = false;
     bool is_list = false;
-    app.add_option("--config", config_file, "configuration file (TOML)");
-    app.add_flag("--check-config", is_check, "check the configuration, print ok, and end");
-    app.add_option("--clock", clock_text, "run on simulated time: scaled:FACTOR@UTC[,HOST]");
-    app.add_flag("--list-ports", is_list, "print path, by-id name, USB VID:PID:SERIAL, and end");
+    app.add_option("--config", config_file, "configuration file (TOML)")->type_name("FILE");
+    app.add_flag("--check-config", is_check, "check the configuration, print ok, and exit");
+    app.add_option("--clock", clock_text, "run on simulated time: scaled:FACTOR@UTC[,HOST]")
+        ->type_name("SCALE");
+    app.add_flag("--list-ports", is_list,
+                 "list serial ports (path, by-id name, USB VID:PID:SERIAL) and exit");
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& done) {
@@ -287,13 +303,13 @@ int main(int argc, char** argv) {
             print_ports();
             return kDone;
         }
-        if (config_file.empty()) return complain_and_end(kBadUsage, "--config FILE is needed");
+        if (config_file.empty()) return complain_and_end(kBadUsage, "--config FILE is required");
         std::optional<ClockScale> scale;
         if (!clock_text.empty()) {
             scale = parse_clock_scale(clock_text, host_realtime());
             if (!scale) {
                 return complain_and_end(kBadUsage, "--clock = " + clock_text +
-                                                       ": not a clock; allowed: "
+                                                       ": not a clock scale; allowed: "
                                                        "scaled:FACTOR@UTC[,HOST]");
             }
         }

@@ -14,7 +14,7 @@ volatile std::sig_atomic_t g_stop = 0;
 
 void on_signal(int) { g_stop = 1; }
 
-/// For commands that run until told to stop, by SIGINT or SIGTERM.
+/// Catches SIGINT and SIGTERM; the returned predicate is true once either has arrived.
 bool (*until_stopped())() {
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);

@@ -1,8 +1,8 @@
-# Brings the staged files of each package into the form that Debian's policy asks for; run by cpack.
+# Brings the staged files of each package into the form that Debian's policy requires.  Run by cpack.
 set(source ${CMAKE_CURRENT_LIST_DIR})
 find_program(GZIP gzip REQUIRED)
 
-# For dpkg-shlibdeps, which cpack runs: it reads the programs of a cross build with the tools of their architecture.
+# cpack runs dpkg-shlibdeps, which reads the programs of a cross build with the tools of their architecture.
 if(CPACK_DEBIAN_PACKAGE_ARCHITECTURE)
   set(ENV{DEB_HOST_ARCH} ${CPACK_DEBIAN_PACKAGE_ARCHITECTURE})
 endif()
@@ -28,7 +28,7 @@ foreach(package IN LISTS CPACK_COMPONENTS_ALL)
   compress(${doc}/changelog)
 endforeach()
 
-# Debian 12 keeps units and rules below /lib; Debian 13, whose dpkg is 1.22, below /usr/lib.
+# Units and rules are below /lib on Debian 12, and below /usr/lib on Debian 13, whose dpkg is 1.22.
 execute_process(COMMAND dpkg-query -W -f "\${Version}" dpkg OUTPUT_VARIABLE dpkg_version COMMAND_ERROR_IS_FATAL ANY)
 if(dpkg_version VERSION_LESS 1.22)
   set(root ${CPACK_TEMPORARY_DIRECTORY}/a351)
@@ -38,7 +38,7 @@ if(dpkg_version VERSION_LESS 1.22)
   endforeach()
 endif()
 
-# The same rights whatever the umask; the time of the last change, not of the build.
+# Permissions do not depend on the umask; file times are that of the last change, not of the build.
 execute_process(COMMAND chmod -R u=rwX,go=rX ${CPACK_TEMPORARY_DIRECTORY} COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND find ${CPACK_TEMPORARY_DIRECTORY} -exec touch --no-dereference --date=@$ENV{SOURCE_DATE_EPOCH} {} +
                 COMMAND_ERROR_IS_FATAL ANY)

@@ -1,5 +1,6 @@
-# Packs each package again: cpack's Installed-Size is that of the file system on which it was built, for it counts the blocks
-# of folders.  Dpkg's own rule (dpkg-gencontrol): KiB of each file, rounded up, and one for a folder.  Run by cpack.
+# Packs each package again with an Installed-Size that does not depend on the file system of the build: cpack counts the
+# blocks of folders.  The rule of dpkg-gencontrol is used: KiB of each file, rounded up, and 1 KiB per folder.
+# Run by cpack.
 foreach(deb IN LISTS CPACK_PACKAGE_FILES)
   set(tree ${CPACK_TEMPORARY_DIRECTORY}/repacked)
   file(REMOVE_RECURSE ${tree})
@@ -19,7 +20,7 @@ foreach(deb IN LISTS CPACK_PACKAGE_FILES)
   string(REGEX REPLACE "Installed-Size: [0-9]+" "Installed-Size: ${installed_kib}" control "${control}")
   file(WRITE ${tree}/DEBIAN/control "${control}")
   execute_process(COMMAND chmod -R u=rwX,go=rX ${tree} COMMAND_ERROR_IS_FATAL ANY)
-  # What xz writes depends on whether it has one thread or more.
+  # The output of xz depends on whether it uses one thread or several.
   execute_process(COMMAND dpkg-deb --root-owner-group --threads-max=1 -Zxz --build ${tree} ${deb}
                   OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
   file(REMOVE_RECURSE ${tree})

@@ -1,11 +1,11 @@
-# Writes what the packages are made of beside them, as SPDX 2.3 (JSON): the Debian packages of the libraries that they
-# link, of the headers and files that were compiled into them, and of the compiler.  Run by cpack after the packages.
+# Writes the bill of materials of the packages next to them, as SPDX 2.3 (JSON): the Debian packages of the libraries that
+# they link, of the headers and files that were compiled into them, and of the compiler.  Run by cpack after the packages.
 # https://spdx.github.io/spdx-spec/v2.3/
 
 set(packages "")       # Entries of the document.
 set(relations "")
 set(described "")      # Debian packages that have an entry.
-set(checksums "")      # Of our packages.
+set(checksums "")      # Checksums of the packages built here.
 
 function(output_of variable)
   execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE text OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
@@ -17,7 +17,7 @@ function(id_of variable name)
   set(${variable} "SPDXRef-${name}" PARENT_SCOPE)
 endfunction()
 
-# A package's entry; MORE are lines of JSON that end with a comma.
+# Adds the entry of a package; MORE are lines of JSON that end with a comma.
 function(add_package name version supplier license more)
   id_of(id ${name})
   set(entry "    {
@@ -43,7 +43,7 @@ function(relate subject type object)
   set(relations "${relations}" PARENT_SCOPE)
 endfunction()
 
-# An entry for a package of this system, once.  Where a cross build has it for two architectures, that of the build.
+# Adds an entry for a package of this system, once.  If a cross build has it for two architectures, the target's is used.
 function(describe name)
   if(NOT name IN_LIST described)
     set(query dpkg-query -W -f "\${Version}|\${Architecture}|\${source:Package}|\${source:Version}")
@@ -69,7 +69,7 @@ function(describe name)
   set(described "${described}" PARENT_SCOPE)
 endfunction()
 
-# The installed package of a name, which may be one that it only provides.
+# Finds the installed package of a name; the package may only provide this name.
 function(provider_of variable name)
   execute_process(COMMAND dpkg-query -W -f "\${Version}" ${name} OUTPUT_VARIABLE version ERROR_QUIET)
   if(NOT version)
@@ -82,11 +82,11 @@ function(provider_of variable name)
   set(${variable} ${name} PARENT_SCOPE)
 endfunction()
 
-# The packages of this system that hold the files, each once, in order.
+# Finds the packages of this system that contain the files: each once, sorted.
 function(owners_of variable)
   execute_process(COMMAND dpkg-query -S ${ARGN} OUTPUT_VARIABLE text ERROR_VARIABLE errors)
   if(errors)
-    message(WARNING "not of Debian's packages, and missing in the SBOM: ${errors}")
+    message(WARNING "files that are not from Debian packages are missing in the SBOM: ${errors}")
   endif()
   # A line is PACKAGE[:ARCHITECTURE][, ...]: FILE.
   string(REGEX REPLACE ": [^\n]*\n" ";" owners "${text}")
@@ -98,7 +98,7 @@ function(owners_of variable)
   set(${variable} "${owners}" PARENT_SCOPE)
 endfunction()
 
-# Collects, from the objects and other inputs of programs, the files of the system that were compiled in, headers apart.
+# Collects the system files that were compiled into programs, from their objects and other inputs; headers separately.
 function(compiled_into headers_variable files_variable)
   list(TRANSFORM ARGN PREPEND bin/)
   output_of(inputs ${CPACK_A351_NINJA} -C ${CPACK_A351_BUILD} --quiet -t inputs ${ARGN})
@@ -142,7 +142,7 @@ foreach(deb IN LISTS CPACK_PACKAGE_FILES)
 ")
   relate(DOCUMENT DESCRIBES ${name})
 
-  # dpkg-shlibdeps wrote these; a choice of packages is no library.
+  # dpkg-shlibdeps wrote these; an entry with alternatives is not a library.
   string(REGEX REPLACE ", *" ";" depends "${depends}")
   list(FILTER depends EXCLUDE REGEX "\\|")
   list(TRANSFORM depends REPLACE " .*$" "")
@@ -174,7 +174,7 @@ endforeach()
 
 set(document "a351_${version}_${architecture}")
 string(SHA256 checksum "${checksums}")
-string(TIMESTAMP created "%Y-%m-%dT%H:%M:%SZ" UTC)  # That of SOURCE_DATE_EPOCH.
+string(TIMESTAMP created "%Y-%m-%dT%H:%M:%SZ" UTC)  # Uses SOURCE_DATE_EPOCH, which date.cmake sets.
 list(JOIN packages ",\n" packages)
 list(JOIN relations ",\n" relations)
 file(WRITE ${CPACK_PACKAGE_DIRECTORY}/${document}.spdx.json "{

@@ -32,7 +32,7 @@ struct CalibrateOptions {
     bool is_within_given = false;
 };
 
-/// A survey file, or a data root with a sites.csv.
+/// Reads a survey file, or makes one for a data root with a sites.csv.
 SurveyFile series_file(const std::filesystem::path& path) {
     if (!std::filesystem::is_directory(path)) return read_survey_file(path);
     SurveyFile survey;
@@ -66,12 +66,12 @@ std::string series_text(const TiltSeries& series, const std::string& name) {
     return text;
 }
 
-/// Parts that this run has not measured, with the data they come from.
+/// Adds parts that this run has not measured, with the data they come from.
 void take_over(Calibration& calibration, const std::string& file) {
     const Calibration other = read_calibration(file);
     if (other.serial_number != calibration.serial_number)
         throw InputError(file + ": serial_number = " + other.serial_number +
-                         ": the record is of another unit; allowed: " + calibration.serial_number);
+                         ": another unit; allowed: " + calibration.serial_number);
     if (!calibration.axis_bias) calibration.axis_bias = other.axis_bias;
     if (!calibration.thermal) calibration.thermal = other.thermal;
     if (!calibration.warm_up) calibration.warm_up = other.warm_up;
@@ -112,7 +112,7 @@ RecordCalibrationOptions record_options(const CalibrateOptions& options) {
 
 void calibrate(const CalibrateOptions& options) {
     if (options.tilt.empty() && options.records.empty())
-        throw InputError("nothing to calibrate from; allowed: FILE..., --tilt FILE... or both");
+        throw InputError("no record and no tilt series; allowed: FILE..., --tilt FILE... or both");
     require_file_option("--out", options.out);
     Calibration calibration;
     calibration.program = "a351-correct " A351_VERSION;
@@ -138,33 +138,49 @@ void calibrate(const CalibrateOptions& options) {
 
 void add_calibrate_command(CLI::App& program) {
     CLI::App& command = *program.add_subcommand(
-        "calibrate", "Measures what is to be known of a unit before a survey.");
+        "calibrate",
+        "Measures properties of one unit before a survey and writes them to a calibration file.");
     const auto options = std::make_shared<CalibrateOptions>();
     command
         .add_option("FILE", options->records,
                     "Long records at one point, for the response to temperature: data roots, day "
-                    "files of their archives, or CSVs")
+                    "files of their archives, or CSV files")
+        ->type_name("")
         ->check(CLI::ExistingPath);
-    command.add_option(
-        "--tilt", options->tilt,
-        "Tilt series at one point, for the biases of the horizontal axes: survey files "
-        "(TOML) or data roots with a sites.csv");
+    command
+        .add_option("--tilt", options->tilt,
+                    "Tilt series at one point, for the biases of the horizontal axes: survey files "
+                    "(TOML) or data roots with a sites.csv")
+        ->type_name("FILE");
     CLI::Option* within =
         command
-            .add_option("--within", options->within_mgal,
-                        "Warm-up guidance: mGal of where the reading ends, 0.001 to 1000")
+            .add_option(
+                "--within", options->within_mgal,
+                "The unit counts as warmed up when its reading is within this many mGal of the "
+                "final value (0.001-1000)")
+            ->type_name("MGAL")
             ->capture_default_str();
-    command.add_option("--power-on", options->power_on,
-                       "Instant (RFC 3339) at which the sensor was switched on, at most half an "
-                       "hour before a record begins");
-    command.add_option("--out", options->out, "Calibration to write (TOML)")->required();
-    command.add_option(
-        "--merge", options->merge,
-        "Calibration of the same unit; parts that are not measured now are taken over");
-    command.add_option("--valid-from", options->valid_from,
-                       "Instant (RFC 3339); default: the first reading");
-    command.add_option("--valid-to", options->valid_to,
-                       "Instant (RFC 3339); default: until a newer one");
+    command
+        .add_option("--power-on", options->power_on,
+                    "Instant at which the sensor was switched on (RFC 3339), at most half an "
+                    "hour before a record begins")
+        ->type_name("UTC");
+    command.add_option("--out", options->out, "Calibration to write (TOML)")
+        ->type_name("FILE")
+        ->required();
+    command
+        .add_option(
+            "--merge", options->merge,
+            "Calibration of the same unit; parts that are not measured now are taken from it")
+        ->type_name("FILE");
+    command
+        .add_option("--valid-from", options->valid_from,
+                    "Start of the validity (RFC 3339; default: the first reading)")
+        ->type_name("UTC");
+    command
+        .add_option("--valid-to", options->valid_to,
+                    "End of the validity (RFC 3339; default: until a newer calibration)")
+        ->type_name("UTC");
     command.callback([options, within] {
         options->is_within_given = within->count() > 0;
         calibrate(*options);

@@ -13,18 +13,18 @@
 namespace a351::corrector {
 namespace {
 
-// Power-on may be so long before the record: what was before the first sample is extrapolated.
+// Longest time from power-on to the first sample, over which the warm-up is extrapolated.
 constexpr double kLatestBegin_h = 0.5;
-// Five of the slow path's lags: the fit takes them to be in equilibrium at the begin.
+// Five lags of the slow path: the fit assumes equilibrium at its start.
 constexpr double kSettled_h = 4.0;
 constexpr double kContradiction = 0.01;
-constexpr double kCycle_s = 900.0;  // the oven's usual: bands of the residual test
+constexpr double kCycle_s = 900.0;  // usual cycle of the oven, for the bands of the residual test
 
 double hours_of(const RecordSegment& segment, double step_s) {
     return static_cast<double>(segment.size()) * step_s / kSecondsPerHour;
 }
 
-/// How long after power-on the segment begins, if it does so shortly after.
+/// Returns the time from power-on to the start of the segment, if it is at most kLatestBegin_h.
 std::optional<double> begins_after_h(const RecordSegment& segment,
                                      const std::optional<UtcTime>& power_on) {
     if (!power_on) return std::nullopt;
@@ -32,7 +32,7 @@ std::optional<double> begins_after_h(const RecordSegment& segment,
     return hours >= 0.0 && hours <= kLatestBegin_h ? std::optional(hours) : std::nullopt;
 }
 
-/// For the response of an oven that has just been switched on, its lags are not in equilibrium.
+/// Removes the first hours of a segment, in which the unit is not in equilibrium after power-on.
 RecordSegment without_begin(RecordSegment segment, double step_s) {
     const auto cut =
         std::min(segment.size(), static_cast<std::size_t>(kSettled_h * kSecondsPerHour / step_s));
@@ -56,14 +56,14 @@ std::string unit_of(const LongRecord& record, const std::string& file) {
         return stretch.serial_number != unit;
     });
     if (other == record.stretches.end()) return unit;
-    throw InputError(file + ": from " + to_rfc3339(other->times.front()) + " on of the unit '" +
+    throw InputError(file + ": from " + to_rfc3339(other->times.front()) + " on of unit '" +
                      other->serial_number + "', before of '" + unit + "'; allowed: one unit");
 }
 
 std::string slope_line(const PooledThermal& pooled) {
     return "  static slope, both paths: " + text::fixed(pooled.static_slope, 1) + " +- " +
            text::fixed(pooled.static_slope_error, 1) + " mGal/degC" +
-           (pooled.is_static_slope_determined ? "" : "; left open") + '\n';
+           (pooled.is_static_slope_determined ? "" : "; not determined") + '\n';
 }
 
 std::string thermal_text(const PooledThermal& pooled) {
@@ -71,13 +71,14 @@ std::string thermal_text(const PooledThermal& pooled) {
     for (const FittedParameter& parameter : pooled.parameters) {
         text += "  " + parameter.name + ": " + text::fixed(parameter.value, 1) + " +- " +
                 text::fixed(parameter.standard_error, 1) + " " + parameter.unit +
-                (parameter.is_determined ? "" : "; left open, needed: " + parameter.needed) + '\n';
+                (parameter.is_determined ? "" : "; not determined, needed: " + parameter.needed) +
+                '\n';
     }
     text += slope_line(pooled);
     if (pooled.agreement_p < kContradiction)
         text +=
-            "  the records contradict each other, by chance once in more than a hundred: is the "
-            "unit still the same? Calibrate from each alone\n";
+            "  the records contradict each other (probability of chance below 1 %). The unit may "
+            "have changed: calibrate from each record alone\n";
     return text;
 }
 
@@ -119,8 +120,8 @@ std::string calibrate_from_records(Calibration& calibration,
             segment.size() < SegmentOptions{}.shortest
                 ? "too short for the response to temperature; needed: 3 h that begin " +
                       text::fixed(kSettled_h, 0) + " h after power-on or later"
-                : lacks_response(segment.temperature_degc, segment.acceleration_mgal,
-                                 record.step_s);
+                : reason_against_two_paths(segment.temperature_degc, segment.acceleration_mgal,
+                                           record.step_s);
         if (!lack.empty()) {
             lacks.emplace_back(name).append(": ").append(lack);
             text += lacks.back() + '\n';
@@ -128,9 +129,9 @@ std::string calibrate_from_records(Calibration& calibration,
         }
         fits.push_back(fitted(segment, record.step_s));
         text += name + ", residual " + text::fixed(fits.back().residual_rms_mgal, 2) + " mGal" +
-                (fits.back().unexplained.empty()
-                     ? ""
-                     : ", which still follows the temperature: the model is not enough") +
+                (fits.back().unexplained.empty() ? ""
+                                                 : ", which still depends on the temperature: the "
+                                                   "model does not describe all of it") +
                 '\n';
     }
     if (fits.empty()) throw InputError(file + ": " + lacks.front());

@@ -17,12 +17,12 @@ std::vector<std::string> note_origin(Calibration& calibration, const std::string
                                      const std::string& file) {
     if (serial_number.empty())
         throw InputError(file +
-                         ": the station metadata do not tell the sensor's serial number; "
+                         ": the station metadata have no serial number of the sensor; "
                          "allowed: a record of a known unit");
     std::string& unit = calibration.serial_number;
     if (!unit.empty() && unit != serial_number)
-        throw InputError(file + ": of unit " + serial_number + ", what came before is of " + unit +
-                         "; allowed: one unit");
+        throw InputError(file + ": from unit " + serial_number +
+                         ", the inputs before it are from " + unit + "; allowed: one unit");
     unit = serial_number;
     calibration.valid_from =
         calibration.data.empty() ? start : std::min(calibration.valid_from, start);

@@ -8,13 +8,13 @@
 
 namespace a351::corrector {
 
-/// Lists every file once, however many records and calibrations have it.
+/// Adds a file to the list unless it is there already.
 void list_data(Calibration& calibration, const CalibrationData& data);
 
 /// Notes where numbers of a calibration come from: unit, files, the time of the first reading.
-/// @param serial_number  of the record; empty: the metadata do not tell.
+/// @param serial_number  of the record; empty if the metadata have none.
 /// @return  SHA-256 of every input.
-/// @throws InputError  no serial number, or another than that of what came before.
+/// @throws InputError  no serial number, or not the one of the inputs before.
 std::vector<std::string> note_origin(Calibration& calibration, const std::string& serial_number,
                                      UtcTime start, const std::vector<text::InputFile>& inputs,
                                      const std::string& file);

@@ -32,7 +32,7 @@ struct DecimateOptions {
     std::string output;
 };
 
-/// Rows of the result, handed on in pieces.
+/// Rows of the result, written in pieces.
 class DecimatedRows {
 public:
     explicit DecimatedRows(CsvOutput& output) : output_(output) {}
@@ -61,7 +61,7 @@ private:
     std::size_t valid_count_ = 0;
 };
 
-/// As the kernel counts it since the program began; getrusage() would count its parent's as well.
+/// Returns the largest memory of this process; getrusage() would include its parent's.
 std::string peak_memory() {
     std::ifstream status("/proc/self/status");
     std::string key;
@@ -90,7 +90,7 @@ void write_decimated(const DecimateOptions& options) {
         decimated.clear();
         decimator.push(samples, decimated);
         rows.add(decimated);
-        // Of a record that turns out too short nothing shall be written.
+        // Nothing is written before the record is known to be long enough.
         if (static_cast<double>(column.count()) >= least) rows.flush();
         bar.show(column.bytes_read() / 1'000'000, column.byte_count() / 1'000'000);
     }
@@ -114,20 +114,29 @@ void write_decimated(const DecimateOptions& options) {
 void add_decimate_command(CLI::App& program) {
     CLI::App& command = *program.add_subcommand(
         "decimate",
-        "Lowers the rate of a column by a whole factor M per stage, after a low-pass of 8 M + 3 "
-        "taps, as CSV index,value,valid.  Output number k is centred on input row k M^stages.  "
-        "Memory does not grow with the input.");
+        "Lowers the rate of a column by an integer factor M per stage, after a low-pass filter of "
+        "8 M + 3 taps. Writes CSV index,value,valid. Output row k is centred on input row "
+        "k M^stages. Memory does not grow with the input.");
     const auto options = std::make_shared<DecimateOptions>();
     command
-        .add_option(
-            "--input", options->input,
-            "CSV with a header line; a column time, time_utc or time_s must ascend in equal steps")
+        .add_option("--input", options->input,
+                    "Table with a header line; a column time, time_utc or time_s must ascend in "
+                    "equal steps")
+        ->type_name("CSV")
         ->required();
-    command.add_option("--column", options->column, "Column to read; empty cells are missing")
+    command
+        .add_option("--column", options->column,
+                    "Column to read; an empty cell is a missing sample")
+        ->type_name("NAME")
         ->required();
-    command.add_option("--factor", options->factor, "M, 2 to 1000")->required();
-    command.add_option("--stages", options->stages, "How often, 1 to 9")->capture_default_str();
-    command.add_option("--output", options->output, "File to write instead of standard output");
+    command.add_option("--factor", options->factor, "Factor of each stage, 2-1000")
+        ->type_name("M")
+        ->required();
+    command.add_option("--stages", options->stages, "Number of stages, 1-9")
+        ->type_name("K")
+        ->capture_default_str();
+    command.add_option("--output", options->output, "File to write instead of standard output")
+        ->type_name("CSV");
     command.callback([options] { write_decimated(*options); });
 }
 

@@ -20,7 +20,7 @@
 namespace a351::corrector {
 namespace {
 
-constexpr int kMostModes = 64;  // more than floor(log2 n) of any record
+constexpr int kMostModes = 64;  // Above floor(log2 n) of any record.
 constexpr int kMostThreads = 256;
 
 struct EmdCommandOptions {
@@ -79,7 +79,7 @@ std::string to_csv(const EemdResult& result) {
     return csv;
 }
 
-/// What tells components apart, for a choice by period instead of by number.
+/// Properties of each component, for a choice by period instead of by number.
 std::string report_csv(const EemdResult& result) {
     std::string csv = "component,extrema,mean_period_samples,energy_share,standard_error\n";
     const auto add = [&](const std::string& name, const Component& component) {
@@ -121,43 +121,73 @@ void add_emd_command(CLI::App& program) {
     CLI::App& command = *program.add_subcommand(
         "emd",
         "Decomposes a column into intrinsic mode functions, imf1 (the fastest) first, and a "
-        "residue, by ensemble empirical mode decomposition; --noise 0 is the plain one. Prints the "
-        "extrema, period, share of energy and standard error of every component.");
+        "residue, by ensemble empirical mode decomposition (EEMD). Prints the extrema, period, "
+        "share of energy and standard error of each component.");
     const auto options = std::make_shared<EmdCommandOptions>();
-    command.add_option("--input", options->input, "CSV with a header line")->required();
-    command.add_option("--column", options->column, "Column to read; no cell may be empty")
+    command.add_option("--input", options->input, "Table with a header line")
+        ->type_name("CSV")
         ->required();
-    command.add_option("--modes", options->modes,
-                       "Modes without the residue, 0 to 64 (default: floor(log2 n) - 1)");
-    command.add_option("--ensemble", options->ensemble, "Noise realisations averaged")
+    command.add_option("--column", options->column, "Column to read; no cell may be empty")
+        ->type_name("NAME")
+        ->required();
+    command
+        .add_option("--modes", options->modes,
+                    "Number of modes without the residue, 0-64 (default: floor(log2 n) - 1 for "
+                    "n samples)")
+        ->type_name("K");
+    command
+        .add_option("--ensemble", options->ensemble,
+                    "Number of noise realisations that are averaged")
+        ->type_name("N")
         ->capture_default_str();
     command
-        .add_option("--noise", options->noise,
-                    "Standard deviation of the noise over that of the column")
+        .add_option(
+            "--noise", options->noise,
+            "Standard deviation of the noise, divided by that of the column; 0 is plain EMD")
+        ->type_name("RATIO")
         ->capture_default_str();
     CLI::Option* const sifts =
-        command.add_option("--sifts", options->sifts, "Sifts per mode")->capture_default_str();
+        command.add_option("--sifts", options->sifts, "Number of sifts per mode")
+            ->type_name("S")
+            ->capture_default_str();
     command
-        .add_option("--s-number", options->s_number,
-                    "Sift until the number of extrema stays so often, at most 50 times")
+        .add_option(
+            "--s-number", options->s_number,
+            "Stop when the number of extrema has not changed for S consecutive sifts (at most "
+            "50 sifts)")
+        ->type_name("S")
         ->excludes(sifts);
     command
-        .add_option("--finish", options->finish,
-                    "extrema: two extrema or fewer are the residue; always: sift every mode")
+        .add_option(
+            "--finish", options->finish,
+            "extrema: a remainder with two extrema or fewer is the residue; always: sift every "
+            "mode")
+        ->type_name("RULE")
         ->check(CLI::IsMember({"extrema", "always"}))
         ->capture_default_str();
     command
-        .add_option("--ends", options->ends,
-                    "line: end samples or the line through two extrema hold the envelopes; mirror: "
-                    "reflected extrema; reflect: the record reflected about its ends")
+        .add_option(
+            "--ends", options->ends,
+            "Support of the envelopes at the ends. line: the end sample or the line through the "
+            "two nearest extrema; mirror: reflected extrema; reflect: the record "
+            "reflected about its ends")
+        ->type_name("RULE")
         ->check(CLI::IsMember({"line", "mirror", "reflect"}))
         ->capture_default_str();
-    command.add_flag("--pairs", options->pairs,
-                     "Use every noise twice, once negated; nothing of it is left in the sum");
-    command.add_option("--seed", options->seed, "Of the noise")->capture_default_str();
-    command.add_option("--threads", options->threads, "No effect on the result")
+    command.add_flag(
+        "--pairs", options->pairs,
+        "Use every noise realisation twice, once negated, so that none remains in the sum");
+    command.add_option("--seed", options->seed, "Seed of the noise generator")
+        ->type_name("N")
         ->capture_default_str();
-    command.add_option("--output", options->output, "CSV to write")->required();
+    command
+        .add_option("--threads", options->threads,
+                    "Number of threads; the result does not depend on it")
+        ->type_name("T")
+        ->capture_default_str();
+    command.add_option("--output", options->output, "Table to write: imf1, imf2, ..., residue")
+        ->type_name("CSV")
+        ->required();
     command.callback([options] { write_modes(*options); });
 }
 

@@ -42,21 +42,29 @@ void run(Texts texts) {
 void add_export_command(CLI::App& program) {
     CLI::App& command = *program.add_subcommand(
         "export",
-        "Writes a channel of an archive on whole multiples of a period of UTC, by band-limited "
-        "interpolation between the sensor's own sample instants.  A product (location code 10), "
-        "not the record.");
+        "Writes a channel of an archive at exact multiples of a period of UTC, by band-limited "
+        "interpolation between the sensor's own sample instants. The result is a product "
+        "(location code 10), not the record.");
     const auto texts = std::make_shared<Texts>();
-    command.add_option("root", texts->options.root, "Data root")->required();
-    command.add_option("--from", texts->from, "First instant, RFC 3339")->required();
-    command.add_option("--to", texts->to, "Instant behind the last one")->required();
-    command.add_option("--channel", texts->options.channel, "Channel, e.g. BNZ")->required();
-    command.add_option("--rate", texts->options.rate_hz, "Values per second, whole")
+    command.add_option("ROOT", texts->options.root, "Data root")->type_name("DIR")->required();
+    command.add_option("--from", texts->from, "First instant (RFC 3339)")
+        ->type_name("UTC")
+        ->required();
+    command.add_option("--to", texts->to, "End of the interval, not included (RFC 3339)")
+        ->type_name("UTC")
+        ->required();
+    command.add_option("--channel", texts->options.channel, "Channel, for example BNZ")
+        ->type_name("NAME")
+        ->required();
+    command.add_option("--rate", texts->options.rate_hz, "Values per second, an integer")
+        ->type_name("HZ")
         ->required()
         ->check(CLI::Range(1, 1000));
-    command.add_option("--format", texts->format, "csv or mseed")
+    command.add_option("--format", texts->format, "Format of the file")
+        ->type_name("NAME")
         ->required()
         ->check(CLI::IsMember({"csv", "mseed"}));
-    command.add_option("--out", texts->out, "File to be written")->required();
+    command.add_option("--out", texts->out, "File to write")->type_name("FILE")->required();
     command.callback([texts] { run(*texts); });
 }
 

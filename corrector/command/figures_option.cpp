@@ -7,7 +7,8 @@ namespace a351::corrector {
 void add_figures_option(CLI::App& command, std::vector<std::string>& formats) {
     command
         .add_option("--figures", formats,
-                    "Format of the report's figures besides SVG: pdf or png; may be repeated")
+                    "Also write the figures in this format, besides SVG; may be repeated")
+        ->type_name("FORMAT")
         ->allow_extra_args(false)
         ->check(CLI::IsMember(picture_formats()));
 }

@@ -6,7 +6,7 @@
 
 namespace a351::corrector {
 
-/// Adds --figures, which may stand several times.
+/// Adds --figures, which may be repeated.
 void add_figures_option(CLI::App& command, std::vector<std::string>& formats);
 
 }  // namespace a351::corrector

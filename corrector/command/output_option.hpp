@@ -1,13 +1,13 @@
 #pragma once
 /// @file
-/// Refuses, before the work is done, a path at which nothing can be written afterwards.
+/// Refuses a path that cannot be written, before the work begins.
 
 #include <filesystem>
 #include <string_view>
 
 namespace a351::corrector {
 
-/// @throws InputError  a folder or a device stands there, or a file in the place of its folder.
+/// @throws InputError  the path is a folder or a device, or its folder is a file.
 void require_file_option(std::string_view name, const std::filesystem::path& path);
 
 /// The same for a folder, which may exist.

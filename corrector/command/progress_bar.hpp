@@ -24,7 +24,7 @@ private:
     bool is_terminal_;
     std::string label_;
     std::chrono::steady_clock::time_point start_;
-    std::size_t width_ = 0;  ///< Of the line on the screen.
+    std::size_t width_ = 0;  ///< Width of the line on the screen.
 };
 
 }  // namespace a351::corrector

@@ -8,7 +8,7 @@
 namespace a351::corrector {
 namespace {
 
-/// Whether a file of the record, other than metadata, is among those measured from.
+/// Returns whether the calibration was measured from a file of the record, metadata aside.
 bool is_in_sample(const LongRecord& record, const Calibration& calibration) {
     return std::ranges::any_of(record.inputs, [&](const text::InputFile& input) {
         return input.role != "metadata" &&
@@ -39,8 +39,8 @@ void apply_to(RecordResult& result, const std::string& file) {
                                                   : "measured from other records");
     if (unit.empty())
         applied.remarks.emplace_back(
-            "the record does not tell its unit's serial number: whether the calibration is its own "
-            "was not checked");
+            "the record has no serial number: it was not checked that the calibration belongs to "
+            "this unit");
     const UtcTime end = calibration.valid_to.value_or(UtcTime::max());
     if (result.segment().start < calibration.valid_from || result.segment().end > end)
         applied.remarks.emplace_back("the record is not within the calibration's validity");

@@ -6,9 +6,9 @@
 
 namespace a351::corrector {
 
-/// Applies the thermal part of a calibration to the analysed segment; says whether it was measured from
-/// this record.
-/// @throws InputError  the file is no calibration, has no thermal part, or is of another unit.
+/// Applies the thermal part of a calibration to the analysed segment, and notes whether the
+/// calibration was measured from this record.
+/// @throws InputError  the file is not a calibration, has no thermal part, or is of another unit.
 void apply_to(RecordResult& result, const std::string& file);
 
 }  // namespace a351::corrector

@@ -99,29 +99,47 @@ void analyse(const RecordCommandOptions& options) {
 void add_record_command(CLI::App& program) {
     CLI::App& command = *program.add_subcommand("record",
                                                 "Analyses hours to weeks at one point: how the "
-                                                "unit's acceleration follows its temperature.");
+                                                "acceleration follows the temperature.");
     const auto options = std::make_shared<RecordCommandOptions>();
     command
         .add_option("FILE", options->files,
-                    "Data root, day file of its archive (which stands for the root), or CSV")
+                    "Data roots, day files of their archives (each means its whole root), or CSV "
+                    "files")
+        ->type_name("")
         ->required()
         ->check(CLI::ExistingPath);
-    command.add_option("--from", options->from, "First instant, RFC 3339");
-    command.add_option("--to", options->to, "Instant behind the last one");
+    command
+        .add_option("--from", options->from,
+                    "First instant (RFC 3339; default: the start of the record)")
+        ->type_name("UTC");
+    command
+        .add_option("--to", options->to,
+                    "End of the interval, not included (RFC 3339; default: the end of the record)")
+        ->type_name("UTC");
     command
         .add_option("--apply", options->apply,
-                    "Calibration of the unit: the record corrected with it, in two ways")
+                    "Correct the record with this calibration of the unit, in two ways")
+        ->type_name("FILE")
         ->check(CLI::ExistingFile);
-    command.add_option("--out", options->out, "Folder of the result")->capture_default_str();
-    command.add_option("--cycle", options->cycle_s, "Cycle of the oven in seconds, 200 to 7200")
+    command.add_option("--out", options->out, "Folder of the result")
+        ->type_name("DIR")
+        ->capture_default_str();
+    command.add_option("--cycle", options->cycle_s, "Cycle of the oven, 200-7200 s")
+        ->type_name("S")
         ->capture_default_str();
     command
         .add_option("--shift", options->shift_s,
-                    "Seconds by which the acceleration is moved earlier, as published")
+                    "Time by which the acceleration is moved earlier, as published")
+        ->type_name("S")
         ->capture_default_str();
-    command.add_option("--ensemble", options->ensemble, "Noise realisations averaged")
+    command
+        .add_option("--ensemble", options->ensemble,
+                    "Number of noise realisations that are averaged")
+        ->type_name("N")
         ->capture_default_str();
-    command.add_option("--seed", options->seed, "Of the noise")->capture_default_str();
+    command.add_option("--seed", options->seed, "Seed of the noise generator")
+        ->type_name("N")
+        ->capture_default_str();
     add_figures_option(command, options->figures);
     command.callback([options] { analyse(*options); });
 }

@@ -14,7 +14,7 @@
 namespace a351::corrector {
 namespace {
 
-/// The data root of a folder, or of a day file within its archive; empty for any other file.
+/// Returns the data root of a folder or of a day file within its archive; empty for other files.
 std::filesystem::path root_of(const std::filesystem::path& file) {
     if (std::filesystem::is_directory(file)) return std::filesystem::canonical(file);
     // ROOT/archive/YEAR/NET/STA/CHAN.D/FILE
@@ -56,7 +56,7 @@ RecordSegments divide_or_refuse(const LongRecord& record, const SegmentOptions& 
                                 const std::string& name) {
     RecordSegments parts = divide_record(record, options);
     if (!parts.segments.empty()) return parts;
-    std::string message = name + ": nothing to analyse";
+    std::string message = name + ": no part can be analysed";
     for (const RefusedPart& part : parts.refused)
         message += "; from " + to_rfc3339(part.start) + " " + part.reason;
     throw InputError(

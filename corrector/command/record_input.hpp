@@ -8,14 +8,14 @@
 
 namespace a351::corrector {
 
-/// Data roots (or day files of their archives, which stand for them) and CSVs, each as a record; a
-/// progress bar and what was passed over go to standard error.
+/// Reads data roots (a day file of an archive means its root) and CSV files, each as a record.
+/// A progress bar and a warning for each skipped part go to standard error.
 /// @throws InputError  one cannot be read.
 [[nodiscard]] std::vector<LongRecord> read_records(const std::vector<std::string>& files,
                                                    const RecordWindow& window);
 
-/// divide_record() where something is left to be analysed.
-/// @throws InputError  in words, why there is not.
+/// Returns the parts found by divide_record().
+/// @throws InputError  no part can be analysed; gives the reason for each.
 [[nodiscard]] RecordSegments divide_or_refuse(const LongRecord& record,
                                               const SegmentOptions& options,
                                               const std::string& name);

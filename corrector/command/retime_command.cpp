@@ -19,7 +19,7 @@ void run(const RetimeOptions& options) {
         record::retime(record::posix_files(), options.root, options.out);
     for (const record::JournalDamage& damage : report.damage) {
         std::cerr << "a351-correct: " << damage.file.string() << ": offset " << damage.offset
-                  << ": " << damage.byte_count << " bytes are not read: " << damage.reason << '\n';
+                  << ": " << damage.byte_count << " bytes are skipped: " << damage.reason << '\n';
     }
     std::cout << options.out.string() << ": " << report.records << " records of "
               << report.counters.sessions << " runs from " << report.segments
@@ -33,12 +33,15 @@ void run(const RetimeOptions& options) {
 void add_retime_command(CLI::App& program) {
     CLI::App& command = *program.add_subcommand(
         "retime",
-        "Writes the archive of a data root anew from its journal, with the times that are known "
-        "when all is over: arrivals on both sides of every sample, and the host's clock between "
-        "the readings at which it was synchronised.");
+        "Writes the archive of a data root again from its journal, with better times than were "
+        "known during the record: they use arrivals before and after each sample, and all "
+        "instants at which the host's clock was synchronised.");
     const auto options = std::make_shared<RetimeOptions>();
-    command.add_option("root", options->root, "Data root with a journal")->required();
-    command.add_option("--out", options->out, "Data root to be made: archive, events, metadata")
+    command.add_option("ROOT", options->root, "Data root with a journal")
+        ->type_name("DIR")
+        ->required();
+    command.add_option("--out", options->out, "Data root to write: archive, events, metadata")
+        ->type_name("DIR")
         ->required();
     command.callback([options] { run(*options); });
 }

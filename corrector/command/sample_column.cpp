@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kBlock = 16384;  // samples: 128 kB
 
-/// Of the mean step: stamps of a host scatter so; a missing row doubles a step.
+/// Largest deviation of a step, in mean steps: time stamps of a host scatter less, a missing row
+/// doubles a step.
 constexpr double kMostStepError = 0.25;
 
 std::ifstream open(const std::string& file) {
@@ -32,7 +33,7 @@ std::optional<std::size_t> find_time(const std::vector<std::string>& columns) {
 /// An instant, or a number of seconds since any zero.
 std::optional<Nanoseconds> parse_time(std::string_view text) {
     if (const auto time = parse_rfc3339(text)) return time->time_since_epoch();
-    constexpr double kMostSeconds = 9e9;  // of from_seconds()
+    constexpr double kMostSeconds = 9e9;  // limit of from_seconds()
     const std::optional<double> seconds = text::parse_number(text);
     if (!seconds || std::abs(*seconds) >= kMostSeconds) return std::nullopt;
     return from_seconds(*seconds);
@@ -82,19 +83,20 @@ std::size_t SampleColumn::bytes_read() {
 void SampleColumn::check_time() {
     const std::size_t column = *time_column_;
     const std::optional<Nanoseconds> time = parse_time(reader_.cells()[column]);
-    if (!time) reader_.refuse(column, "no time", "an instant as in RFC 3339, or seconds");
+    if (!time) reader_.refuse(column, "not a time", "an instant (RFC 3339), or seconds");
     if (last_time_) {
         const Nanoseconds step = *time - *last_time_;
         if (step <= Nanoseconds(0)) {
             reader_.refuse(column, "not after the row before it", "times that ascend");
         }
-        // The first step alone may span a row that is missing: all so far are compared with.
+        // The first step may span a missing row, so each step is compared with the mean of all
+        // before.
         const Nanoseconds mean =
             step_count_ == 0 ? step : (*last_time_ - *first_time_) / step_count_;
         if (std::abs(seconds_of(step - mean)) > kMostStepError * seconds_of(mean)) {
             reader_.refuse(column, in_seconds(step) + " after the row before it",
                            "equal steps, here of " + in_seconds(mean) +
-                               "; an empty cell stands for a missing sample");
+                               "; a missing sample has a row with an empty cell");
         }
         ++step_count_;
     } else {

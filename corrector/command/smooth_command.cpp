@@ -39,7 +39,7 @@ SmoothTrend smooth_column(const SmoothOptions& options, const std::vector<double
         throw InputError(
             options.input + ": " + options.column +
             ": too many samples are missing for --cutoff = " + text::shortest(options.cutoff) +
-            "; allowed: ends and gaps not far beyond this period");
+            "; allowed: gaps, also at the ends, that are not much longer than this period");
     }
 }
 
@@ -66,7 +66,7 @@ void write_trend(const SmoothOptions& options) {
               << column.missing_count() << " missing), noise level "
               << text::shortest(trend.noise_level) << ", degrees of freedom "
               << text::shortest(trend.degrees_of_freedom)
-              << (trend.converged ? "" : "; the weights of its outliers did not settle") << '\n';
+              << (trend.converged ? "" : "; the weights of the outliers did not converge") << '\n';
 }
 
 }  // namespace
@@ -74,21 +74,28 @@ void write_trend(const SmoothOptions& options) {
 void add_smooth_command(CLI::App& program) {
     CLI::App& command = *program.add_subcommand(
         "smooth",
-        "The trend of a column by Whittaker's smoother, with standard errors for white noise, as "
-        "CSV index,value,standard_error,weight.  Gaps are crossed, outliers have no weight.");
+        "Finds the trend of a column by Whittaker's smoother, with standard errors for white "
+        "noise. "
+        "Writes CSV index,value,standard_error,weight. Gaps are bridged, outliers get no weight.");
     const auto options = std::make_shared<SmoothOptions>();
     command
         .add_option("--input", options->input,
-                    "CSV with a header line; a column time, time_utc or time_s must ascend in "
+                    "Table with a header line; a column time, time_utc or time_s must ascend in "
                     "equal steps")
+        ->type_name("CSV")
         ->required();
-    command.add_option("--column", options->column, "Column to read; empty cells are missing")
+    command
+        .add_option("--column", options->column,
+                    "Column to read; an empty cell is a missing sample")
+        ->type_name("NAME")
         ->required();
     command
         .add_option("--cutoff", options->cutoff,
-                    "Period in samples that comes out half as high, 2 to 5000")
+                    "Period at which the smoother passes half of the amplitude, 2-5000 samples")
+        ->type_name("SAMPLES")
         ->required();
-    command.add_option("--output", options->output, "File to write instead of standard output");
+    command.add_option("--output", options->output, "File to write instead of standard output")
+        ->type_name("CSV");
     command.callback([options] { write_trend(*options); });
 }
 

@@ -31,7 +31,7 @@
 namespace a351::corrector {
 namespace {
 
-/// Of the command line; an empty text leaves the survey file's value.
+/// Options of the command line; an empty text keeps the value of the survey file.
 struct SurveyCommandOptions {
     std::vector<std::string> files;
     std::string out;
@@ -97,14 +97,14 @@ struct Day {
     std::vector<text::NamedText> files;
 };
 
-/// The name as one part of a path.
+/// Returns the name as one part of a path.
 std::string folder_name(std::string name) {
     std::replace(name.begin(), name.end(), '/', '-');
     if (name.starts_with('.')) name.front() = '-';
     return name;
 }
 
-/// @throws InputError  as correct_survey(), naming the survey file and all that was left out.
+/// @throws InputError  as correct_survey(); names the survey file and every occupation left out.
 SurveyCorrection corrected(const SurveyFile& survey, OccupationRows& read) {
     try {
         SurveyCorrection result = correct_with_calibration(
@@ -131,12 +131,12 @@ Day correct_day(const SurveyFile& survey, const std::vector<std::string>& pictur
     for (text::NamedText& file : export_files(day.result, read.sites)) {
         day.files.push_back(std::move(file));
     }
-    std::vector<std::string> told = read.warnings;
-    told.insert(told.end(), day.result.remarks.begin(), day.result.remarks.end());
+    std::vector<std::string> notes = read.warnings;
+    notes.insert(notes.end(), day.result.remarks.begin(), day.result.remarks.end());
     Report report =
         make_report(day.result, settings,
                     {survey.name, read.sites, std::move(read.records),
-                     std::move(read.temperature_course), read.inputs, told, picture_formats});
+                     std::move(read.temperature_course), read.inputs, notes, picture_formats});
     std::move(report.files.begin(), report.files.end(), std::back_inserter(day.files));
     read.warnings.insert(read.warnings.end(), report.warnings.begin(), report.warnings.end());
     for (const std::string& warning : read.warnings) {
@@ -152,7 +152,7 @@ void correct_days(const SurveyCommandOptions& options) {
         surveys.push_back(with_overrides(read_survey_file(file), options));
         if (!names.insert(folder_name(surveys.back().name)).second) {
             throw InputError(file + ": survey.name = " + surveys.back().name +
-                             ": stands twice; allowed: a folder of its own for every day");
+                             ": used by two days; allowed: a different name for each day");
         }
     }
     const std::filesystem::path out = options.out.empty()
@@ -189,14 +189,14 @@ void correct_days(const SurveyCommandOptions& options) {
             if (day.trouble.empty()) day.result = &(result++)->result;
         text::write_together(
             out, {{"joint.csv", joint_csv(joint)}, {"joint.html", joint_html(joint_days)}});
-        std::cout << (troubles.empty() ? "all days\n" : "all days but those not corrected\n")
-                  << joint_text(joint) << '\n';
+        std::cout << (troubles.empty() ? "all days\n" : "all corrected days\n") << joint_text(joint)
+                  << '\n';
     }
     std::cout << "written to " << out.string() << '\n';
     if (!troubles.empty())
         throw std::runtime_error(std::to_string(surveys.size() - days.size()) + " of " +
                                  std::to_string(surveys.size()) +
-                                 " days not corrected, the others are written: " + troubles);
+                                 " days are not corrected, the others are written: " + troubles);
 }
 
 }  // namespace
@@ -205,33 +205,52 @@ void add_survey_command(CLI::App& program) {
     CLI::App& command =
         *program.add_subcommand("survey", "Corrects survey days from the archive of a data root.");
     const auto options = std::make_shared<SurveyCommandOptions>();
-    command.add_option("FILE", options->files, "Survey files (TOML), one per day")->required();
-    command.add_option("--out", options->out,
-                       "Folder of the result (default: result beside the first survey file); "
-                       "several days have a folder each in it");
+    command.add_option("FILE", options->files, "Survey files (TOML), one per day")
+        ->type_name("")
+        ->required();
+    command
+        .add_option("--out", options->out,
+                    "Folder of the result (default: result beside the first survey file); several "
+                    "days have one folder each in it")
+        ->type_name("DIR");
     command.add_option("--model", options->model, "Model of the instrument")
+        ->type_name("NAME")
         ->check(CLI::IsMember(model_names()));
     command
         .add_option("--flags", options->flags,
-                    "use: occupations with used 0 stay out of the fit; ignore: they take part")
+                    "use: occupations with used = 0 are not used in the fit; ignore: they are used")
+        ->type_name("RULE")
         ->check(CLI::IsMember({"use", "ignore"}));
-    command.add_option("--tide", options->tide,
-                       "Tide as its effect on gravity, subtracted from the readings: " +
-                           std::string(kTideSources));
+    command
+        .add_option("--tide", options->tide,
+                    "Tide, as its effect on gravity, that is subtracted from the readings: " +
+                        std::string(kTideSources))
+        ->type_name("SOURCE");
     command
         .add_option("--trend", options->trend,
-                    "Trend that is averaged; the model paper always takes eemd")
+                    "Trend that is averaged; the model paper always uses eemd")
+        ->type_name("NAME")
         ->check(CLI::IsMember({"eemd", "smoother"}));
     command
         .add_option("--curve", options->curve,
-                    "Which components make the EEMD trend; the model paper always has its own")
+                    "Components that make the EEMD trend; the model paper always uses paper")
+        ->type_name("NAME")
         ->check(CLI::IsMember({"paper", "slow"}));
-    command.add_option("--calibration", options->calibration,
-                       "What a351-correct calibrate found of the unit");
-    command.add_option("--from", options->from,
-                       "UTC from which occupations start; by default the log's last day, which "
-                       "follows a pause of six hours");
-    command.add_option("--to", options->to, "UTC before which they start");
+    command
+        .add_option("--calibration", options->calibration,
+                    "Calibration of the unit, made by a351-correct calibrate")
+        ->type_name("FILE");
+    command
+        .add_option("--from", options->from,
+                    "Use occupations that start at or after this instant (RFC 3339). Default: the "
+                    "last survey day in the log; days are separated by a pause of six hours")
+        ->type_name("UTC");
+    command
+        .add_option(
+            "--to", options->to,
+            "Use occupations that start before this instant (RFC 3339). Default: the end of "
+            "the log")
+        ->type_name("UTC");
     add_figures_option(command, options->figures);
     command.callback([options] { correct_days(*options); });
 }

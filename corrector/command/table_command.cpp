@@ -26,7 +26,7 @@ struct TableOptions {
     std::string observations;
     SurveyOptions survey;
     std::string flags = "use";
-    std::string tide;  ///< Empty: given where the column exists, else direct.
+    std::string tide;  ///< Empty: given if the column exists, else direct.
     TideFactors factors;
     std::vector<std::tuple<std::string, double, double>> priors;
     std::string out = "result";
@@ -70,15 +70,15 @@ void correct_table(TableOptions options) {
     if (!tide.series.empty()) inputs.push_back(text::describe_input("tide", tide.series));
     std::vector<text::NamedText> files = result_files(result, settings, inputs);
     for (text::NamedText& file : export_files(result, sites)) files.push_back(std::move(file));
-    std::vector<std::string> told = warnings;
-    told.insert(told.end(), result.remarks.begin(), result.remarks.end());
+    std::vector<std::string> notes = warnings;
+    notes.insert(notes.end(), result.remarks.begin(), result.remarks.end());
     Report report = make_report(result, settings,
                                 {std::filesystem::path(options.observations).stem().string(),
                                  sites,
                                  {},
                                  {},
                                  inputs,
-                                 told,
+                                 notes,
                                  options.figures});
     std::move(report.files.begin(), report.files.end(), std::back_inserter(files));
     text::write_together(options.out, files);
@@ -90,57 +90,85 @@ void correct_table(TableOptions options) {
 }  // namespace
 
 void add_table_command(CLI::App& program) {
-    CLI::App& command =
-        *program.add_subcommand("table", "Corrects a survey given as one average per occupation.");
+    CLI::App& command = *program.add_subcommand(
+        "table", "Corrects a survey that is given as one average per occupation.");
     const auto options = std::make_shared<TableOptions>();
-    command.add_option("--sites", options->sites, "CSV of the benchmarks")->required();
+    command.add_option("--sites", options->sites, "Benchmarks")->type_name("CSV")->required();
     command
         .add_option("--observations", options->observations,
-                    "CSV site,occupation[,outlier],time_utc|time_jst|time[,earth_tide_mgal],"
-                    "acceleration_mgal,temperature_degc")
+                    "Averages, with the columns site, occupation, time_utc (or time_jst, time), "
+                    "acceleration_mgal, temperature_degc and, if known, outlier and "
+                    "earth_tide_mgal")
+        ->type_name("CSV")
         ->required();
     command.add_option("--model", options->survey.model, "Model of the instrument")
+        ->type_name("NAME")
         ->check(CLI::IsMember(model_names()))
         ->capture_default_str();
     command
         .add_option("--flags", options->flags,
-                    "use: rows with outlier 1 stay out of the fit; ignore: they take part")
+                    "use: rows with outlier = 1 are not used in the fit; ignore: they are used")
+        ->type_name("RULE")
         ->check(CLI::IsMember({"use", "ignore"}))
         ->capture_default_str();
-    command.add_option("--tide", options->tide,
-                       "Tide as its effect on gravity, subtracted from the readings: " +
-                           std::string(kTideSources) +
-                           " (default: given where the column exists, else direct)");
-    command.add_option("--delta2", options->factors.delta2, "Gravimetric factor of degree 2")
+    command
+        .add_option("--tide", options->tide,
+                    "Tide, as its effect on gravity, that is subtracted from the readings: " +
+                        std::string(kTideSources) +
+                        " (default: given if the column exists, else direct)")
+        ->type_name("SOURCE");
+    command
+        .add_option("--delta2", options->factors.delta2,
+                    "Gravimetric factor of degree 2 (1: rigid Earth)")
+        ->type_name("FACTOR")
         ->capture_default_str();
-    command.add_option("--delta3", options->factors.delta3, "Gravimetric factor of degree 3")
+    command
+        .add_option("--delta3", options->factors.delta3,
+                    "Gravimetric factor of degree 3 (1: rigid Earth)")
+        ->type_name("FACTOR")
         ->capture_default_str();
-    command.add_option("--base", options->survey.base,
-                       "Station of the drift step (default: that of the first row)");
-    command.add_option("--datum", options->survey.datum,
-                       "Stations whose reference is held (default: all that have one)");
-    command.add_option("--prior", options->priors,
-                       "NAME MEAN SD: a coefficient known beforehand, by its name in result.json");
+    command
+        .add_option("--base", options->survey.base,
+                    "Base station, for the drift of the model paper (default: station of the first "
+                    "row)")
+        ->type_name("SITE");
+    command
+        .add_option("--datum", options->survey.datum,
+                    "Stations whose reference gravity is used (default: all that have one)")
+        ->type_name("SITE");
+    command
+        .add_option("--prior", options->priors,
+                    "Coefficient known beforehand: its name in result.json, mean and standard "
+                    "deviation")
+        ->type_name("NAME MEAN SD");
     command
         .add_option("--datum-sd", options->survey.network.datum_sd_mgal,
-                    "network: standard deviation of a held reference, mGal")
+                    "network: standard deviation of a reference that is held")
+        ->type_name("MGAL")
         ->capture_default_str();
     command
         .add_option("--reading-sd", options->survey.priors.reading_sd_mgal,
-                    "Standard deviation of a reading, mGal: its weight against priors and datum")
+                    "Standard deviation of a reading: its weight against priors and datum")
+        ->type_name("MGAL")
         ->capture_default_str();
     command
         .add_option("--drift-degree", options->survey.network.drift_degree,
-                    "network: drift as a polynomial of this degree in time, 0 to 2")
+                    "network: degree of the polynomial in time that describes the drift, 0-2")
+        ->type_name("N")
         ->check(CLI::Range(0, 2))
         ->capture_default_str();
     std::vector<std::string> linear_models;
     linear_models.reserve(kLinearModels.size());
     for (const LinearModel& model : kLinearModels) linear_models.emplace_back(model.name);
-    command.add_option("--robust-terms", options->survey.robust_terms, "robust: of which model")
+    command
+        .add_option("--robust-terms", options->survey.robust_terms,
+                    "robust: linear model that is fitted")
+        ->type_name("NAME")
         ->check(CLI::IsMember(linear_models))
         ->capture_default_str();
-    command.add_option("--out", options->out, "Folder of the result")->capture_default_str();
+    command.add_option("--out", options->out, "Folder of the result")
+        ->type_name("DIR")
+        ->capture_default_str();
     add_figures_option(command, options->figures);
     command.callback([options] { correct_table(*options); });
 }

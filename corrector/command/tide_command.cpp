@@ -26,7 +26,7 @@ struct TideOptions {
     std::string output;
 };
 
-/// Digits after the second that instants on this grid need.
+/// Returns the number of decimals of a second that instants on this grid need.
 int decimals_for(UtcTime from, Nanoseconds step) {
     const auto second = Nanoseconds(std::chrono::seconds(1));
     const bool is_whole =
@@ -66,27 +66,43 @@ void write_series(const TideOptions& options) {
 void add_tide_command(CLI::App& program) {
     CLI::App& command = *program.add_subcommand(
         "tide",
-        "Writes the tide of the solid Earth as CSV time,tide_mgal.  Sign: effect on gravity; "
-        "positive where gravity is larger.  To remove the tide from a reading, subtract it.");
+        "Writes the tide of the solid Earth as CSV time,tide_mgal: its effect on gravity, positive "
+        "where gravity is larger. Subtract it from a reading.");
     const auto options = std::make_shared<TideOptions>();
     command.add_option("--latitude", options->latitude_deg, "Geodetic latitude, degrees north")
+        ->type_name("DEG")
         ->required();
     command.add_option("--longitude", options->longitude_deg, "Longitude, degrees east")
+        ->type_name("DEG")
         ->required();
-    command.add_option("--height", options->height_m, "Height above the ellipsoid, m")->required();
-    command.add_option("--from", options->from, "First instant, RFC 3339")->required();
-    command.add_option("--to", options->to, "Last instant (included), RFC 3339")->required();
-    command.add_option("--step", options->step_s, "Step, s")->required();
-    command.add_option("--model", options->model, "direct (catalogue is the same), longman")
+    command.add_option("--height", options->height_m, "Height above the ellipsoid")
+        ->type_name("M")
+        ->required();
+    command.add_option("--from", options->from, "First instant (RFC 3339)")
+        ->type_name("UTC")
+        ->required();
+    command.add_option("--to", options->to, "Last instant, included (RFC 3339)")
+        ->type_name("UTC")
+        ->required();
+    command.add_option("--step", options->step_s, "Time between two rows")
+        ->type_name("S")
+        ->required();
+    command.add_option("--model", options->model, "Tide model; catalogue is the same as direct")
+        ->type_name("NAME")
         ->check(CLI::IsMember({"direct", "catalogue", "longman"}))
         ->capture_default_str();
     command
         .add_option("--delta2", options->factors.delta2,
                     "Gravimetric factor of degree 2 (1: rigid Earth)")
+        ->type_name("FACTOR")
         ->capture_default_str();
-    command.add_option("--delta3", options->factors.delta3, "Gravimetric factor of degree 3")
+    command
+        .add_option("--delta3", options->factors.delta3,
+                    "Gravimetric factor of degree 3 (1: rigid Earth)")
+        ->type_name("FACTOR")
         ->capture_default_str();
-    command.add_option("--output", options->output, "File to write instead of standard output");
+    command.add_option("--output", options->output, "File to write instead of standard output")
+        ->type_name("CSV");
     command.callback([options] { write_series(*options); });
 }
 

@@ -9,6 +9,7 @@
 namespace a351::corrector {
 namespace {
 
+/// Returns the correlation at a lag, over the samples that overlap.
 double correlation(std::span<const double> temperature, std::span<const double> acceleration,
                    int lag) {
     const auto shift = static_cast<std::size_t>(std::abs(lag));
@@ -26,7 +27,7 @@ double correlation(std::span<const double> temperature, std::span<const double> 
     return xy / std::sqrt(xx * yy);
 }
 
-/// Strongest of that sign among the middle half of the lags.
+/// Returns the strongest correlation of a sign (1 or -1) among the middle half of the lags.
 CorrelationPeak find_peak(const CrossCorrelation& all, double sign, double step_s) {
     const std::size_t half_cycle = (all.values.size() - 1) / 4;
     std::size_t best = half_cycle;
@@ -34,6 +35,7 @@ CorrelationPeak find_peak(const CrossCorrelation& all, double sign, double step_
         if (sign * all.values[i] > sign * all.values[best]) best = i;
     const double before = all.values[best - 1], here = all.values[best],
                  after = all.values[best + 1];
+    // Top of the parabola through three values: shift (b - a) / (2 (b - 2 h + a)), |shift| <= 1.
     const double bend = before - 2.0 * here + after;
     const double shift = bend != 0.0 ? std::clamp(0.5 * (before - after) / bend, -1.0, 1.0) : 0.0;
     return {all.delays_s[best] + step_s * shift, here - 0.25 * (before - after) * shift};

@@ -33,6 +33,7 @@ Spectrum analytic_signal(std::span<const double> x) {
     Eigen::FFT<double> transform;
     Spectrum spectrum;
     transform.fwd(spectrum, padded);
+    // Doubles the positive frequencies and removes the negative ones.
     for (std::size_t k = 1; k < (length + 1) / 2; ++k) spectrum[k] *= 2.0;
     for (std::size_t k = length / 2 + 1; k < length; ++k) spectrum[k] = 0.0;
     transform.inv(padded, spectrum);

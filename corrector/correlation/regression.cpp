@@ -35,6 +35,7 @@ LineFit fit_line(std::span<const double> x, std::span<const double> y, std::size
     fit.intercept = fit.mean_y - fit.slope * fit.mean_x;
     fit.r2 = yy > 0.0 ? xy * xy / (xx * yy) : 0.0;
 
+    // Newey and West 1987: S = sum m_i^2 + 2 sum_l w_l sum_i m_i m_(i-l),  w_l = 1 - l / (L + 1)
     std::vector<double> moments(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) {
         const double dx = x[i] - fit.mean_x;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Doubles from the beginning of a cache line on.
+/// A buffer of doubles that begins at a cache line.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,15 +8,17 @@
 
 namespace a351::corrector {
 
-/// Zeroes to begin with.  Vectors of four that begin at its multiples of four never lie across two
-/// cache lines: the search for extrema takes 7 percent less.
+/// A buffer of `size` doubles, initially zero, aligned to 64 bytes.
+///
+/// A vector of four doubles at a multiple of four never crosses a cache line.  The search for
+/// extrema takes 7 percent less time with it.
 class AlignedBuffer {
 public:
     explicit AlignedBuffer(std::size_t size) : storage_(size + kLine - 1) {
         const auto address = reinterpret_cast<std::uintptr_t>(storage_.data()) / sizeof(double);
         offset_ = (kLine - address % kLine) % kLine;
     }
-    AlignedBuffer(AlignedBuffer&&) = default;  // a copy would lie elsewhere
+    AlignedBuffer(AlignedBuffer&&) = default;  // a copy's storage would have another alignment
 
     [[nodiscard]] double* data() noexcept { return storage_.data() + offset_; }
     [[nodiscard]] const double* data() const noexcept { return storage_.data() + offset_; }

@@ -1,7 +1,7 @@
 #include "corrector/eemd/sift_kernels.hpp"
 
-// Compiled with this instruction set where the compiler has it (CMakeLists.txt): nothing here may be
-// shared with files that are not.
+// Compiled for this instruction set if the compiler supports it (CMakeLists.txt).  Nothing here may
+// be shared with files that are compiled without it.
 #ifdef __AVX512F__
 
 #include "corrector/eemd/noise_loops.hpp"

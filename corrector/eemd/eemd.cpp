@@ -47,10 +47,10 @@ double mean_of(std::span<const double> values) {
     return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
 }
 
-/// Standard deviation with divisor n - 1; 0 for n < 2.
+/// Returns the standard deviation with divisor n - 1; 0 for n < 2.
 double standard_deviation(std::span<const double> values) {
     if (values.size() < 2) return 0.0;
-    // About the first sample, so that a constant gives exactly zero.
+    // The sums are about the first sample, so that a constant gives exactly zero.
     double mean = 0.0;
     for (const double value : values) mean += value - values[0];
     mean /= static_cast<double>(values.size());
@@ -62,10 +62,13 @@ double standard_deviation(std::span<const double> values) {
     return std::sqrt(squares / static_cast<double>(values.size() - 1));
 }
 
-// Up to the largest double there is room for noise and for envelopes that overshoot.
+// Limit of |signal|.  Between it and the largest double, 1.8e308, there is room for noise and for
+// envelopes that overshoot.
 constexpr double kTooLarge = 1e300;
 
-/// Binary exponent that brings `signal` below 1: nothing then overflows or underflows on the way.
+/// Returns the binary exponent that scales `signal` to below 1, so that no step overflows or
+/// underflows.
+/// @throws std::invalid_argument  if a sample is not finite or too large.
 int common_exponent(std::span<const double> signal) {
     double largest = 0.0;
     for (std::size_t i = 0; i < signal.size(); ++i) {
@@ -79,7 +82,7 @@ int common_exponent(std::span<const double> signal) {
     return exponent;
 }
 
-/// The record with `margin` samples reflected about either end sample.
+/// Returns the record with `margin` samples reflected about either end sample.
 std::vector<double> reflected(std::span<const double> record, std::size_t margin) {
     std::vector<double> out;
     out.reserve(record.size() + 2 * margin);
@@ -89,13 +92,13 @@ std::vector<double> reflected(std::span<const double> record, std::size_t margin
     return out;
 }
 
-/// Of the sums of squares of a whole record and ensemble.
+/// Relative rounding error of the sum of squares over a whole record and ensemble.
 constexpr double kRounding = 1e-14;
 
-/// Standard error of the mean of one component, rms over its samples.  The squares of the draws and
-/// of their mean are nearly equal where the draws are: at least their rounding is stated.
+/// Returns the standard error of the mean of one component, rms over its samples.  If the draws are
+/// nearly equal, their squares and those of their mean are too; then the rounding is returned.
 ///
-/// @param sum      of all members, sample by sample.
+/// @param sum      sum over all members, sample by sample.
 /// @param squares  sum over draws and samples of (draw - origin)^2.
 /// @param draws    independent realisations of the noise; each is a sum over `draw_size` members.
 std::optional<double> standard_error(std::span<const double> sum, double squares, double origin,
@@ -112,7 +115,7 @@ std::optional<double> standard_error(std::span<const double> sum, double squares
     return std::sqrt(variance / static_cast<double>(sum.size()) / count) / draw_size;
 }
 
-/// Sum of squares about the mean.
+/// Returns the sum of squares about the mean.
 double energy(std::span<const double> values) {
     const double mean = mean_of(values);
     double squares = 0.0;
@@ -120,7 +123,7 @@ double energy(std::span<const double> values) {
     return squares;
 }
 
-/// The record as it is decomposed, with the way back to its unit.
+/// The record scaled for the decomposition, and the scale back to its unit.
 class Preparation {
 public:
     Preparation(std::span<const double> signal, const EemdOptions& options)
@@ -146,7 +149,7 @@ public:
             };
         }
     }
-    Preparation(const Preparation&) = delete;  // the plan looks at the record of its own
+    Preparation(const Preparation&) = delete;  // the plan refers to this object's record
     Preparation& operator=(const Preparation&) = delete;
 
     /// @throws EemdCancelled
@@ -155,7 +158,7 @@ public:
         if (!sums) throw EemdCancelled();
         return *std::move(sums);
     }
-    /// Ensemble mean of a sum over the members, not yet in the unit of the record.
+    /// Returns the ensemble mean of a sum over the members, not yet in the unit of the record.
     [[nodiscard]] std::vector<double> mean(std::span<const double> sum) const {
         std::vector<double> values(sum.size());
         std::transform(sum.begin(), sum.end(), values.begin(),
@@ -165,7 +168,7 @@ public:
     void restore_unit(std::span<double> values) const {
         for (double& value : values) value = std::ldexp(value, exponent);
     }
-    /// In the unit of the record.
+    /// Returns the level of the added noise in the unit of the record.
     [[nodiscard]] double noise_level() const { return std::ldexp(plan.noise_level, exponent); }
 
     const int exponent;
@@ -241,11 +244,11 @@ EemdTrend eemd_trend(std::span<const double> signal, std::size_t most_extrema,
     plan.mode_count = 0;
     EemdTrend trend;
     trend.noise_level = prepared.noise_level();
-    for (;; ++trend.modes_taken_off) {
+    for (;; ++trend.removed_modes) {
         trend.values = prepared.mean(prepared.sum(plan).values);
         prepared.restore_unit(trend.values);
         const bool is_slow = count_extrema(trend.values) <= most_extrema;
-        if (is_slow || trend.modes_taken_off == static_cast<int>(prepared.plan.mode_count)) break;
+        if (is_slow || trend.removed_modes == static_cast<int>(prepared.plan.mode_count)) break;
         plan.continues = true;
         plan.mode_count = 1;
     }

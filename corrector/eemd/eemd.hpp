@@ -2,7 +2,7 @@
 /// @file
 /// Ensemble empirical mode decomposition (EEMD) of one regularly sampled series.
 /// Z. Wu and N. E. Huang, Adv. Adapt. Data Anal. 1(1), 1-41, 2009, doi:10.1142/S1793536909000047.
-/// What the paper leaves open (spline ends, stopping, mode count): corrector/eemd/eemd.md.
+/// Choices that the paper leaves open (spline ends, stopping, mode count): corrector/eemd/eemd.md.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,29 +16,34 @@
 
 namespace a351::corrector {
 
+/// Options of eemd() and eemd_trend().
 struct EemdOptions {
-    int ensemble_size = 80;    ///< Noise realisations averaged, >= 1.
-    double noise_ratio = 0.1;  ///< Std. deviation of added noise / of signal, >= 0; 0 is plain EMD.
-    /// Every noise is used twice, the second time negated, so that it leaves nothing in the sum of
-    /// the components; needs an even ensemble_size.  Slow modes scatter more: half as many noises.
+    int ensemble_size = 80;  ///< Members that are averaged, >= 1; each has its own noise.
+    /// Standard deviation of the added noise, divided by that of the signal (divisor n - 1, trend
+    /// included); finite, >= 0.  0 is plain EMD with one member.
+    double noise_ratio = 0.1;
+    /// Uses every noise twice, the second time negated, so that the noises cancel in the sum of the
+    /// components.  Needs an even ensemble_size.  Slow modes scatter more, because there are half
+    /// as many different noises.
     /// Source: J.-R. Yeh, J.-S. Shieh and N. E. Huang, Adv. Adapt. Data Anal. 2(2), 135-156, 2010.
     bool complementary_pairs = false;
     StoppingRule stopping = FixedSifts{};
-    std::optional<int> mode_count =
-        std::nullopt;  ///< Without the residue, >= 0; absent: default_mode_count().
+    /// Number of modes without the residue, >= 0; absent: default_mode_count().
+    std::optional<int> mode_count = std::nullopt;
     FinishRule finish = FinishRule::at_most_two_extrema;
     EndRule ends = EndRule::line;
     SplineEnds spline_ends = SplineEnds::not_a_knot;
-    /// Decompose the record with half its length reflected at either end: twice the work, best
-    /// where the ends are disturbed (eemd.md, "Ends").
+    /// Decomposes the record with half its length reflected at either end.  This is twice the work,
+    /// and best if the ends are disturbed (eemd.md, "Ends").
     bool reflect_ends = false;
-    std::uint64_t seed = 0;  ///< Same seed, same bits, on any thread count.
-    int threads = 1;         ///< >= 1
-    /// Called in the caller's thread with the members done and their number; false cancels.
+    std::uint64_t seed = 0;  ///< Seed of the noise; the same seed gives the same bits.
+    int threads = 1;         ///< Number of threads, >= 1; the result does not depend on it.
+    /// Called in the caller's thread with the members done, in steps of any size, and with the
+    /// number of all members; false cancels.
     std::function<bool(int done, int members)> progress;
 };
 
-/// Thrown by eemd() when `progress` returned false.
+/// Thrown by eemd() and eemd_trend() if `progress` returned false.
 struct EemdCancelled : std::exception {
     [[nodiscard]] const char* what() const noexcept override { return "eemd: cancelled"; }
 };
@@ -47,53 +52,93 @@ struct EemdCancelled : std::exception {
 struct Component {
     std::vector<double> values;        ///< (n), unit of the signal.
     std::size_t extrema_count = 0;     ///< Interior maxima and minima of `values`.
-    double mean_period_samples = 0.0;  ///< 2 n / extrema_count; infinite without extrema.
-    /// Of the components' variances, each about its own mean; they add up to 1, or are 0 for a
-    /// constant.
+    double mean_period_samples = 0.0;  ///< 2 n / extrema_count, samples; infinite without extrema.
+    /// Variance of this component about its own mean, divided by the sum of all components'
+    /// variances.  The shares add up to 1; all are 0 for a constant signal.
     double energy_share = 0.0;
-    /// Standard error of the ensemble mean, rms over the samples, unit of the signal.  At least 1e-7
-    /// of the component's rms (of the residue's departure from the signal's mean) over the root of
-    /// the draws, which is rounding.  Absent for one member: there is nothing to estimate it from.
+    /// Standard error of the ensemble mean, rms over the samples, unit of the signal.  It comes
+    /// from the scatter of the draws; a draw is a member, or a complementary pair of members.
+    ///
+    /// Lower limit: 1e-7 of the component's rms (for the residue: of its deviation from the
+    /// signal's mean), divided by the root of the number of draws.  Below it there is only
+    /// rounding.  Absent with fewer than two draws, and for an empty signal.
     std::optional<double> standard_error;
 };
 
+/// A decomposition: the modes and the residue.
 struct EemdResult {
-    std::vector<Component> modes;  ///< The fastest first; zero where no member had one left.
-    Component residue;             ///< What no mode carries.
-    int members = 0;               ///< Averaged: the ensemble size, or 1 when no noise was added.
-    double noise_level = 0.0;      ///< Std. deviation of the added noise, unit of the signal.
-    double closure_error = 0.0;    ///< max |signal - sum of modes - residue|, unit of the signal.
+    std::vector<Component> modes;  ///< Modes, the fastest first; zero if no member had one left.
+    Component residue;             ///< Rest after all modes were removed.
+    int members = 0;  ///< Number of members averaged: the ensemble size, or 1 without noise.
+    double noise_level = 0.0;    ///< Std. deviation of the added noise, unit of the signal.
+    double closure_error = 0.0;  ///< max |signal - sum of modes - residue|, unit of the signal.
 };
 
-/// floor(log2(n)) - 1, and 0 for n < 4 (Wu and Huang 2009; without the residue).
+/// Returns the default number of modes without the residue: floor(log2(n)) - 1, and 0 for n < 4.
+/// Source: Wu and Huang, 2009.
 [[nodiscard]] int default_mode_count(std::size_t n) noexcept;
 
-/// Averages the EMD of `signal` with `ensemble_size` different noises added.
+/// Decomposes a signal into modes and a residue, averaged over an ensemble.
 ///
-/// The noise does not average out completely: the sum of all components differs from the signal
-/// by about noise_level / sqrt(members).  Every member has the same number of modes; those it does
-/// not have are zero.  Half a period of every mode next to either end is extrapolation.
+/// Member m is the EMD of signal + noise_level w_m, where w_m is white Gaussian noise of variance 1
+/// and noise_level = noise_ratio x standard deviation of the signal.  A component is the mean of
+/// this component over all members.  Every member has the same number of modes; modes that it does
+/// not have are zero.
 ///
-/// @param signal  (n) samples at constant rate, any unit, finite and gap-free, |signal| < 1e300;
-///                any n, also 0.
-/// @throws std::invalid_argument  naming the argument, its value and its limit.
-/// @throws EemdCancelled, and whatever `options.progress` throws.
+/// - The sum of all components differs from the signal by the mean of the added noise, about
+///   noise_level / sqrt(members).
+/// - Half a period of every mode next to either end is extrapolation.
+/// - Without noise there is one member: `members` is 1, and standard errors are absent.
+/// - A constant signal gets no noise.  Its modes are zero, and the residue is the signal bit for
+///   bit (degenerate_test.cpp).
+/// - For n < 4 there are no modes by default: the residue is the signal with the mean noise.
+/// - A signal scaled by a power of two has components with the same digits; other factors change
+///   rounding only (eemd_test.cpp).
+/// - The result has the same bits on any number of threads and with every instruction set.
+///
+/// Accuracy, and the tests that show it:
+/// - With noise_ratio = 0 the components add up to the signal within 8 units in the last place per
+///   component (tests/unit/eemd/emd_test.cpp), with complementary pairs within 1e-12 of the
+///   signal's rms (eemd_test.cpp).
+/// - Plain EMD agrees with libeemd within ten times the difference between two builds of libeemd:
+///   6e-15 to 5e-6 of the rms about the mean, depending on record and stopping rule
+///   (reference_test.cpp).
+/// - The stated standard error agrees with the scatter of 40 ensembles within 20 % (eemd_test.cpp).
+///
+/// @param signal   (n) samples at constant rate without gaps, any unit, finite, |signal| < 1e300;
+///                 any n, also 0.  NaN is refused.
+/// @param options  see EemdOptions.
+/// @return components of n samples each, in the unit of the signal.
+/// @throws std::invalid_argument  naming the argument, its value and its limit; a bad sample is
+///                                named by its index.
+/// @throws EemdCancelled          if `options.progress` returned false.
+/// @throws std::bad_alloc, std::system_error  if memory or threads are not available.
+/// @throws  the exceptions of `options.progress`.
 [[nodiscard]] EemdResult eemd(std::span<const double> signal, const EemdOptions& options = {});
 
-/// The slow part of a series alone.
+/// The slow part of a series.
 struct EemdTrend {
     std::vector<double> values;  ///< (n), unit of the signal.
-    int modes_taken_off = 0;
-    double noise_level = 0.0;  ///< Std. deviation of the added noise, unit of the signal.
+    int removed_modes = 0;       ///< Number of modes removed from the signal.
+    double noise_level = 0.0;    ///< Std. deviation of the added noise, unit of the signal.
 };
 
-/// The residue of eemd(), the same bits, with the fewest modes that leave at most `most_extrema`
-/// extrema in it; with options.mode_count modes where no fewer do.  Slower modes are never made.
+/// Returns the residue of eemd() after the smallest number of modes that leaves at most
+/// `most_extrema` extrema in it.
 ///
-/// All members lose a mode before any loses the next: they need ensemble_size times the memory of
-/// the signal.  `options.progress` counts the members again for every mode.
+/// If no number up to the mode count of the options does, the residue after all modes is returned.
+/// Slower modes are never computed.  The values have the same bits as the residue of eemd() with
+/// this mode_count, for every option and any number of threads (tests/unit/eemd/trend_test.cpp).
 ///
-/// @param signal, options, @throws  as eemd().
+/// A mode is removed from all members before the next one.  Therefore ensemble_size copies of the
+/// signal are kept in memory (twice that with reflect_ends).  `options.progress` counts the members
+/// again for every mode.
+///
+/// @param signal        as eemd().
+/// @param most_extrema  largest number of interior extrema of the result; 7 for the trend of an
+///                      occupation (eemd.md, "The trend alone").
+/// @param options       as eemd(); mode_count limits the number of modes removed.
+/// @throws              as eemd().
 [[nodiscard]] EemdTrend eemd_trend(std::span<const double> signal, std::size_t most_extrema,
                                    const EemdOptions& options = {});
 

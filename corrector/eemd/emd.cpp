@@ -3,7 +3,7 @@
 namespace a351::corrector {
 namespace {
 
-/// Counts how often in a row the number of extrema stayed the same, within one.
+/// Counts the consecutive sifts in which the number of extrema changed by at most one.
 class Stability {
 public:
     void observe(std::size_t extrema, bool first_is_maximum) noexcept {
@@ -36,7 +36,7 @@ int sift_limit(const StoppingRule& stopping) noexcept {
 
 }  // namespace
 
-// The kernels work on whole groups of eight samples.
+// The kernels work on whole groups of eight samples, hence seven more.
 EmdWorkspace::EmdWorkspace(std::size_t sample_count, const SiftKernels& kernels)
     : kernels_(kernels),
       sample_count_(sample_count),
@@ -83,7 +83,7 @@ void EmdWorkspace::sift(const double* curve, const SiftOptions& options) noexcep
     kernels_.subtract_mean_envelope(curve, mode_.data(), sample_count_, knots_.segment_starts(),
                                     x.data(), knots_.first_segment(), envelope_.arrays());
     if (knots_.ends_at_last_sample()) {
-        // The knots themselves, not the cubic that runs up to them.
+        // The last knots themselves.  The cubic is only evaluated before them.
         mode_.data()[sample_count_ - 1] = last_sample - 0.5 * (y[y.size() - 2] + y.back());
     }
 }

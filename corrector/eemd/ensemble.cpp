@@ -13,7 +13,7 @@ constexpr int kMembersPerBlock = 8;  // even, so that a block holds whole pairs
 
 std::size_t sum_length(const EnsemblePlan& plan) { return plan.signal.size() - 2 * plan.margin; }
 
-/// Components that are summed: the modes and the residue, or that alone.
+/// Returns the number of components to sum: the modes and the residue, or only the residue.
 std::size_t sum_count(const EnsemblePlan& plan) {
     return plan.left.empty() ? plan.mode_count + 1 : 1;
 }
@@ -50,7 +50,7 @@ public:
 private:
     void add_member(int member) noexcept {
         if (!plan_.left.empty()) {
-            take_off_modes(member);
+            remove_modes(member);
             return;
         }
         add_noise(member);
@@ -66,7 +66,7 @@ private:
         take(member, plan_.mode_count, emd_.residue());
     }
 
-    void take_off_modes(int member) noexcept {
+    void remove_modes(int member) noexcept {
         const std::span<double> residue = emd_.residue();
         const std::span<double> left =
             plan_.left.subspan(static_cast<std::size_t>(member) * residue.size(), residue.size());
@@ -115,7 +115,7 @@ private:
         }
     }
 
-    /// A member of a pair that has no mode `k`.
+    /// Takes zeroes as mode `k` of a member of a pair that does not have this mode.
     void take_zero(int member, std::size_t k) noexcept {
         const std::size_t n = sum_length(plan_);
         const std::span<double> pair = std::span(pair_).subspan(k * n, n);
@@ -148,7 +148,7 @@ std::optional<EnsembleSums> sum_ensemble(const EnsemblePlan& plan, int threads,
     std::mutex mutex;
     std::condition_variable committed;
     int commit_block = 0;
-    // Every block that was taken is summed and committed, so that none waits for ever.
+    // Every block that a thread takes is summed and committed.  So no thread waits for ever.
     const auto work_on_next = [&](BlockWorker& worker) {
         const int block = next_block++;
         if (block >= blocks) return false;
@@ -175,7 +175,8 @@ std::optional<EnsembleSums> sum_ensemble(const EnsemblePlan& plan, int threads,
     {
         std::vector<std::jthread> helpers;
         helpers.reserve(workers.size());
-        const Stop stop{next_block, blocks};  // destroyed before the helpers are joined
+        // Destroyed before the helpers, which therefore end before they are joined.
+        const Stop stop{next_block, blocks};
         for (std::size_t i = 1; i < workers.size(); ++i) {
             helpers.emplace_back([&work_on_next, &worker = workers[i]] {
                 while (work_on_next(worker)) {

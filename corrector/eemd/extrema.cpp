@@ -3,7 +3,7 @@
 namespace a351::corrector {
 namespace {
 
-/// Calls visit(first, last) for every interior extremum, a plateau being first..last.
+/// Calls visit(first, last) for every interior extremum; first and last differ for a plateau.
 template <class Visit>
 void visit_extrema(std::span<const double> curve, Visit visit) {
     int direction = 0;

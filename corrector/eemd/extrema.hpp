@@ -1,7 +1,8 @@
 #pragma once
 /// @file
 /// Interior extrema of a sampled curve: changes of its direction.  A plateau between a rise and a
-/// fall is one extremum; one that touches either end is none.  Maxima and minima alternate.
+/// fall is one extremum.  A plateau that touches either end is no extremum.  Maxima and minima
+/// alternate.
 
 #include <cstddef>
 #include <span>
@@ -9,10 +10,14 @@
 
 namespace a351::corrector {
 
-/// Number of interior maxima and minima of `curve`.
+/// Returns the number of interior maxima and minima of `curve`.
+///
+/// @param curve  (n), any n and unit; fewer than three samples have no extremum.  A NaN counts as
+///               equal to its neighbours.
 [[nodiscard]] std::size_t count_extrema(std::span<const double> curve) noexcept;
 
-/// Middles of the interior extrema of `curve`, rounded down, in ascending order.
+/// Returns the sample indices of the interior extrema of `curve`, in ascending order.  The index of
+/// a plateau is its middle, rounded down.  NaN as in count_extrema().
 [[nodiscard]] std::vector<std::size_t> extremum_indices(std::span<const double> curve);
 
 }  // namespace a351::corrector

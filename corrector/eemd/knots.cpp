@@ -5,7 +5,7 @@
 namespace a351::corrector {
 namespace {
 
-/// Value at `position` of the line through (x1, y1) and (x2, y2).
+/// Returns the value at `position` of the line through (x1, y1) and (x2, y2).
 double line_at(double position, double x1, double y1, double x2, double y2) {
     return y1 + (position - x1) * ((y2 - y1) / (x2 - x1));
 }
@@ -38,7 +38,7 @@ void AlternatingKnots::add_ends(std::span<const double> curve, EndRule rule) noe
 
 void AlternatingKnots::add_end_samples(std::span<const double> curve, EndRule rule) noexcept {
     const double last = static_cast<double>(curve.size() - 1);
-    // Two knots at either end, one of each envelope, in the order that keeps them alternating.
+    // Two knots at either end, one for each envelope, so that the envelopes still alternate.
     const auto end_value = [&](std::size_t knot, double at, double sample, std::size_t nearest,
                                std::size_t next, bool has_two) {
         if (rule == EndRule::pinned || !has_two) return sample;
@@ -47,7 +47,8 @@ void AlternatingKnots::add_end_samples(std::span<const double> curve, EndRule ru
         return is_maximum(knot) ? std::max(sample, line) : std::min(sample, line);
     };
     for (const std::size_t distance : {1U, 2U}) {
-        // An envelope whose nearest extremum is the second from the end needs four for two.
+        // An envelope has two extrema if the curve has three.  If its nearest extremum is the
+        // second from the end, the curve must have four.
         const std::size_t left = kMostAdded - distance;
         const bool left_has_two = extrema_count_ + distance >= 5;
         positions_[left] = 0.0;

@@ -1,9 +1,10 @@
 #pragma once
 /// @file
-/// The widest vector of doubles of the instruction set that the including file is compiled for, and
-/// what the compiler's vector types lack: moving lanes by flags.  Bit j of some flags is lane j's.
+/// The widest vector of doubles of the instruction set for which the including file is compiled,
+/// and one operation that the compiler's vector types lack: moving lanes by flags.  Bit j of a set
+/// of flags belongs to lane j.
 ///
-/// All names are internal to the file that includes this one: every set has its own.
+/// All names are internal to the including file, because every instruction set has its own.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,8 +13,8 @@
 #include <immintrin.h>
 #endif
 
-/// Before a loop whose elements do not depend on each other: g++ makes vectors of it.  clang makes
-/// them without a pragma, and compares the addresses at run time.
+/// Marks a loop whose elements do not depend on each other, so that g++ makes vectors of it.  clang
+/// does so without a pragma, and compares the addresses at run time.
 #ifdef __clang__
 #define A351_INDEPENDENT
 #else
@@ -43,14 +44,14 @@ inline Lanes load_lanes(const double* from) {
 inline void store_lanes(double* to, Lanes value) { *reinterpret_cast<LanesAnywhere*>(to) = value; }
 inline Lanes all_lanes(double value) { return value - Lanes{}; }
 
-/// first, first + 1 and so on.
+/// Returns the lanes first, first + 1 and so on.
 inline Lanes counting_from(double first) {
     Lanes out = {};
     for (std::size_t j = 0; j < kLanes; ++j) out[j] = static_cast<double>(j);
     return out + first;
 }
 
-/// The bits of all lanes together.
+/// Returns the bitwise or of all lanes.
 inline std::uint64_t any_of(Words words) {
     std::uint64_t all = 0;
     for (std::size_t j = 0; j < kLanes; ++j) all |= words[j];
@@ -62,7 +63,7 @@ inline std::size_t count_flags(std::uint64_t flags) {
     return static_cast<std::size_t>(__builtin_popcountll(flags));
 }
 
-/// Flags of the lanes where a > b.
+/// Returns the flags of the lanes with a > b.
 inline std::uint64_t flags_of_greater(Lanes a, Lanes b) {
 #if defined(__AVX512F__)
     return _mm512_cmp_pd_mask(a, b, _CMP_GT_OQ);
@@ -83,15 +84,16 @@ typedef std::uint8_t Index;  // 2 KiB of rows
 constexpr std::size_t kParts = 1;
 #else
 typedef std::uint32_t Index;
-constexpr std::size_t kParts = 2;  // no instruction moves doubles: halves of them are moved
+constexpr std::size_t kParts = 2;  // halves of a double: no instruction moves whole ones
 #endif
 
-/// For every set of flags the lanes, or halves of lanes, that become lanes 0, 1 and so on.
+/// A table with one row for each set of flags: the indices of the lanes, or halves of lanes, that
+/// become lanes 0, 1 and so on.
 struct LaneTable {
     alignas(32) Index rows[kAllFlags + 1][8] = {};
 };
 
-/// Lane j: the number of flags before it.
+/// Returns a table that gives lane j the lane whose number is the count of flags before j.
 constexpr LaneTable make_behind_flags() {
     LaneTable table;
     for (std::uint64_t flags = 0; flags <= kAllFlags; ++flags) {
@@ -114,7 +116,7 @@ inline Order behind(std::uint64_t flags) {
     const void* const row = kBehindFlags.rows[flags];
     return _mm512_maskz_cvtepu8_epi64(kAllFlags, _mm_loadl_epi64(static_cast<const __m128i*>(row)));
 }
-// Masked with all flags, which costs nothing: g++ 12 takes the unmasked form for uninitialised.
+// The mask with all flags costs nothing.  Without it g++ 12 warns of an uninitialised variable.
 inline Lanes ordered(Lanes values, Order order) {
     return _mm512_maskz_permutexvar_pd(kAllFlags, order, values);
 }
@@ -134,7 +136,7 @@ inline Lanes ordered(Lanes values, Order order) {
     return _mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(values), order));
 }
 
-/// The flagged lanes, moved to the front.
+/// Returns a table that moves the flagged lanes to the front.
 constexpr LaneTable make_flagged_first() {
     LaneTable table;
     for (std::uint64_t flags = 0; flags <= kAllFlags; ++flags) {
@@ -158,11 +160,11 @@ inline Lanes flagged_first(Lanes values, std::uint64_t flags) {
 
 #endif
 
-/// Lane j: from[number of flags before lane j].  Reads all of from[0 ... kLanes - 1].
+/// Returns from[number of flags before lane j] in lane j.  Reads all of from[0 ... kLanes - 1].
 inline Lanes step_at_flags(const double* from, Order order) {
     return ordered(load_lanes(from), order);
 }
-/// Writes the lanes with a flag to `to` and what follows; overwrites kLanes elements.
+/// Writes the flagged lanes to `to` and the following elements; overwrites kLanes elements.
 inline void keep_flagged(double* to, Lanes values, std::uint64_t flags) {
     store_lanes(to, flagged_first(values, flags));
 }

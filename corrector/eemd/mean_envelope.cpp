@@ -4,11 +4,12 @@ namespace a351::corrector {
 namespace {
 
 constexpr std::size_t kArrays = 12;
-// Eight cubics are read at a time, beginning at any of them.
+// Elements that are read beyond the last knot: eight cubics are read at a time, from any knot.
 constexpr std::size_t kReadBeyond = 8;
 
-/// Elements from one array to the next.  Addresses equal in their last twelve bits, 512 doubles,
-/// hold each other up when one is written and another read: 12 arrays 40 apart never are.
+/// Returns the number of elements from one array to the next.  Two addresses with the same last
+/// twelve bits (512 doubles) delay each other if one is written and the other is read.  Twelve
+/// arrays with offsets of 40 elements never have the same.
 constexpr std::size_t stride(std::size_t knots) {
     return (knots + kReadBeyond + 511) / 512 * 512 + 40;
 }

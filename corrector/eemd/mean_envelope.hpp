@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Storage of two cubic splines through alternating knots and of their mean.
+/// Storage of two cubic splines through alternating knots, and of their mean.
 
 #include <cstddef>
 
@@ -8,29 +8,31 @@
 
 namespace a351::corrector {
 
-/// What the outermost cubics of an envelope obey.
+/// Condition on the outermost cubics of an envelope.
 enum class SplineEnds {
-    not_a_knot,  ///< Third derivative continuous at the second and the last but one knot.
-    natural,     ///< No curvature at the outermost knots.
+    /// The third derivative is continuous at the second and the last but one knot.  An envelope of
+    /// two to four knots is the polynomial through them (tests/unit/eemd/mean_envelope_test.cpp).
+    not_a_knot,
+    natural,  ///< The second derivative is zero at the outermost knots.
 };
 
-/// One number per knot each; b and e need not outlive what becomes of them.
+/// Arrays with one number per knot; b and e may be overwritten after the mean is made.
 struct SplineArrays {
-    double* h;        ///< X_{k+2} - X_k: the next knot of the same envelope is two further on
+    double* h;        ///< X_{k+2} - X_k; the next knot of the same envelope is k + 2
     double* inverse;  ///< 1 / h_k
     double* slope;    ///< (Y_{k+2} - Y_k) / h_k
     double* pivot;    ///< elimination, see spline_loops.hpp
-    double* link;
-    double* c;  ///< half the second derivative at a knot
-    double* b;  ///< S = Y_k + d (b_k + d (c_k + d e_k)), d = t - X_k
-    double* e;
-    double* mean_y;  ///< the same for the mean of both envelopes, from X_k to X_{k+1}, k >= 1
+    double* link;     ///< elimination, see spline_loops.hpp
+    double* c;        ///< half the second derivative at a knot
+    double* b;        ///< S = Y_k + d (b_k + d (c_k + d e_k)), d = t - X_k
+    double* e;        ///< see b
+    double* mean_y;   ///< the same for the mean of both envelopes, from X_k to X_{k+1}, k >= 1
     double* mean_b;
     double* mean_c;
     double* mean_e;
 };
 
-/// Owns the arrays for up to a number of knots.
+/// Owns the arrays for up to `most_knots` knots.
 class MeanEnvelope {
 public:
     explicit MeanEnvelope(std::size_t most_knots);

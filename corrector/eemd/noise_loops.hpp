@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// White Gaussian noise in plain loops over blocks, compiled once for every instruction set: see
-/// sift_kernels.hpp for the rules, noise.hpp for what it computes.
+/// White Gaussian noise in plain loops over blocks, compiled once for every instruction set.  The
+/// rules are in sift_kernels.hpp, the formula is in noise.hpp.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,29 +11,31 @@
 namespace a351::corrector {
 namespace {
 
-constexpr std::size_t kNoiseBlock = 64;  ///< Pairs of samples; the buffers stay in the first cache.
+/// Pairs of samples per block.  Reason: the buffers fit into the first-level cache.
+constexpr std::size_t kNoiseBlock = 64;
 
 inline std::uint64_t bits_of(double value) { return __builtin_bit_cast(std::uint64_t, value); }
 inline double double_of(std::uint64_t bits) { return __builtin_bit_cast(double, bits); }
 
-/// An integer below 2^52 as a double, by the bits of 2^52 + value.
+/// Returns an integer below 2^52 as a double, from the bits of 2^52 + value.
 inline double small_integer(std::uint64_t value) {
     return double_of(bits_of(0x1p52) | value) - 0x1p52;
 }
 
-/// 53 bits of two words, 0 ... 2^53 - 1.
+/// Returns the upper 53 bits of two words, 0 ... 2^53 - 1.
 inline double upper_bits(std::uint64_t low, std::uint64_t high) {
     return small_integer(high) * 0x1p21 + small_integer(low >> 11);
 }
 
-/// ln(u) for 2^-53 <= u <= 1, to 2 units in the last place: ln m = 2 artanh((m - 1) / (m + 1)).
+/// Returns ln(u) for 2^-53 <= u <= 1, within 2 units in the last place, by
+/// ln m = 2 artanh((m - 1) / (m + 1)).
 inline double natural_log(double u) {
     constexpr std::uint64_t kMantissa = 0x000FFFFFFFFFFFFF;
     const double half = double_of((bits_of(u) & kMantissa) | bits_of(0.5));  // 0.5 <= half < 1
     const double exponent = small_integer(bits_of(u) >> 52) - 1022.0;
     const bool low = half < 0.5 * 1.4142135623730951;
     const double m = low ? 2.0 * half : half;
-    const double s = (m - 1.0) / (m + 1.0);  // |s| <= 0.172, so the terms fall below 2^-53 at s^21
+    const double s = (m - 1.0) / (m + 1.0);  // |s| <= 0.172, so terms are below 2^-53 from s^21 on
     const double s2 = s * s;
     double series = 1.0 / 21;
     series = series * s2 + 1.0 / 19;
@@ -49,7 +51,7 @@ inline double natural_log(double u) {
     return (low ? exponent - 1.0 : exponent) * 0.6931471805599453 + 2.0 * s * series;
 }
 
-/// The words of one block's counters, see philox().
+/// Fills w0 ... w3 with the words of one block's counters, see philox().
 inline void philox_block(std::uint64_t first_pair, std::uint64_t member, std::uint64_t seed,
                          std::uint32_t* w0, std::uint32_t* w1, std::uint32_t* w2,
                          std::uint32_t* w3) {
@@ -83,7 +85,7 @@ inline void philox_block(std::uint64_t first_pair, std::uint64_t member, std::ui
     }
 }
 
-/// Box and Muller's transform of one block: sample 2 i in `cosine`, 2 i + 1 in `sine`.
+/// Transforms one block as Box and Muller do: sample 2 i to `cosine`, sample 2 i + 1 to `sine`.
 inline void transform_block(const std::uint32_t* w0, const std::uint32_t* w1,
                             const std::uint32_t* w2, const std::uint32_t* w3, double* cosine,
                             double* sine) {

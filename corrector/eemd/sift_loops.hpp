@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// The search for extrema and the subtraction of the mean envelope, written once for every
-/// instruction set: see sift_kernels.hpp for the rules.
+/// The search for extrema and the subtraction of the mean envelope, written once and compiled for
+/// every instruction set.  The rules are in sift_kernels.hpp.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,11 +16,11 @@ inline double as_double(std::size_t index) {
     return static_cast<double>(static_cast<std::int64_t>(index));
 }
 
-/// find_extrema() of curves with plateaus, sample by sample.
+/// Finds the extrema of curves with plateaus, sample by sample; otherwise as find_extrema().
 inline std::size_t find_plateaus(const double* curve, std::size_t n, double* positions,
                                  double* values, std::uint64_t* starts) {
-    // Every step writes its candidate and keeps it by counting: noise would make branches here the
-    // slowest part of a sift.
+    // Every step writes its candidate, and keeps it by increasing the count.  Branches here would
+    // be the slowest part of a sift, because noise makes them unpredictable.
     std::size_t count = 0;
     bool was_rising = false;
     bool was_falling = false;
@@ -39,15 +39,15 @@ inline std::size_t find_plateaus(const double* curve, std::size_t n, double* pos
     }
     for (std::size_t word = 0; word < n / 64 + 2; ++word) starts[word] = 0;
     for (std::size_t k = 0; k < count; ++k) {
-        const double half_more = positions[k] + 0.5;  // cut off: the ceiling
+        const double half_more = positions[k] + 0.5;  // truncated below, which gives the ceiling
         const auto start = static_cast<std::size_t>(half_more);
         starts[start / 64] |= std::uint64_t{1} << (start % 64);
     }
     return count;
 }
 
-/// Bits i = 0 ... count - 1: curve[i + 1] > curve[i].  `equals` becomes other than 0 where two
-/// neighbours are equal.
+/// Returns the bits i = 0 ... count - 1 of curve[i + 1] > curve[i].  Makes `equals` different from
+/// 0 if two neighbours are equal.
 inline std::uint64_t rises_of(const double* curve, std::size_t count, Words& equals) {
     std::uint64_t rises = 0;
     std::size_t i = 0;
@@ -64,7 +64,7 @@ inline std::uint64_t rises_of(const double* curve, std::size_t count, Words& equ
     return rises;
 }
 
-/// Above so many extrema in 64 samples all are looked at.
+/// Number of extrema in 64 samples above which all samples are moved by flags, not one by one.
 constexpr int kDense = 20;
 
 inline std::size_t find_extrema(const double* curve, std::size_t n, double* positions,
@@ -96,7 +96,7 @@ inline std::size_t find_extrema(const double* curve, std::size_t n, double* posi
                 position += static_cast<double>(kLanes);
             }
         } else {
-            // Four at a time, whether there are so many or not: a guess less that can fail.
+            // Always four at a time, even if fewer are left: one branch less to be mispredicted.
             const std::size_t end = count + static_cast<std::size_t>(found);
             for (std::size_t to = count; to < end; to += 4) {
                 for (std::size_t more = 0; more < 4; ++more) {
@@ -121,12 +121,12 @@ inline std::size_t find_extrema(const double* curve, std::size_t n, double* posi
     return count;
 }
 
-/// Cubics of some samples and how far those are behind their knots.
+/// Cubics of some samples, and the distances d of the samples from the knots before them.
 struct Cubics {
     Lanes d, y, b, c, e;
 };
 
-/// out = curve - cubics.  In halves, see average() in spline_loops.hpp.
+/// Computes out = curve - cubics, in two halves as average() in spline_loops.hpp.
 inline void subtract_cubics(const double* curve, double* out, const Cubics& at) {
     const Lanes line = at.y + at.d * at.b;
     const Lanes bend = at.c + at.d * at.e;
@@ -151,7 +151,7 @@ inline void subtract_mean_envelope(const double* curve, double* out, std::size_t
         return cubics;
     };
     for (std::size_t word = 0; 64 * word < n; ++word) {
-        // Bit i: a segment begins at the sample after i.
+        // Bit i is set if a segment begins at the sample after i.
         std::uint64_t bits = starts[word] >> 1 | starts[word + 1] << 63;
         const std::size_t begin = 64 * word;
         const std::size_t end = n - begin < 64 ? n : begin + 64;
@@ -165,7 +165,8 @@ inline void subtract_mean_envelope(const double* curve, double* out, std::size_t
             }
             continue;
         }
-        // One step ahead of the arithmetic, which would fill the processor's queue with waiting.
+        // The cubics are read one step before they are used.  Otherwise waiting arithmetic would
+        // fill the processor's queue.
         Cubics cubics = next_cubics(bits & kAllFlags);
         std::size_t i = begin;
         for (; i + kLanes < end; i += kLanes) {

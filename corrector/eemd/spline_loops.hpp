@@ -2,19 +2,21 @@
 /// @file
 /// Cubic splines through the alternating knots of two envelopes, and the mean of the two.
 ///
-/// Compiled once for every instruction set (sift_kernels.hpp): all names are internal to the file
-/// that includes this one, and nothing of the standard library's is instantiated.  Elements of a
-/// loop do not depend on each other, but for the elimination, which is written for pairs of doubles;
-/// so every instruction set gives the same bits.  The loops write whole groups of lanes, up to
-/// kLanes - 1 elements too far.  Those are either written again later, when they are known, or
-/// receive the value that they already have, because no loop changes its own input.
+/// Compiled once for every instruction set (sift_kernels.hpp).  All names are internal to the
+/// including file, and nothing of the standard library is instantiated.
 ///
-/// One envelope alone: knots (X_i, Y_i), h_i = X_{i+1} - X_i, s_i = (Y_{i+1} - Y_i) / h_i and
+/// Elements of a loop do not depend on each other, except in the elimination, which is written for
+/// pairs of doubles.  So every instruction set gives the same bits.
+///
+/// The loops write whole groups of lanes, up to kLanes - 1 elements too far.  These elements are
+/// written again later, or receive the value that they already have: no loop changes its own input.
+///
+/// For one envelope with knots (X_i, Y_i), h_i = X_{i+1} - X_i, s_i = (Y_{i+1} - Y_i) / h_i:
 ///
 ///     S(t) = Y_i + d (b_i + d (c_i + d e_i)),   d = t - X_i,
 ///     h_{i-1} c_{i-1} + 2 (h_{i-1} + h_i) c_i + h_i c_{i+1} = 3 (s_i - s_{i-1}).
 ///
-/// In the list of both envelopes' knots the same neighbours are two apart.
+/// In the list of both envelopes' knots the neighbours i and i + 1 are two apart.
 /// Source: C. de Boor, A Practical Guide to Splines, Springer, 1978, chap. IV; c_i here is half the
 /// second derivative.
 
@@ -26,13 +28,13 @@
 namespace a351::corrector {
 namespace {
 
-/// One row of each envelope.
+/// One row of each of the two envelopes.
 typedef double Pair __attribute__((vector_size(16), aligned(8), may_alias));
 
 inline Pair load(const double* from) { return *reinterpret_cast<const Pair*>(from); }
 inline void store(double* to, Pair value) { *reinterpret_cast<Pair*>(to) = value; }
 
-/// Distances and slopes from knot k to k + 2, first <= k < last, and some beyond.
+/// Computes distances and slopes from knot k to k + 2 for first <= k < last, and some beyond.
 inline void set_up(const double* x, const double* y, std::size_t first, std::size_t last,
                    SplineArrays arrays) {
     for (std::size_t k = first; k < last; k += kLanes) {
@@ -44,20 +46,20 @@ inline void set_up(const double* x, const double* y, std::size_t first, std::siz
     }
 }
 
-/// One of the two directions of the elimination, from an end to the middle, for both envelopes.
+/// Elimination in one of the two directions, from an end to the middle, for both envelopes.
 ///
 ///     p_k = diagonal_k p_{k-2} - product_k p_{k-4}
 ///     z_k = right_k p_{k-2} - coupling_k z_{k-2}        pivot of row k: p_k / p_{k-2}
 ///
-/// (product: of the two coefficients between rows k and k - 2) has no division in its chain.
-/// p_{k-2} is brought to 1 now and then, so that it does not overflow.
+/// product_k is the product of the two coefficients between rows k and k - 2.  This recurrence
+/// needs no division.  p_{k-2} is scaled to 1 after every block, so that it does not overflow.
 struct Elimination {
     Pair before = {0.0, 0.0};    ///< p_{k-4}
     Pair latest = {1.0, 1.0};    ///< p_{k-2}
     Pair reduced = {0.0, 0.0};   ///< z_{k-2}
-    Pair coupling = {0.0, 0.0};  ///< of the row before to this one
+    Pair coupling = {0.0, 0.0};  ///< from the row before to this one
 
-    /// Not-a-knot: the third derivative is continuous at the outermost rows.
+    /// Eliminates the outermost row.  For not-a-knot the third derivative is continuous there.
     void first_step(Pair near, Pair far, Pair right, SplineEnds ends) {
         if (ends == SplineEnds::natural) {
             step(near, far, right);
@@ -68,7 +70,8 @@ struct Elimination {
         reduced = right * (far / (near + far));
         coupling = far - near;
     }
-    /// near, far: distances to the knots on the side of the end and of the middle.
+    /// Eliminates one row.
+    /// @param near, far  distances to the next knot towards the end, and towards the middle.
     void step(Pair near, Pair far, Pair right) {
         const Pair next = 2.0 * (near + far) * latest - near * coupling * before;
         reduced = right * latest - near * reduced;
@@ -82,7 +85,7 @@ struct Elimination {
         reduced *= inverse;
         latest = Pair{1.0, 1.0};
     }
-    /// Stores the input of divide_by_pivots() in b and e, which average() fills only later.
+    /// Stores the input of divide_by_pivots() in b and e; average() overwrites them later.
     void keep(std::size_t k, SplineArrays arrays) const {
         store(arrays.pivot + k, latest);
         store(arrays.e + k, coupling * before);
@@ -90,8 +93,8 @@ struct Elimination {
     }
 };
 
-/// c_k + link_k c_{k'} = c_k' (what c holds), k' the next row towards the middle; first <= k < last,
-/// and some beyond.
+/// Divides rows first <= k < last, and some beyond, by their pivots.  Then the array c holds the
+/// right sides r_k of c_k + link_k c_j = r_k, where j is the next row towards the middle.
 inline void divide_by_pivots(std::size_t first, std::size_t last, SplineArrays arrays) {
     for (std::size_t k = first; k < last; k += kLanes) {
         const Lanes inverse = 1.0 / load_lanes(arrays.pivot + k);
@@ -100,10 +103,12 @@ inline void divide_by_pivots(std::size_t first, std::size_t last, SplineArrays a
     }
 }
 
-/// Pairs of rows that are set up, eliminated and divided before the next: they stay in the first
-/// cache.  So many steps also stay within a double's 1023 binary places between two rescalings:
-/// every one multiplies p by less than 2 (near + far), and the distances of one block add up to
-/// less than the record's length n, which bounds the product by (n / 8)^32.
+/// Pairs of rows per block.  A block is set up, eliminated and divided before the next one, so that
+/// it stays in the first-level cache.
+///
+/// The products of one block do not exceed a double's 1023 binary places.  Every step multiplies p
+/// by less than 2 (near + far).  The distances of one block add up to less than the record's length
+/// n, so the product is below (n / 8)^32.
 constexpr std::size_t kBlock = 32;
 
 /// Eliminates the rows before `middle` from the left and the others from the right.
@@ -152,7 +157,7 @@ inline void eliminate(const double* x, const double* y, std::size_t n, std::size
         i += 2;
     }
     if (i < middle) {
-        // One row of one envelope: the pair's other one is the first from the right.
+        // One row of one envelope is left.  The other row of the pair is the first from the right.
         const double pivot = arrays.pivot[middle];
         const double coupled = arrays.e[middle];
         const double reduced = arrays.b[middle];
@@ -166,7 +171,7 @@ inline void eliminate(const double* x, const double* y, std::size_t n, std::size
     divide_by_pivots(middle, down_divided, arrays);
 }
 
-/// c of one envelope of two to four knots, every second from `first`.
+/// Computes c of one envelope of two to four knots, every second one from `first`.
 inline void solve_few(const double* x, std::size_t first, std::size_t n, SplineEnds ends,
                       SplineArrays arrays) {
     const std::size_t knots = (n - first + 1) / 2;
@@ -178,7 +183,7 @@ inline void solve_few(const double* x, std::size_t first, std::size_t n, SplineE
     if (knots == 2) return;
     const double bend = slope[a + 2] - slope[a];
     if (ends == SplineEnds::not_a_knot) {
-        // The polynomial through all knots, by divided differences.
+        // Polynomial through all knots, by divided differences.
         const double second = bend / (x[a + 4] - x[a]);
         const double third =
             knots == 3 ? 0.0
@@ -202,10 +207,12 @@ inline void solve_few(const double* x, std::size_t first, std::size_t n, SplineE
     c[a + 4] = (r2 * d1 - r1 * h[a + 2]) / determinant;
 }
 
-/// Cubics k, first <= k < last, of the mean of both envelopes: that of the envelope the knot
-/// belongs to, and that of the other one expanded about the same position.  Needs c from first - 1 to
-/// last + 1.  Cubics are summed in halves, here and at the samples: a processor looks ahead too few
-/// operations to fill the waiting in Horner's chain.
+/// Computes the cubics first <= k < last of the mean of both envelopes.  Each is half the sum of
+/// the cubic of the knot's own envelope and of the other envelope's, expanded about the same
+/// position.  Needs c from first - 1 to last + 1.
+///
+/// Cubics are evaluated in two halves, here and at the samples.  In one chain by Horner's rule the
+/// processor would wait, because it does not look far enough ahead for other work.
 inline void average(const double* x, const double* y, std::size_t first, std::size_t last,
                     SplineArrays arrays) {
     constexpr double kThird = 1.0 / 3.0;
@@ -234,7 +241,7 @@ inline void average(const double* x, const double* y, std::size_t first, std::si
     }
 }
 
-/// c of all rows from the middle outwards, and the mean cubics as they become known.
+/// Computes c of all rows from the middle outwards, and the mean cubics as soon as c is known.
 inline void substitute(const double* x, const double* y, std::size_t n, std::size_t middle,
                        SplineEnds ends, SplineArrays arrays) {
     const double* const link = arrays.link;
@@ -287,19 +294,19 @@ inline void substitute(const double* x, const double* y, std::size_t n, std::siz
 /// Fits both envelopes through `n` >= 4 alternating knots and leaves their mean in `arrays`.
 inline void fit_mean_envelope(const double* x, const double* y, std::size_t n, SplineEnds ends,
                               const SplineArrays& shared) {
-    // Our own, so that no store below can change a pointer.
+    // A local copy, so that no store below can change a pointer.
     const SplineArrays arrays = shared;
-    if (n < 8) {  // fewer than two rows from either end for both envelopes
+    if (n < 8) {  // both envelopes have fewer than two rows from either end
         set_up(x, y, 0, n - 2, arrays);
-        // Rounded once: a bow sifted off a monotone rest is symmetric, and the last bit decides
-        // where its extremum is taken to be.
+        // Division, which rounds once.  A bow sifted off a monotone rest is symmetric, and the last
+        // bit decides the position of its extremum.
         for (std::size_t k = 0; k < n - 2; ++k) arrays.slope[k] = (y[k + 2] - y[k]) / arrays.h[k];
         solve_few(x, 0, n, ends, arrays);
         solve_few(x, 1, n, ends, arrays);
         average(x, y, 1, n - 2, arrays);
         return;
     }
-    const std::size_t right_rows = (n - 4) / 4 * 2;  // whole pairs, never more than the left ones
+    const std::size_t right_rows = (n - 4) / 4 * 2;  // whole pairs, at most as many as on the left
     const std::size_t middle = n - 2 - right_rows;
     eliminate(x, y, n, middle, ends, arrays);
     substitute(x, y, n, middle, ends, arrays);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Sums over samples, compiled once for every instruction set: see sift_kernels.hpp for the rules.
+/// Sums over samples, compiled once for every instruction set.  The rules are in sift_kernels.hpp.
 
 #include <cstddef>
 
@@ -9,7 +9,7 @@
 namespace a351::corrector {
 namespace {
 
-/// Four samples, or four partial sums: one sum would wait for itself at every sample.
+/// Four samples, or four partial sums.  A single sum would have to wait for every addition.
 typedef double Quad __attribute__((vector_size(32), aligned(8), may_alias));
 
 inline void subtract(double* from, const double* what, std::size_t n) {

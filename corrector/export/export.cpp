@@ -19,7 +19,7 @@ using std::chrono::days;
 
 constexpr const char* kProductLocation = "10";
 
-/// Takes runs in order; those that follow each other are one.
+/// Writes runs in order; runs without a gap between them become one.
 class GridWriter {
 public:
     using Write = std::function<void(std::string_view)>;
@@ -110,7 +110,8 @@ private:
     std::int64_t first_ = 0;
 };
 
-/// Neighbouring days are read with some of each other.
+/// Adds damage that is not yet in the report.  The same record may be read for two days, because
+/// each day is read with a margin.
 void note(ExportReport& report, const std::vector<record::ArchiveDamage>& damage) {
     for (const record::ArchiveDamage& one : damage) {
         const auto is_known = [&](const record::ArchiveDamage& known) {
@@ -142,7 +143,7 @@ ExportReport export_channel(const ExportOptions& options,
     for (UtcTime begin = options.from; begin < options.to;) {
         const UtcTime end =
             std::min<UtcTime>(options.to, std::chrono::floor<days>(begin) + days(1));
-        // What the kernel needs on either side: 32 zero crossings, 32 s at 1 Hz.
+        // The kernel needs 32 zero crossings on either side: 32 s at 1 Hz.
         const std::chrono::seconds margin(33 / options.rate_hz + 1);
         record::ChannelData data =
             record::read_channel(options.root / "archive", metadata.codes, options.channel,

@@ -13,9 +13,10 @@ namespace a351::corrector {
 namespace {
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-constexpr double kZeroCrossings = 32.0;  // Z: 0.64 s at 50 Hz are lost beside a gap.
-constexpr double kBeta = 10.0;           // b: stop band below -95 dB.
-// Linear interpolation between the steps is off by (pi / steps)^2 / 8 of a weight: 3e-7.
+constexpr double kZeroCrossings = 32.0;  // Z; 0.64 s at 50 Hz are lost next to a gap
+constexpr double kBeta = 10.0;           // b; stop band below -95 dB
+// Steps of the kernel table per sample.  Reason: the error of linear interpolation between them is
+// (pi / steps)^2 / 8 of a weight, 3e-7.
 constexpr int kSteps = 2048;
 
 double kernel(double zero_crossings) {
@@ -25,7 +26,7 @@ double kernel(double zero_crossings) {
     return sinc * std::cyl_bessel_i(0.0, kBeta * std::sqrt(inside)) / std::cyl_bessel_i(0.0, kBeta);
 }
 
-/// Follows u(t) as t rises.
+/// Computes u(t) for increasing t.
 class Position {
 public:
     explicit Position(const record::Segment& segment)
@@ -104,7 +105,8 @@ GridRun UtcGrid::resample(const record::Segment& segment, UtcTime from, UtcTime 
     return run;
 }
 
-/// Differences from a neighbour, so that what all samples share costs no digits.
+/// Returns the interpolated value.  The sum is over differences from a neighbour, so that a common
+/// level costs no digits.
 double UtcGrid::at(const std::vector<std::int32_t>& counts, double position) const {
     const double origin = counts[static_cast<std::size_t>(position)];
     const auto first = static_cast<std::size_t>(std::ceil(position - half_width_));

@@ -9,7 +9,8 @@
 namespace a351::corrector {
 namespace {
 
-/// About the mean, means of so many neighbours that the curve has at most kMostPoints.
+/// Returns hours and deviations from the mean.  Neighbours are averaged so that the curve has at
+/// most kMostPoints.
 std::string curve_lines(const std::vector<double>& values, double step_s) {
     const double mean = mean_of(values);
     const std::size_t each = (values.size() + kMostPoints - 1) / kMostPoints;
@@ -45,7 +46,8 @@ Figure series_figure(const RecordResult& result) {
     panel("Parametric", result.applied->parametric_mgal, kBlue);
     panels += "set xlabel 'Hours after " + to_rfc3339(result.segment().start) + "'\n";
     panel("By modes", result.applied->by_modes_mgal, kVermilion);
-    return {kName, "The record about its mean before and after the correction, in two ways.",
+    return {kName,
+            "The record minus its mean, before and after the correction by each of two methods.",
             script_head(kName, 900, 640) + "set multiplot layout 3,1\nset lmargin 12\n" + range +
                 panels + "unset multiplot\n" + script_tail(),
             data.text()};
@@ -66,7 +68,8 @@ Figure allan_figure(const RecordResult& result) {
                             "using 1:" + column + " with linespoints pt 7 ps 0.5 lc rgb " + colour +
                                 " title '" + title + "'");
     };
-    return {kName, "Allan deviation before and after: the scatter of averages so long.",
+    return {kName,
+            "Allan deviation before and after the correction: scatter of averages over this time.",
             script_head(kName, 900, 400) +
                 "set logscale xy\nset xlabel 'Averaging (s)'\nset ylabel 'Allan deviation "
                 "(mGal)'\n" +

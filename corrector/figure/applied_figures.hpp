@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// Figures of a record to which a calibration was applied.
 
 #include <vector>
 
@@ -7,7 +9,8 @@
 
 namespace a351::corrector {
 
-/// Before and after a calibration was applied: the series, and their Allan deviations.
+/// Returns the figures of a record before and after a calibration was applied: the series, and
+/// their Allan deviations.
 /// @pre result.applied
 [[nodiscard]] std::vector<Figure> applied_figures(const RecordResult& result);
 

@@ -14,7 +14,7 @@
 namespace a351::corrector {
 namespace {
 
-/// A hundred figures take some 5 s on a slow laptop.
+/// Time limit of one run of gnuplot.  Reason: a hundred figures take some 5 s on a slow laptop.
 constexpr std::chrono::seconds kTimeLimit(60);
 
 class TemporaryFolder {
@@ -56,7 +56,8 @@ ProgramRun run_gnuplot(const TemporaryFolder& folder, const std::vector<std::str
     return run_program("gnuplot", arguments, folder.path(), kTimeLimit);
 }
 
-/// What gnuplot says last is why it stopped; before it, it shows the place.
+/// Returns the last line of gnuplot's messages, which gives the reason; the lines before show the
+/// place.
 std::string last_line(std::string text) {
     text.erase(text.find_last_not_of("\n ") + 1);
     return text.substr(text.find_last_of('\n') + 1);
@@ -65,7 +66,7 @@ std::string last_line(std::string text) {
 std::string trouble_of(const ProgramRun& run) {
     if (!run.is_found) return "gnuplot is not installed (not in PATH)";
     if (run.is_timed_out) {
-        std::string words = "gnuplot took longer than ";  // A sum of the three makes g++ 14 warn.
+        std::string words = "gnuplot took longer than ";  // g++ 14 warns of a sum of the three
         words += std::to_string(kTimeLimit.count()) + " s";
         return words;
     }
@@ -137,7 +138,7 @@ Drawing draw(const std::vector<Figure>& figures, const std::vector<std::string>&
             draw_format(folder, names, format, drawing);
         }
     } catch (const std::system_error& error) {
-        // Tables and text are worth having without them.
+        // Tables and text are useful without pictures.
         drawing.troubles.push_back(error.code().message());
     }
     return drawing;

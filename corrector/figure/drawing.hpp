@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Figures -> pictures, by gnuplot.
+/// From figures to pictures, by gnuplot.
 
 #include <string>
 #include <vector>
@@ -10,17 +10,21 @@
 
 namespace a351::corrector {
 
-/// Formats of pictures besides SVG.
+/// Returns the formats of pictures other than SVG.
 [[nodiscard]] const std::vector<std::string>& picture_formats();
 
+/// The pictures that could be drawn.
 struct Drawing {
-    std::vector<text::NamedText> pictures;  ///< NAME.FORMAT, in the order of figures, then formats.
-    std::vector<std::string> troubles;      ///< Why pictures are missing; one line each.
+    std::vector<text::NamedText>
+        pictures;                       ///< NAME.FORMAT; of each format, in the order of figures.
+    std::vector<std::string> troubles;  ///< Reasons for missing pictures; one line each.
 };
 
-/// Draws all figures in a folder of its own for temporary files.  One process draws all of a
-/// format; when it fails, each figure is tried alone, so that one bad figure costs no other.
-/// The same figures give the same bytes with the same gnuplot.
+/// Draws all figures, in a temporary folder.
+///
+/// One process draws all figures of a format.  If it fails, each figure is drawn alone, so that one
+/// bad figure does not affect the others.  The same figures give the same bytes with the same
+/// gnuplot.
 [[nodiscard]] Drawing draw(const std::vector<Figure>& figures,
                            const std::vector<std::string>& formats);
 

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
 
-/// A lead byte with its continuation bytes, and the code points that need so many.
+/// A length of character: its lead byte, and the code points of this length.
 struct Form {
     unsigned lead_mask, lead;
     std::size_t size;
@@ -20,7 +20,8 @@ constexpr std::array<Form, 4> kForms{{
     {0xF8, 0xF0, 4, 0x10000, 0x10FFFF},
 }};
 
-/// Bytes of the character at the start of `text`; 0 when there is none that may stay.
+/// Returns the number of bytes of the character at the start of `text`; 0 if there is no allowed
+/// one.
 std::size_t character_size(std::string_view text) {
     const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     for (const Form& form : kForms) {

@@ -11,7 +11,7 @@ std::string script_head(const std::string& name, int width_px, int height_px) {
     const std::string inches = text::fixed(width_px / kPixelsPerInch, 3) + "in," +
                                text::fixed(height_px / kPixelsPerInch, 3) + "in";
     const std::string pixels = std::to_string(width_px) + "," + std::to_string(height_px);
-    // PNG at three times the size.  The scales make letters and marks of all formats look alike.
+    // PNG has three times the size.  The scales make letters and marks of all formats look alike.
     const std::string tripled = std::to_string(3 * width_px) + "," + std::to_string(3 * height_px);
     return "# gnuplot " + name + ".gp writes " + name + ".svg; gnuplot -e \"format='pdf'\" " +
            name +

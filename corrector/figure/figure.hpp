@@ -9,44 +9,47 @@
 
 namespace a351::corrector {
 
-/// Runs in the folder that holds its data: `gnuplot NAME.gp` writes NAME.svg, and
-/// `gnuplot -e "format='pdf'" NAME.gp` NAME.pdf (or png).
+/// A figure.  In the folder with its data, `gnuplot NAME.gp` writes NAME.svg, and
+/// `gnuplot -e "format='pdf'" NAME.gp` writes NAME.pdf (or png).
 struct Figure {
     std::string name;       ///< Stem of its files: small letters, digits, '-'.
     std::string caption;    ///< Plain text.
-    std::string script;     ///< NAME.gp
-    std::string data;       ///< NAME.dat; empty when it plots the data of others.
-    bool is_small = false;  ///< Two fit beside each other on a page.
+    std::string script;     ///< Content of NAME.gp.
+    std::string data;       ///< Content of NAME.dat; empty if it plots the data of other figures.
+    bool is_small = false;  ///< Two fit side by side on a page.
 };
 
-/// Okabe and Ito's colours, told apart by the colour-blind too (https://jfly.uni-koeln.de/color/).
+/// Okabe and Ito's colours, which colour-blind readers can distinguish too
+/// (https://jfly.uni-koeln.de/color/).
 inline const std::string kBlue = "'#0072B2'";
 inline const std::string kVermilion = "'#D55E00'";
 inline const std::string kGrey = "'#888888'";
 
-/// Of a curve or scatter over the whole of a record, so that a figure of weeks stays small.
+/// Most points of a curve or scatter over a whole record.  Reason: a figure of weeks must stay
+/// small.
 inline constexpr std::size_t kMostPoints = 3000;
 
-/// Resets what an earlier script set, chooses the terminal by `format` (default svg), names the
-/// output and the common style.
-/// @param width_px, height_px  of the SVG at 96 per inch; PDF and PNG have its proportions.
+/// Returns the head of a script.  It resets the settings of earlier scripts, chooses the terminal
+/// by `format` (default svg), and sets the output and the common style.
+/// @param width_px, height_px  size of the SVG at 96 per inch; PDF and PNG have its proportions.
 [[nodiscard]] std::string script_head(const std::string& name, int width_px, int height_px);
 
-/// Closes the output.
+/// Returns the tail of a script, which closes the output.
 [[nodiscard]] std::string script_tail();
 
-/// The greatest of 1, 2, 5, 10 ... (and 0.5, 0.2 ...) not above a limit > 0.
+/// Returns the greatest of ... 0.2, 0.5, 1, 2, 5, 10 ... that is not above a limit > 0.
 [[nodiscard]] double round_step(double limit);
 
-/// The number, or NaN as gnuplot knows it, followed by a blank.
+/// Returns the number, or gnuplot's NaN, followed by a blank.
 [[nodiscard]] std::string datum(double value, int decimals);
 
-/// Blocks of lines, as gnuplot's `index` counts them; an empty block is left out, and then none of
-/// its plots may be drawn.
+/// Blocks of lines, numbered as gnuplot's `index` does.  An empty block is left out; then it must
+/// not be plotted.
 class DataBlocks {
 public:
-    /// @param title  a comment on what the columns are.
-    /// @return number of the block for `index`; std::nullopt when `lines` is empty.
+    /// Adds a block.
+    /// @param title  comment that names the columns.
+    /// @return number of the block for `index`; std::nullopt if `lines` is empty.
     std::optional<int> add(const std::string& title, const std::string& lines);
 
     [[nodiscard]] const std::string& text() const { return text_; }
@@ -56,12 +59,12 @@ private:
     int count_ = 0;
 };
 
-/// What plots a block of NAME.dat: `'NAME.dat' index BLOCK REST`.
-/// @param block  as DataBlocks::add() gave it; not std::nullopt.
+/// Returns the clause that plots a block of NAME.dat: `'NAME.dat' index BLOCK REST`.
+/// @param block  from DataBlocks::add(); not std::nullopt.
 [[nodiscard]] std::string block_clause(const std::string& name, std::optional<int> block,
                                        const std::string& rest);
 
-/// "plot A, \<newline> B, ..." of the clauses; at least one.
+/// Returns "plot A, \<newline> B, ..." from at least one clause.
 [[nodiscard]] std::string plot_command(const std::vector<std::string>& clauses);
 
 }  // namespace a351::corrector

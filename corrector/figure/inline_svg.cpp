@@ -8,7 +8,8 @@
 namespace a351::corrector {
 namespace {
 
-/// id="X", xlink:href="#X" and filter="url(#X)".
+/// Adds the prefix to the ids, and to the references to them: id="X", xlink:href="#X" and
+/// filter="url(#X)".
 void own_ids(pugi::xml_node node, const std::string& prefix) {
     for (pugi::xml_attribute attribute : node.attributes()) {
         const std::string_view name = attribute.name();
@@ -24,7 +25,7 @@ void own_ids(pugi::xml_node node, const std::string& prefix) {
     for (const pugi::xml_node child : node.children()) own_ids(child, prefix);
 }
 
-/// gnuplot's titles name its plots; a browser would show them under the mouse.
+/// Removes gnuplot's titles of the plots, which a browser would show under the mouse.
 void remove_titles(pugi::xml_node node) {
     while (node.remove_child("title")) {
     }

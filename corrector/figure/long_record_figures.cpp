@@ -9,10 +9,13 @@
 namespace a351::corrector {
 namespace {
 
-constexpr std::size_t kMostSteps = 1500;  // of a curve: two to three per pixel
-constexpr double kOverlay_h = 12.0;       // modes over each other: longer, and none is told apart
+/// Most steps of a curve.  Reason: two to three per pixel.
+constexpr std::size_t kMostSteps = 1500;
+/// Length of the figure with both modes, h.  Reason: in a longer one the curves cannot be
+/// distinguished.
+constexpr double kOverlay_h = 12.0;
 
-/// Least and greatest of every step; once where a step is one sample.
+/// Returns the least and the greatest value of every step; one value if a step is one sample.
 std::string curve_lines(const std::vector<double>& values, double first_h, double step_h,
                         double offset, double factor) {
     const std::size_t each = (values.size() + kMostSteps - 1) / kMostSteps;
@@ -53,7 +56,7 @@ std::string formula(const LineFit& fit) {
     return text::fixed(fit.slope, 2) + " mGal/°C, R² = " + text::fixed(fit.r2, 3);
 }
 
-/// To whole mGal, so that the axis is read easily.
+/// Returns the mean acceleration rounded to whole mGal, so that the axis is easy to read.
 double reference_of(const RecordResult& result) {
     return std::round(mean_of(result.segment().acceleration_mgal));
 }
@@ -69,7 +72,7 @@ std::string hours_axis(UtcTime start) {
 constexpr auto kTwoPanels = "set multiplot layout 2,1\nset lmargin 12\n";
 constexpr auto kTemperatureLabel = "set ylabel 'Temperature (°C)'\n";
 
-/// Ranges of the raw samples, in steps, of all stretches.
+/// Returns the figure of the raw samples' ranges, in steps, of all stretches.
 Figure raw_figure(const RecordResult& result, double reference) {
     const std::string kName = "record-raw";
     const UtcTime start = result.record.stretches.front().times.front();
@@ -105,7 +108,8 @@ Figure raw_figure(const RecordResult& result, double reference) {
     const auto a = data.add("hours acceleration: least, greatest (mGal)", acceleration);
     const auto t = data.add("hours temperature: least, greatest (degC)", temperature);
     return {kName,
-            "Norm and temperature as sampled: from the least to the greatest sample of each step.",
+            "Norm and temperature as sampled: range from the least to the greatest sample of each "
+            "step.",
             script_head(kName, 900, 480) + kTwoPanels + above(reference) +
                 plot_command({block_clause(
                     kName, a, "using 1:2:3 with filledcurves lc rgb " + kBlue + " notitle")}) +
@@ -130,7 +134,7 @@ Figure samples_figure(const RecordResult& result, double reference) {
     DataBlocks data;
     const auto a = data.add("hours acceleration_mgal", acceleration);
     const auto t = data.add("hours temperature_degc", temperature);
-    return {kName, "The same decimated to 20 s, in the segments that can be analysed.",
+    return {kName, "Norm and temperature decimated to 20 s, in the segments that can be analysed.",
             script_head(kName, 900, 480) + kTwoPanels + above(reference) +
                 plot_command(
                     {block_clause(kName, a, "using 1:2 with lines lc rgb " + kBlue + " notitle")}) +
@@ -164,7 +168,8 @@ Figure scatter_figure(const std::string& name, const std::string& caption,
     return figure;
 }
 
-/// The acceleration turned and moved earlier, above the temperature, each with its residue.
+/// Returns the figure of the acceleration, sign reversed and moved earlier, above the temperature,
+/// each with its residue.
 Figure trend_figure(const RecordResult& result) {
     const std::string kName = "trend";
     const RecordSegment& segment = result.segment();
@@ -173,7 +178,7 @@ Figure trend_figure(const RecordResult& result) {
     const double first = segment.acceleration_mgal.front();
     const std::vector<double>& slow = result.analysis.acceleration.residue.values;
     DataBlocks data;
-    const auto a = data.add("hours, moved; acceleration, turned (mGal)",
+    const auto a = data.add("hours, moved; acceleration, sign reversed (mGal)",
                             curve_lines(segment.acceleration_mgal, moved_h, step_h, first, -1.0));
     const auto a_slow = data.add("its residue", curve_lines(slow, moved_h, step_h, 0.0, -1.0));
     const auto t = data.add("hours temperature_degc",
@@ -184,7 +189,7 @@ Figure trend_figure(const RecordResult& result) {
     const std::string line = "using 1:2 with lines lc rgb ",
                       thick = "using 1:2 with lines lw 2.5 lc rgb ";
     return {kName,
-            "Acceleration, sign turned and moved " + text::fixed(result.options.shift_s, 0) +
+            "Acceleration, sign reversed and moved " + text::fixed(result.options.shift_s, 0) +
                 " s earlier, and temperature, each with the residue of its decomposition.",
             script_head(kName, 900, 480) + kTwoPanels + "set xrange [" + text::fixed(moved_h, 3) +
                 ":" + text::fixed(step_h * static_cast<double>(segment.size()), 3) +
@@ -200,7 +205,7 @@ Figure trend_figure(const RecordResult& result) {
 
 struct ModePair {
     std::vector<double> temperature;
-    std::vector<double> turned;  ///< Acceleration, sign turned, moved earlier by the shift.
+    std::vector<double> turned;  ///< Acceleration, sign reversed, moved earlier by the shift.
 };
 
 ModePair mode_pair(const RecordResult& result) {
@@ -228,12 +233,12 @@ Figure overlay_figure(const RecordResult& result, const ModePair& pair) {
     };
     const double first_h = static_cast<double>(first) * step_h;
     DataBlocks data;
-    const auto a = data.add("hours; acceleration, turned and moved (mGal)",
+    const auto a = data.add("hours; acceleration, sign reversed and moved (mGal)",
                             curve_lines(part(pair.turned), first_h, step_h, 0.0, 1.0));
     const auto t = data.add("hours temperature_degc",
                             curve_lines(part(pair.temperature), first_h, step_h, 0.0, 1.0));
     return {kName,
-            "Modes of the cycle: acceleration, sign turned and moved " +
+            "Modes of the cycle: acceleration, sign reversed and moved " +
                 text::fixed(result.options.shift_s, 0) + " s earlier, and temperature" +
                 (count < pair.turned.size() ? "; the middle of the record." : "."),
             script_head(kName, 900, 360) + hours_axis(result.segment().start) +
@@ -241,7 +246,7 @@ Figure overlay_figure(const RecordResult& result, const ModePair& pair) {
                 "set ytics nomirror\nset y2tics\n" +
                 plot_command({block_clause(kName, a,
                                            "using 1:2 with lines lc rgb " + kBlue +
-                                               " title 'acceleration, turned and moved'"),
+                                               " title 'acceleration, sign reversed and moved'"),
                               block_clause(kName, t,
                                            "using 1:2 axes x1y2 with lines lc rgb " + kVermilion +
                                                " title 'temperature'")}) +
@@ -297,12 +302,13 @@ std::vector<Figure> long_record_figures(const RecordResult& result) {
         const ModePair pair = mode_pair(result);
         figures.push_back(overlay_figure(result, pair));
         figures.push_back(scatter_figure(
-            "scatter-modes", "The two modes, acceleration turned and moved, and their line.",
+            "scatter-modes",
+            "The two modes, acceleration sign reversed and moved, with regression line.",
             pair.temperature, pair.turned, result.analysis.modes->moved, 0.0,
             "set ylabel '- Acceleration (mGal)'\n"));
         figures.push_back(correlation_figure(result));
     }
-    figures.push_back(scatter_figure("scatter", "All samples at 20 s and their line.",
+    figures.push_back(scatter_figure("scatter", "All samples at 20 s, with regression line.",
                                      segment.temperature_degc, segment.acceleration_mgal,
                                      result.analysis.raw, reference, above(reference)));
     return figures;

@@ -1,6 +1,7 @@
 #pragma once
 /// @file
-/// Figures of a long record at one point: 2 to 7 of the publication, and its response by period.
+/// Figures of a long record at one point: figures 2 to 7 of the publication, and the response by
+/// period.
 
 #include <vector>
 
@@ -9,11 +10,13 @@
 
 namespace a351::corrector {
 
-/// In the publication's order; a series of more than some thousand points is drawn by the least and
-/// greatest of each step, a scatter by every so-manieth point.
+/// Returns the figures in the publication's order.  Of a long series the least and the greatest
+/// value of each of 1500 steps are drawn, of a long scatter at most kMostPoints points at equal
+/// distances.
 [[nodiscard]] std::vector<Figure> long_record_figures(const RecordResult& result);
 
-/// Gain and phase by period in both ways, with the two-path fit.
+/// Returns the figure of gain and phase by period, from spectra and from modes, with the two-path
+/// fit.
 [[nodiscard]] Figure response_figure(const RecordResult& result);
 
 }  // namespace a351::corrector

@@ -12,14 +12,14 @@ namespace a351::corrector {
 namespace {
 
 const std::string kMapName = "map";
-// The plot within the SVG, so that the place of a label in pixels is known.
+// Position of the plot within the SVG, from which the position of a label in pixels is computed.
 constexpr int kMapWidth_px = 640, kMapHeight_px = 560;
 constexpr double kLeft = 0.14, kRight = 0.97, kBottom = 0.10, kTop = 0.97;
 constexpr double kPlotWidth_px = (kRight - kLeft) * kMapWidth_px;
 constexpr double kPlotHeight_px = (kTop - kBottom) * kMapHeight_px;
-constexpr double kLetter_px = 6.0;  // of the labels' 11 px letters, as wide as the widest digits
+constexpr double kLetter_px = 6.0;  // width of the labels' 11 px letters, that of the widest digits
 constexpr double kLine_px = 13.0;
-constexpr double kKilometresPerDegree = 111.2;  // of latitude, on a sphere of 6371 km
+constexpr double kKilometresPerDegree = 111.2;  // degree of latitude on a sphere of 6371 km radius
 
 struct Range {
     double least = 0.0, greatest = 0.0;
@@ -28,7 +28,7 @@ struct Range {
     [[nodiscard]] double length() const { return greatest - least; }
 };
 
-/// What the plot shows: degrees over its width and height.
+/// Longitudes and latitudes over the width and height of the plot.
 struct Frame {
     Range longitude, latitude;
 
@@ -58,14 +58,15 @@ Range range_of(const std::vector<const text::Site*>& sites, Degrees text::Site::
 }
 
 double cosine(double latitude_deg) {
-    // Next to a pole a map in longitude and latitude has no meaning; the limit keeps it finite.
+    // The limit keeps the scale finite near a pole, where a map in longitude and latitude is no
+    // use.
     return std::max(0.01, std::cos(latitude_deg * kRadPerDeg));
 }
 
 Frame frame_around(const std::vector<const text::Site*>& sites) {
     const Range longitude = range_of(sites, &text::Site::longitude);
     const Range latitude = range_of(sites, &text::Site::latitude);
-    constexpr double kShare = 0.75;            // of the plot for the stations, the rest for labels
+    constexpr double kShare = 0.75;  // part of the plot for the stations, the rest for labels
     constexpr double kLeastExtent_deg = 1e-3;  // 100 m, for a survey at one place
     const double across = cosine(latitude.middle());
     const double degrees_per_px =
@@ -78,8 +79,8 @@ Frame frame_around(const std::vector<const text::Site*>& sites) {
 }
 
 struct LabelPlace {
-    double x_px, y_px;  ///< Of the label's near end, from the point.
-    bool is_left;       ///< It ends there.
+    double x_px, y_px;  ///< Position of the label's near end relative to the point.
+    bool is_left;       ///< The label is left of its near end.
 };
 constexpr std::array<LabelPlace, 8> kPlaces{{{9, 0, false},
                                              {-9, 0, true},
@@ -90,7 +91,8 @@ constexpr std::array<LabelPlace, 8> kPlaces{{{9, 0, false},
                                              {5, 26, false},
                                              {-5, -26, true}}};
 
-/// The first place where the label touches no other and no point; the first of all if none is free.
+/// Finds for each label the first place where it touches no other label and no point.  If none is
+/// free, it takes the first place.
 class LabelPlacer {
 public:
     LabelPlacer(const Frame& frame, const std::vector<const text::Site*>& sites) : frame_(frame) {
@@ -142,7 +144,7 @@ std::string bar(const Frame& frame) {
            text::fixed(0.04 + share / 2, 5) + ",0.065 center front\n";
 }
 
-/// Heights of stations that have a reference, or of those that have none.
+/// Returns the positions and heights of the stations with a reference, or of those without.
 std::string station_lines(const std::vector<const text::Site*>& stations, bool is_known) {
     std::string lines;
     for (const text::Site* site : stations) {
@@ -164,8 +166,8 @@ std::optional<Figure> map_figure(const SurveyCorrection& result,
         if (site != nullptr && site->is_placed) {
             stations.push_back(site);
         } else {
-            absent +=
-                (absent.empty() ? " Without a position, and not on it: " : ", ") + station.site;
+            absent += (absent.empty() ? " Not shown, because they have no position: " : ", ") +
+                      station.site;
         }
     }
     if (stations.empty()) return std::nullopt;
@@ -204,7 +206,7 @@ std::optional<Figure> map_figure(const SurveyCorrection& result,
         return "set xrange " + text(frame.longitude) + "set yrange " + text(frame.latitude);
     }();
     return Figure{kMapName,
-                  "Stations with their heights; one scale in both directions." +
+                  "Stations with their heights; the scale is the same in both directions." +
                       (absent.empty() ? absent : absent + '.'),
                   script_head(kMapName, kMapWidth_px, kMapHeight_px) + "set lmargin at screen " +
                       text::fixed(kLeft, 2) + "\nset rmargin at screen " + text::fixed(kRight, 2) +

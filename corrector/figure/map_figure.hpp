@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// The map of a survey.
 
 #include <optional>
 #include <vector>
@@ -9,9 +11,10 @@
 
 namespace a351::corrector {
 
-/// Stations by longitude and latitude with their heights, one scale both ways (cosine of the mean
-/// latitude), with a bar of a round length.
-/// @return std::nullopt when no station of the survey has a place in `sites`.
+/// Returns a map of the stations in longitude and latitude with their heights.  The scale is the
+/// same in both directions (by the cosine of the mean latitude) and is shown by a bar of a round
+/// length.
+/// @return std::nullopt if no station of the survey has a position in `sites`.
 [[nodiscard]] std::optional<Figure> map_figure(const SurveyCorrection& result,
                                                const std::vector<text::Site>& sites);
 

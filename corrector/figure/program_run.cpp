@@ -22,7 +22,7 @@ void require(int error, const std::string& what) {
     if (error != 0) throw std::system_error(error, std::generic_category(), what);
 }
 
-/// Where the child's standard streams go and where it starts.
+/// The child's standard streams and working directory.
 class FileActions {
 public:
     FileActions(const std::filesystem::path& directory, const std::filesystem::path& errors) {
@@ -49,7 +49,7 @@ private:
     posix_spawn_file_actions_t actions_{};
 };
 
-/// Null-terminated, as the C interface wants it.
+/// Returns a null-terminated list for the C interface.
 std::vector<char*> pointers(std::vector<std::string>& texts) {
     std::vector<char*> list;
     list.reserve(texts.size() + 1);
@@ -71,10 +71,10 @@ std::vector<std::string> environment_of_child() {
     return variables;
 }
 
-/// Whether the child ends before the limit.  Where no descriptor of it is to be had (an old kernel)
-/// it is waited for without a limit.
+/// Returns true if the child ends before the limit, or at once if the kernel is too old to give a
+/// descriptor of the child; then the caller waits without a limit.
 bool ends_within(pid_t child, std::chrono::milliseconds limit) {
-    // The header of glibc 2.36 declares pidfd_open() for C alone.
+    // The header of glibc 2.36 declares pidfd_open() for C only.
     const auto descriptor = static_cast<int>(::syscall(SYS_pidfd_open, child, 0));
     if (descriptor < 0) return true;
     const auto deadline = std::chrono::steady_clock::now() + limit;
@@ -102,7 +102,7 @@ ProgramRun run_program(const std::string& program, const std::vector<std::string
     const int error = ::posix_spawnp(&child, program.c_str(), actions.get(), nullptr,
                                      pointers(words).data(), pointers(variables).data());
     ProgramRun run;
-    // EACCES: what PATH has under this name is no program; ENOTDIR: PATH has a file for a folder.
+    // EACCES: the file of this name in PATH is no program.  ENOTDIR: PATH names a file as a folder.
     if (error == ENOENT || error == EACCES || error == ENOTDIR) {
         run.is_found = false;
         return run;

@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// Names of readings in figures and reports.
 
 #include <string>
 #include <vector>
@@ -7,7 +9,7 @@
 
 namespace a351::corrector {
 
-/// "SITE (OCCUPATION)", with a letter for each of several set-ups: "SITE (2b)".
+/// Returns "SITE (OCCUPATION)"; if the stay has several set-ups, with a letter: "SITE (2b)".
 [[nodiscard]] std::string reading_name(const std::vector<CorrectedRow>& rows, std::size_t index);
 
 }  // namespace a351::corrector

@@ -18,7 +18,7 @@ std::string figure_name(std::size_t row) {
     return "reading-" + std::string(number.size() < 2 ? 1 : 0, '0') + number;
 }
 
-/// Index of the series' sample at which the trend begins.
+/// Returns the index of the series' sample at which the trend begins.
 std::size_t curve_begin(const RepresentativeValue& value) {
     const double seconds = seconds_between(value.series.start(), value.curve.start());
     return static_cast<std::size_t>(std::llround(seconds * value.series.rate().value()));
@@ -51,7 +51,7 @@ std::string extremum_lines(const RepresentativeValue& value) {
     return lines;
 }
 
-/// The limits of the interval with the trend there.
+/// Returns the limits of the interval, with the values of the trend there.
 std::string limit_lines(const RepresentativeValue& value) {
     std::string lines;
     for (const UtcTime limit : {value.interval_start, value.interval_end}) {
@@ -63,7 +63,7 @@ std::string limit_lines(const RepresentativeValue& value) {
     return lines;
 }
 
-/// Distance from `centre` that `share` of the finite values keep; 0 without one.
+/// Returns the distance from `centre` within which `share` of the finite values are; 0 without any.
 double spread(const std::vector<double>& values, double centre, double share) {
     std::vector<double> distances;
     for (const double value : values) {
@@ -76,16 +76,16 @@ double spread(const std::vector<double>& values, double centre, double share) {
     return distances[static_cast<std::size_t>(place)];
 }
 
-/// Half of the range of an axis: a fifth more than 98 of 100 samples need, so that a knock does not
-/// flatten the rest; not zero.
+/// Returns half the range of an axis, not zero: a fifth more than 98 of 100 samples need, so that a
+/// knock does not flatten the rest.
 double half_range(double spread_of_98) { return std::max(1.2 * spread_of_98, 1e-3); }
 
-/// What of the record stands for the reading.
+/// Returns a text on the part of the record that was averaged.
 std::string averaged_text(const CorrectedRow& row, double mean_mgal) {
     if (!row.day) return "mean over the interval " + text::fixed(mean_mgal, 3) + " mGal.";
     return "the model day averages " + text::fixed(row.day->averaged_s, 0) + " s of it to " +
            text::fixed(row.row.acceleration.value(), 3) +
-           " mGal; trend and interval are what the other models take.";
+           " mGal; trend and interval apply to the other models.";
 }
 
 Figure reading_figure(const SurveyCorrection& result, const ReadingRecord& record) {
@@ -137,17 +137,18 @@ Figure reading_figure(const SurveyCorrection& result, const ReadingRecord& recor
         data.text(), true};
 }
 
-/// What a figure of panels shows.
+/// Contents of a figure with one panel per record.
 struct Panels {
     std::string name, caption, y_label;
-    std::string column;  ///< Of the readings' data.
+    std::string column;  ///< Column of the readings' data.
     std::string style;
-    double half = 0.0;  ///< Of the range about the panel's mean.
+    double half = 0.0;  ///< Half the range about the panel's mean.
     std::vector<double> means;
     int label_decimals = 0;
 };
 
-/// Ticks from -half to half, none where the labels of panels above each other would touch.
+/// Returns ticks from -half to half, without those whose labels would touch the labels of the next
+/// panel.
 std::string inner_tics(double half) {
     const double step = round_step(half / 1.3);
     const double last = step * std::floor(0.85 * half / step);
@@ -167,7 +168,7 @@ std::string panels_script(const SurveyCorrection& result, const std::vector<Read
             minutes_between(series.start(), series.time_of(static_cast<double>(series.size()))));
     }
     const int height_px = 70 + 120 * static_cast<int>(lines);
-    // Margins in pixels for the labels, as shares of the height.
+    // Margins for the labels, in pixels, as fractions of the height.
     const std::string bottom = text::fixed(52.0 / height_px, 4);
     const std::string top = text::fixed(1.0 - 12.0 / height_px, 4);
     const std::string gap = text::fixed(10.0 / height_px, 4);
@@ -224,8 +225,8 @@ std::vector<Figure> panel_figures(const SurveyCorrection& result,
                                   const std::vector<ReadingRecord>& records) {
     if (records.empty()) return {};
     Panels acceleration{"records-acceleration",
-                        "Acceleration of every reading, samples of 2 s less the mean that stands "
-                        "for it; one scale for all, knocks are cut off.",
+                        "Acceleration of every reading: samples of 2 s minus the value of the "
+                        "reading; one scale for all, knocks are cut off.",
                         "Acceleration - mean (mGal)",
                         "2",
                         "lw 0.7 lc rgb " + kBlue,
@@ -233,8 +234,8 @@ std::vector<Figure> panel_figures(const SurveyCorrection& result,
                         {},
                         1};
     Panels temperature{"records-temperature",
-                       "Temperature of every reading, samples of 2 s less the mean that stands "
-                       "for it; one scale for all.",
+                       "Temperature of every reading: samples of 2 s minus the temperature of the "
+                       "reading; one scale for all.",
                        "Temperature - mean (°C)",
                        "4",
                        "lw 0.9 lc rgb " + kVermilion,

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Figures of the records behind a survey: 10 and 11 of the publication.
+/// Figures of the records of a survey: figures 10 and 11 of the publication.
 
 #include <vector>
 
@@ -16,16 +16,18 @@ struct ReadingRecord {
     const RepresentativeValue* value = nullptr;
 };
 
-/// Rows with the record whose interval is theirs, in the order of the rows.
+/// Finds the record of each row by its interval, in the order of the rows; rows without one are
+/// left out.
 [[nodiscard]] std::vector<ReadingRecord> find_records(
     const SurveyCorrection& result, const std::vector<RepresentativeValue>& values);
 
-/// One figure per record: the 2 s series, its trend, the extrema, the limits of the interval.
+/// Returns one figure per record: the 2 s series, its trend, the extrema and the limits of the
+/// interval.
 [[nodiscard]] std::vector<Figure> reading_figures(const SurveyCorrection& result,
                                                   const std::vector<ReadingRecord>& records);
 
-/// All records side by side at one scale: accelerations, temperatures.  They plot the data of
-/// reading_figures().
+/// Returns two figures of all records side by side at one scale: accelerations and temperatures.
+/// They plot the data of reading_figures().
 [[nodiscard]] std::vector<Figure> panel_figures(const SurveyCorrection& result,
                                                 const std::vector<ReadingRecord>& records);
 

@@ -28,7 +28,7 @@ double at(const Parameters& parameters, TwoPathTerm term) {
     return parameters.at(static_cast<std::size_t>(term));
 }
 
-/// Logarithm of the fit's transfer function, the lags given by their logarithms.
+/// Returns the logarithm of the fit's transfer function; the lags are given by their logarithms.
 std::complex<double> log_response(const Parameters& parameters, double period_s) {
     const std::complex<double> s(0.0, 2.0 * std::numbers::pi / period_s);
     return std::log(at(parameters, TwoPathTerm::level) +
@@ -38,7 +38,7 @@ std::complex<double> log_response(const Parameters& parameters, double period_s)
                         (1.0 + s * std::exp(at(parameters, TwoPathTerm::slow_lag))));
 }
 
-/// Period, gain, its 95 % limits, phase, its 95 % limits; linearised.
+/// Returns period, gain, its 95 % limits, phase, its 95 % limits; the limits are linearised.
 std::string fit_line(const TwoPathFit& fit, double period_s) {
     Parameters parameters{};
     for (std::size_t k = 0; k < kTwoPathTerms; ++k) parameters.at(k) = fit.parameters.at(k).value;
@@ -66,7 +66,7 @@ std::string fit_line(const TwoPathFit& fit, double period_s) {
            datum(phase, 2) + datum(phase - width, 2) + datum(phase + width, 2) + '\n';
 }
 
-/// From the shortest period of the fit to the whole record.
+/// Returns the lines of the fit from its shortest period to the length of the record.
 std::string fit_lines(const RecordResult& result) {
     constexpr double kShortest_s = 240.0, kStep = 1.05;
     const double longest_s = static_cast<double>(result.segment().size()) * result.record.step_s;

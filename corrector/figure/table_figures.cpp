@@ -15,7 +15,7 @@ namespace {
 constexpr int kWidth_px = 640;
 constexpr int kHeight_px = 440;
 
-/// Marks of rows by what became of them.
+/// A group of rows and its mark in a figure.
 struct Mark {
     std::string title;
     std::function<bool(const CorrectedRow&)> takes;
@@ -39,10 +39,10 @@ struct Point {
     double x = 0.0;
     double y = 0.0;
 };
-/// std::nullopt: the row is not in the figure.
+/// Function that returns the point of a row; std::nullopt if the row is not in the figure.
 using PointOf = std::function<std::optional<Point>(const CorrectedRow&)>;
 
-/// y = intercept + slope x over the rows in the fit.
+/// The line y = intercept + slope x through the rows in the fit.
 struct Line {
     LinearFit fit;
     double least_x = 0.0;
@@ -91,8 +91,7 @@ struct Scatter {
     PointOf point_of;
 };
 
-/// One mark per group of rows; `extra` clauses before them.
-/// @return no clause when no row has a point.
+/// Returns one clause per group of rows with points; none if no row has a point.
 std::vector<std::string> scatter_clauses(const SurveyCorrection& result, const Scatter& scatter,
                                          DataBlocks& data) {
     std::vector<std::string> clauses;
@@ -158,7 +157,7 @@ std::optional<Figure> acceleration_figure(const SurveyCorrection& result) {
             return Point{row.row.reference->value(), row.row.acceleration.value()};
         }};
     return figure_with_line(result, scatter,
-                            "Acceleration as read, tide not removed, over reference gravity; "
+                            "Acceleration as measured, tide not removed, over reference gravity; "
                             "least-squares line through the readings in the fit.");
 }
 
@@ -193,7 +192,7 @@ std::optional<Figure> corrected_figure(const SurveyCorrection& result) {
         "'");
     return Figure{scatter.name,
                   "Corrected gravity over reference gravity, with the line y = x. In sample: the "
-                  "same references took part in the fit.",
+                  "same references were used in the fit.",
                   script_head(scatter.name, kWidth_px, kHeight_px) + axes(scatter) +
                       "set format '%.6g'\n" + plot_command(clauses) + script_tail(),
                   data.text()};
@@ -215,7 +214,7 @@ std::optional<Figure> residual_figure(const SurveyCorrection& result) {
     if (data.text().empty()) return std::nullopt;
     return Figure{
         kName,
-        "Residuals (reference less corrected) in time, in sample; bars: standard "
+        "Residuals (reference minus corrected) in time, in sample; bars: standard "
         "uncertainty " +
             std::string(result.model == "day" ? "of the prediction without the reading's station."
                         : result.network      ? "of a single reading, a priori."

@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// The temperature of a survey day.
 
 #include <vector>
 
@@ -8,7 +10,8 @@
 
 namespace a351::corrector {
 
-/// The temperature of the day with the readings.  Without a course the readings alone.
+/// Returns the figure of the day's temperature with the readings; without a course, of the readings
+/// only.
 [[nodiscard]] Figure temperature_figure(const SurveyCorrection& result,
                                         const std::vector<MinuteTemperature>& course);
 

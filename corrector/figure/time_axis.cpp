@@ -18,7 +18,8 @@ std::string time_axis(const std::vector<CorrectedRow>& rows) {
             gnuplot_string(short_label(row.site) + " (" + std::to_string(row.occupation) + ")") +
             " '" + to_rfc3339(row.time) + "'";
     }
-    constexpr std::chrono::hours kLongestDay(36);  // longer, and the hour alone does not tell
+    // Longest survey whose axis shows only hours; a longer one needs the date too.
+    constexpr std::chrono::hours kLongestDay(36);
     const UtcTime first = rows.front().row.time;
     const UtcTime last = rows.back().row.time;
     const std::string first_date = to_rfc3339(first).substr(0, 10);

@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// The time axis of figures.
 
 #include <string>
 #include <vector>
@@ -7,8 +9,8 @@
 
 namespace a351::corrector {
 
-/// Script lines for data whose first column is an instant in RFC 3339: UTC below, the
-/// stays above the instants of their first readings.
+/// Returns script lines for data whose first column is an instant in RFC 3339.  UTC is below the
+/// figure; the stays are above it, at the instants of their first readings.
 [[nodiscard]] std::string time_axis(const std::vector<CorrectedRow>& rows);
 
 }  // namespace a351::corrector

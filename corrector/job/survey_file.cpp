@@ -8,7 +8,7 @@
 namespace a351::corrector {
 namespace {
 
-/// Gravimetric factors between which an Earth could be.
+/// Limits of the gravimetric factors.  Reason: no model of the Earth is outside them.
 constexpr double kLeastFactor = 0.5;
 constexpr double kGreatestFactor = 2.0;
 

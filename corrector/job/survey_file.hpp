@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// The survey file: data and options of one survey day.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,27 +15,30 @@
 
 namespace a351::corrector {
 
-/// One survey day as written in its TOML file, table [survey].  Paths are relative to that file.
+/// One survey day, from table [survey] of its TOML file.  Paths in the file are relative to it.
 struct SurveyFile {
-    std::filesystem::path path;         ///< Empty: there is none.
-    std::string name;                   ///< Of the day; default: the file's stem.
-    std::filesystem::path root;         ///< Data root: archive/, metadata/, events/.
+    std::filesystem::path path;         ///< The survey file; empty if there is none.
+    std::string name;                   ///< Name of the day; default: the file's stem.
+    std::filesystem::path root;         ///< Data root with archive/, metadata/, events/.
     std::filesystem::path sites;        ///< CSV of the benchmarks.
     std::filesystem::path occupations;  ///< CSV; empty: the event log of the root.
     std::filesystem::path amendments;   ///< TOML for amend(); empty: none.
-    std::filesystem::path calibration;  ///< What survey.calibration was read from; empty: none.
-    std::optional<UtcTime> from;        ///< Occupations that start from here on ...
-    std::optional<UtcTime> to;          ///< ... and before this; neither: a log's last day.
+    std::filesystem::path calibration;  ///< File of survey.calibration; empty: none.
+    /// Start of the time in which occupations must start.  Without `from` and `to`: all of a table,
+    /// or the last survey day of the log.
+    std::optional<UtcTime> from;
+    std::optional<UtcTime> to;  ///< End of this time, not included.
     SurveyOptions survey;
     TideChoice tide;
     std::optional<TrendCurve>
-        curve;  ///< Absent: RepresentativeOptions' default.  `paper` has its own.
+        curve;  ///< Absent: the default of RepresentativeOptions, or of `paper`.
     TrendMethod trend = TrendMethod::eemd;
-    double cutoff_s = 300.0;  ///< Of the smoother's trend.
+    double cutoff_s = 300.0;  ///< Cut-off period of the smoother's trend, s.
     NormOrder norm = NormOrder::decimate_first;
-    std::uint64_t seed = 1;  ///< Of the noise of the decomposition.
+    std::uint64_t seed = 1;  ///< Seed of the decomposition's noise.
 };
 
+/// Reads a survey file.
 /// @throws InputError  unknown key or value, a root that is no directory, a base or datum that is
 ///                     not in the table of sites.
 [[nodiscard]] SurveyFile read_survey_file(const std::filesystem::path& file);
@@ -41,10 +46,12 @@ struct SurveyFile {
 /// Reads a calibration for the survey.
 void use_calibration(SurveyFile& survey, const std::filesystem::path& file);
 
-/// The trend that applies: the publication's decomposition for model `paper`, else as asked for.
+/// Returns the trend that is used: the publication's decomposition for model `paper`, else that of
+/// the file.
 [[nodiscard]] TrendMethod trend_method_of(const SurveyFile& survey) noexcept;
 
-/// The curve that applies: the publication's for model `paper`, else as asked for or by default.
+/// Returns the trend curve that is used: the publication's for model `paper`, else that of the file
+/// or the default.
 [[nodiscard]] TrendCurve trend_curve_of(const SurveyFile& survey);
 
 }  // namespace a351::corrector

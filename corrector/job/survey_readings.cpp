@@ -25,8 +25,8 @@ SurveySource source_of(const SurveyFile& survey) {
     return source;
 }
 
-/// Adds the other files that a survey file names, in the order of result.json: the survey file first,
-/// calibration and tide before the archive.
+/// Adds the other files that a survey file names, in the order of result.json: the survey file
+/// first, calibration and tide before the archive.
 void add_inputs(std::vector<text::InputFile>& inputs, const SurveyFile& survey) {
     std::vector<text::InputFile> more;
     if (!survey.calibration.empty())
@@ -45,7 +45,7 @@ void add_inputs(std::vector<text::InputFile>& inputs, const SurveyFile& survey) 
 
 OccupationRows read_survey(const SurveyFile& survey, const Progress& progress) {
     const SurveySource source = source_of(survey);
-    const SurveyStays stays = read_stays(source);
+    const SurveyStays stays = read_survey_inputs(source);
     std::vector<std::string> warnings;
     if (survey.survey.calibration)
         warnings = check_calibration(survey, stays.station.serial_number, stays.list.windows);
@@ -70,7 +70,8 @@ SurveyOptions with_sites_of(OccupationRows& read, SurveyOptions options) {
     if (std::all_of(datum.begin(), datum.end(), is_absent)) return options;
     for (const std::string& site : datum) {
         if (!is_absent(site)) continue;
-        read.warnings.push_back("datum " + site + " has no occupation with a value: left out");
+        read.warnings.push_back("datum " + site +
+                                " has no occupation with a value: it is left out");
     }
     std::erase_if(datum, is_absent);
     return options;
@@ -83,9 +84,9 @@ std::vector<std::string> check_calibration(const SurveyFile& survey,
     std::vector<std::string> warnings;
     if (serial_number.empty()) {
         warnings.push_back(
-            "the station metadata do not tell the sensor's serial number: whether the "
-            "calibration of " +
-            calibration.serial_number + " is its own was not checked");
+            "the station metadata do not contain the sensor's serial number: it was not checked "
+            "that the calibration of " +
+            calibration.serial_number + " belongs to this sensor");
     } else if (serial_number != calibration.serial_number) {
         throw InputError(survey.path.string() + ": calibration = " + survey.calibration.string() +
                          ": of unit " + calibration.serial_number + ", the record is of unit " +
@@ -94,7 +95,7 @@ std::vector<std::string> check_calibration(const SurveyFile& survey,
     const UtcTime end = calibration.valid_to.value_or(UtcTime::max());
     if (windows.front().start < calibration.valid_from || windows.back().end > end)
         warnings.push_back(
-            "the survey is not within the time for which the calibration is valid, from " +
+            "the survey is not completely within the validity of the calibration, from " +
             to_rfc3339(calibration.valid_from) +
             (calibration.valid_to ? " to " + to_rfc3339(end) : std::string(" on")));
     return warnings;

@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// The readings of a survey file.
 
 #include <string>
 #include <vector>
@@ -13,13 +15,14 @@ namespace a351::corrector {
 ///                     calibration is of another unit; the tide is not known for all readings.
 [[nodiscard]] OccupationRows read_survey(const SurveyFile& survey, const Progress& progress);
 
-/// Removes a base and datum stations that have no row from the options, each with a warning.  The base of
-/// `paper` stays, because its drift step needs it; the datum stays if no station of it would be left.
+/// Removes the base and datum stations without a row from the options, with a warning for each.
+/// The base of `paper` is kept, because its drift step needs it.  The datum is kept if none of its
+/// stations would be left.
 [[nodiscard]] SurveyOptions with_sites_of(OccupationRows& read, SurveyOptions options);
 
 /// Returns the doubts about the survey's calibration, one sentence each.
-/// @param serial_number  of the record; empty: not known.
-/// @throws InputError  it is of another unit.
+/// @param serial_number  serial number of the record's sensor; empty: not known.
+/// @throws InputError  the calibration is of another unit.
 [[nodiscard]] std::vector<std::string> check_calibration(
     const SurveyFile& survey, const std::string& serial_number,
     const std::vector<OccupationWindow>& windows);

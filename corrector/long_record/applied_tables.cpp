@@ -23,7 +23,7 @@ Json ways_json(const ThreeWays& ways) {
 }  // namespace
 
 TextTable applied_bands_table(const AppliedCalibration& applied) {
-    TextTable rows{{"rms in mGal at periods of", "before", "parametric", "by modes"}};
+    TextTable rows{{"rms in mGal, period", "before", "parametric", "by modes"}};
     for (const BandScatter& band : applied.bands) {
         const std::string from = text::fixed(band.shortest_s, 0);
         rows.push_back(cells(std::isfinite(band.longest_s)
@@ -35,7 +35,7 @@ TextTable applied_bands_table(const AppliedCalibration& applied) {
 }
 
 TextTable allan_table(const AppliedCalibration& applied) {
-    TextTable rows{{"Allan deviation in mGal of", "before", "parametric", "by modes"}};
+    TextTable rows{{"Allan deviation in mGal", "before", "parametric", "by modes"}};
     for (const AllanPoint& point : applied.allan)
         rows.push_back(
             cells("averages of " + text::fixed(point.averaging_s, 0) + " s", point.deviation_mgal));
@@ -44,12 +44,12 @@ TextTable allan_table(const AppliedCalibration& applied) {
 
 std::vector<std::string> applied_sentences(const AppliedCalibration& applied) {
     std::vector<std::string> lines{applied.origin,
-                                   "parametric: the two paths on the smoothed temperature; by "
-                                   "modes: modes of the temperature of " +
+                                   "parametric: the two paths are applied to the smoothed "
+                                   "temperature; by modes: temperature modes with a period of " +
                                        text::fixed(applied.averaged_below_s, 0) +
-                                       " s and more by the response at their period, shorter modes "
-                                       "of the acceleration averaged "
-                                       "away, which is no correction of them"};
+                                       " s or more are scaled by the response at their period, "
+                                       "and shorter modes of the acceleration are averaged out, "
+                                       "which does not correct them"};
     lines.insert(lines.end(), applied.remarks.begin(), applied.remarks.end());
     return lines;
 }

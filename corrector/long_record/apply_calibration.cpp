@@ -16,16 +16,19 @@
 namespace a351::corrector {
 namespace {
 
-// 15 samples of 20 s: white noise falls to 0.39 of it, a cycle of 15 min keeps 99 %.
+// Half width of the smoothing window, samples.  15 samples of 20 s reduce white noise to 0.39 and
+// keep 99 % of a cycle of 15 min.
 constexpr std::size_t kHalfWindow = 7;
-constexpr double kShortestPeriod_s = 39.0;  // two steps, with a margin for the clock
-constexpr double kSigns = 2.0;              // of its error, for a part to be applied
+constexpr double kShortestPeriod_s = 39.0;  // two steps, with a margin for the sensor's clock
+constexpr double kLeastRatioToError = 2.0;  // least ratio of a part to its error to be applied
 
+/// Parameters of the response that are applied.
 struct Response {
-    double level = 0.0, slow = 0.0, rate = 0.0;  ///< 0: not applied
+    double level = 0.0, slow = 0.0, rate = 0.0;  ///< rA, rS, rF; 0: not applied.
     double fast_lag_s = 0.0, slow_lag_s = 0.0;
 
-    /// mGal/degC at a period.
+    /// Returns the complex response at a period, mGal/degC:
+    /// H = rA + rS / (1 + i w tS) + rF i w / (1 + i w tF), with w = 2 pi / period.
     [[nodiscard]] std::complex<double> at(double period_s) const {
         const std::complex<double> turn(0.0, 2.0 * M_PI / period_s);
         return level + slow / (1.0 + turn * slow_lag_s) +
@@ -36,6 +39,7 @@ struct Response {
 Response response_of(const ThermalResponse& thermal, std::vector<std::string>& remarks) {
     using Vector = Eigen::Matrix<double, 5, 1>;
     using Matrix = Eigen::Matrix<double, 5, 5>;
+    // Calibration and priors: inverse covariances and weighted values are added.
     const Matrix information = Cholesky(thermal.covariance).inverse();
     Matrix together = information;
     Vector weighted = information * thermal.values;
@@ -56,23 +60,25 @@ Response response_of(const ThermalResponse& thermal, std::vector<std::string>& r
     const double rate_error = std::sqrt(covariance(2, 2));
     const auto left_out = [&remarks](const std::string& name, double value, double error,
                                      const std::string& unit) {
-        remarks.push_back("the calibration leaves the " + name + " open (" + text::fixed(value, 1) +
-                          " +- " + text::fixed(error, 1) + " " + unit + "): it was not applied");
+        remarks.push_back("the calibration does not determine the " + name + " (" +
+                          text::fixed(value, 1) + " +- " + text::fixed(error, 1) + " " + unit +
+                          "): it was not applied");
     };
-    if (std::abs(slope) >= kSigns * slope_error) {
+    if (std::abs(slope) >= kLeastRatioToError * slope_error) {
         response.level = values(0);
         response.slow = values(1);
     } else {
         left_out("static slope", slope, slope_error, "mGal/degC");
     }
-    if (std::abs(values(2)) >= kSigns * rate_error)
+    if (std::abs(values(2)) >= kLeastRatioToError * rate_error)
         response.rate = values(2);
     else
         left_out("fast path", values(2), rate_error, "mGal/(degC/h)");
     return response;
 }
 
-/// By a local parabola over as much of the window as lies inside on both sides.
+/// Smooths by a local parabola over the part of the window that is inside on both sides.  The
+/// weight at the place j of a window of 2 h + 1 samples is proportional to 3 h^2 + 3 h - 1 - 5 j^2.
 /// Source: A. Savitzky and M. J. E. Golay, Anal. Chem. 36, 1627-1639, 1964.
 std::vector<double> smoothed(const std::vector<double>& values) {
     std::vector<double> result(values.size());
@@ -140,7 +146,7 @@ std::vector<double> mode_by_mode(const RecordSegment& segment, const RecordAnaly
     return corrected;
 }
 
-/// Mean squares by band.
+/// Returns the mean squares by band, from the spectrum without a straight line.
 std::vector<double> band_squares(const std::vector<double>& values, double step_s,
                                  const std::vector<double>& edges_s) {
     const std::vector<double> centred = without_line(values);
@@ -164,6 +170,7 @@ double allan_deviation(const std::vector<double>& values, std::size_t samples) {
     std::vector<double> sums(values.size() + 1, 0.0);
     const double mean = mean_of(values);
     for (std::size_t i = 0; i < values.size(); ++i) sums[i + 1] = sums[i] + values[i] - mean;
+    // With cumulative sums s: sigma^2 = 1/2 mean ((s[i+2m] - 2 s[i+m] + s[i]) / m)^2
     const std::size_t count = values.size() - 2 * samples + 1;
     double squares = 0.0;
     for (std::size_t i = 0; i < count; ++i) {

@@ -30,12 +30,12 @@ using Day = std::chrono::sys_time<days>;
 
 constexpr std::size_t kChannels = kRecordChannels;
 constexpr std::size_t kVertical = 2;
-constexpr std::int64_t kBlockSamples = 16384;  // a channel's block stays in the cache
-constexpr double kSameRate = 1e-3;             // ten times what a sensor's clock is off
+constexpr std::int64_t kBlockSamples = 16384;  // so that a channel's block fits in the cache
+constexpr double kSameRate = 1e-3;             // relative; ten times the error of a sensor's clock
 
 using DayOfChannels = std::array<record::ChannelData, kChannels>;
 
-/// Samples of a segment by their number in the stretch.
+/// A segment with the number of its first sample in the stretch.
 struct Placed {
     const record::Segment* segment;
     std::int64_t first;
@@ -49,19 +49,19 @@ class ArchiveStream {
 public:
     explicit ArchiveStream(LongRecord& record) : record_(record) {}
 
-    /// What is taken from here on is of that epoch.
+    /// Sets the epoch of all samples taken from here on; a change begins a new stretch.
     void use(const RecordEpoch& epoch) {
         if (epoch_ == &epoch) return;
         if (std::string change = epoch_ == nullptr ? "" : epoch_change(*epoch_, epoch);
             !change.empty()) {
             end_stretch(false, {});
             change_ = std::move(change);
-            tell_change(epoch.start);
+            warn_of_change(epoch.start);
         }
         epoch_ = &epoch;
     }
 
-    /// Samples of the day after those taken so far.
+    /// Adds the samples of a day, or of an epoch's part of it, after those taken so far.
     void take(const DayOfChannels& day) {
         std::vector<Placed> run;
         for (const record::Segment& segment : day[kVertical].segments) {
@@ -73,7 +73,7 @@ public:
                 end_stretch(false, {});
                 change_ = "another rate: " + text::shortest(segment.rate_hz) + " Hz after " +
                           text::shortest(rate_hz_) + " Hz";
-                tell_change(start);
+                warn_of_change(start);
                 begin(segment.rate_hz);
             }
             std::int64_t first = 0;
@@ -124,9 +124,9 @@ private:
         rate_hz_ = rate_hz;
     }
 
-    void tell_change(UtcTime time) {
-        record_.warnings.push_back("from " + to_rfc3339(time) + " on " + change_ +
-                                   "; divided there");
+    void warn_of_change(UtcTime time) {
+        record_.warnings.push_back("from " + to_rfc3339(time) + " on, " + change_ +
+                                   "; the record is divided there");
     }
 
     void end_stretch(bool is_step_back, UtcTime start) {
@@ -150,7 +150,8 @@ private:
         }
     }
 
-    /// The channel's segments on the numbers that the vertical axis has by then.
+    /// Returns the channel's segments, numbered like the samples of the vertical axis at the same
+    /// times.
     [[nodiscard]] std::vector<Placed> place(const record::ChannelData& channel,
                                             const std::vector<Placed>& run) const {
         std::vector<Placed> placed;
@@ -202,12 +203,12 @@ private:
 
     LongRecord& record_;
     const RecordEpoch* epoch_ = nullptr;
-    std::string change_;    ///< With which the stretch begins, or the next one.
-    double rate_hz_ = 0.0;  ///< 0: no sample yet.
+    std::string change_;    ///< Change with which this stretch begins, or the next one.
+    double rate_hz_ = 0.0;  ///< Rate; 0: no sample yet.
     int stages_ = 0;
     std::optional<StretchBuilder> builder_;
-    std::int64_t next_ = 0;  ///< Number of the sample that would continue the stretch ...
-    UtcTime next_time_;      ///< ... and its time.
+    std::int64_t next_ = 0;  ///< Number of the sample that would continue the stretch.
+    UtcTime next_time_;      ///< Its time.
     std::vector<std::vector<double>> block_{kChannels};
 };
 
@@ -230,13 +231,13 @@ void remove_tide(LongRecord& record, const TideStation& station) {
     record.is_tide_removed = true;
 }
 
-/// Files of the channels for those days, by day.
+/// Returns the days in the window for which a channel has a file.
 std::set<Day> days_with_files(const std::filesystem::path& archive,
                               const record::StationCodes& codes, const std::string& channel,
                               const RecordWindow& window) {
     std::set<Day> found;
     for (const auto& file : record::day_files(archive, codes, channel)) {
-        const std::string name = file.filename().string();  // ... .YEAR.DAY in digits
+        const std::string name = file.filename().string();  // ends with .YEAR.DAY in digits
         const char* const end = name.data() + name.size();
         int year = 0, day = 0;
         std::from_chars(end - 8, end - 4, year);
@@ -287,7 +288,7 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
         const UtcTime next = std::min(UtcTime(day + days(1)), window.to.value_or(UtcTime::max()));
         UtcTime from = std::max(UtcTime(day), window.from.value_or(UtcTime(day)));
         for (std::size_t e = 0; e < epochs.size(); ++e) {
-            // The epoch's part of the day.
+            // [from, to) is the epoch's part of the day.
             const bool is_last = e + 1 == epochs.size();
             const UtcTime to = is_last ? next : std::min(next, epochs[e + 1].start);
             if (from >= to) continue;
@@ -314,7 +315,7 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
     if (const auto position = position_of(metadata)) {
         remove_tide(record, *position);
     } else {
-        record.warnings.push_back(metadata.string() + ": no position: the tide is left in");
+        record.warnings.push_back(metadata.string() + ": no position: the tide is not removed");
     }
     record.source = root;
     record.inputs.push_back(text::describe_input("metadata", metadata));

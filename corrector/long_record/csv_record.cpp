@@ -18,14 +18,15 @@ namespace a351::corrector {
 namespace {
 
 constexpr std::size_t kBlockRows = 16384;
-constexpr std::size_t kFirstRows = 1000;  // whose steps tell the rate, whatever gaps they have
-constexpr double kStepTolerance = 0.1;
-constexpr double kMostSeconds = 9e9;  // of from_seconds()
+constexpr std::size_t kFirstRows = 1000;  // rows from whose steps the rate is found, despite gaps
+constexpr double kStepTolerance = 0.1;    // relative
+constexpr double kMostSeconds = 9e9;      // limit of from_seconds()
 
+/// A row of the table.
 struct Row {
-    std::size_t line = 0;
+    std::size_t line = 0;  ///< Number of its line in the file.
     UtcTime time;
-    std::vector<double> values;  ///< The axes in mGal, then the temperature.
+    std::vector<double> values;  ///< Axes or norm in mGal, then the temperature in degC.
 };
 
 /// The rows of the table within the window.
@@ -50,7 +51,7 @@ public:
 
     [[nodiscard]] std::size_t axes() const { return values_.size() - 1; }
 
-    /// False at the end.
+    /// Reads the next row in the window; returns false at the end.
     [[nodiscard]] bool read(Row& row) {
         while (reader_.next()) {
             row.time = time();
@@ -80,7 +81,7 @@ private:
         if (const auto instant = parse_rfc3339(cell)) return *instant;
         const auto seconds = text::parse_number(cell);
         if (!seconds || std::abs(*seconds) >= kMostSeconds)
-            reader_.refuse(time_, "no time", "an instant as in RFC 3339, or seconds");
+            reader_.refuse(time_, "not a time", "an RFC 3339 time, or seconds");
         return UtcTime(from_seconds(*seconds));
     }
 
@@ -103,7 +104,7 @@ private:
     std::optional<UtcTime> last_;
 };
 
-/// Puts rows on the steps of their clock; builds stretches.
+/// Puts rows on the steps of their clock and builds stretches.
 class CsvStream {
 public:
     CsvStream(LongRecord& record, double step_s, int stages, std::size_t axes)
@@ -115,7 +116,8 @@ public:
             if (steps * step_s_ > kLongestGap_s) {
                 finish();
             } else {
-                // A row in less than half a step is the jitter of the stamps: it is the next one.
+                // A row after less than half a step is jitter of the time stamps: it is the next
+                // row.
                 for (long long missing = std::llround(steps); missing > 1; --missing) add_missing();
             }
         }
@@ -163,7 +165,7 @@ double median_step_s(const std::vector<Row>& rows) {
     return median(std::move(steps));
 }
 
-/// Refuses rows that come at another step than the first ones: they would be put on wrong times.
+/// Refuses rows that have another step than the first ones: they would get wrong times.
 class StepCheck {
 public:
     StepCheck(const std::filesystem::path& file, double step_s) : file_(file), step_s_(step_s) {}
@@ -172,7 +174,7 @@ public:
         if (steps_.empty()) first_line_ = row.line;
         if (last_) {
             const double passed_s = seconds_between(*last_, row.time);
-            // Rows that are missing leave the step as it is.
+            // Missing rows do not change the step.
             if (passed_s <= kLongestGap_s)
                 steps_.push_back(passed_s / std::max(1.0, std::round(passed_s / step_s_)));
         }
@@ -180,7 +182,7 @@ public:
         if (steps_.size() == kRows) finish();
     }
 
-    /// What is left at the end.
+    /// Checks the rest at the end.
     void finish() {
         if (steps_.size() < kFewestRows) return;
         const double step_s = median(std::move(steps_));
@@ -194,7 +196,8 @@ public:
     }
 
 private:
-    static constexpr std::size_t kRows = 100, kFewestRows = 20;  // stamps may jitter
+    static constexpr std::size_t kRows = 100,
+                                 kFewestRows = 20;  // many rows, because stamps may jitter
 
     const std::filesystem::path& file_;
     double step_s_;

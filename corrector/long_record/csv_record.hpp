@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// A long record from a CSV file.
 
 #include <filesystem>
 
@@ -6,17 +8,25 @@
 
 namespace a351::corrector {
 
-/// A long record from a CSV, row by row: `time_utc` (or `time`; RFC 3339) or `time_s`,
-/// `temperature_degc`, and `acceleration_mgal` or the axes `x_g`, `y_g`, `z_g`; other columns are
-/// passed over.  Rows every 0.02, 0.2, 2 or 20 s; an empty cell or a missing row is a gap.  The tide
-/// is left in, for there is no position.
-/// @param progress  counts megabytes.
-/// @throws InputError  a column is missing, a cell is no number, times do not ascend, another step.
+/// Reads a long record from a CSV, row by row, and decimates it.
+///
+/// - Columns: `time_utc` (or `time`; RFC 3339) or `time_s`; `temperature_degc`; `acceleration_mgal`
+///   or the axes `x_g`, `y_g`, `z_g`.  Other columns are skipped.
+/// - Rows come every 0.02, 0.2, 2 or 20 s within 10 %.  An empty cell or a missing row is a gap; a
+///   gap of more than an hour begins a new stretch.
+/// - The tide is not removed, because the position is not known.
+/// @param file      the CSV.
+/// @param window    part to be read.
+/// @param progress  called with the megabytes done and in all.
+/// @throws InputError  if a column is missing, a cell is no number or out of range, times do not
+///                     ascend, there are fewer than two rows, or rows have another step; with file
+///                     and line.
 [[nodiscard]] LongRecord read_csv_record(const std::filesystem::path& file,
                                          const RecordWindow& window, const Progress& progress);
 
-/// Number of stages of 10 from that step to 20 s.
-/// @return std::nullopt where none leads there within 10 %.
+/// Returns the number of decimation stages of 10 from a step to 20 s, 0 to kMostRecordStages.
+/// @param step_s  time between samples, s.
+/// @return std::nullopt if no number of stages leads there within 10 %.
 [[nodiscard]] std::optional<int> record_stages(double step_s);
 
 }  // namespace a351::corrector

@@ -14,11 +14,12 @@
 namespace a351::corrector {
 namespace {
 
-constexpr double kSameStep = 1e-3;  // ten times what a sensor's clock is off
+constexpr double kSameStep = 1e-3;  // relative; ten times the error of a sensor's clock
 
+/// A stretch and the part that it comes from.
 struct Part {
     RecordStretch stretch;
-    std::size_t number;  ///< Of the part it is from.
+    std::size_t number;  ///< Number of the part.
     bool is_tide_removed;
 };
 
@@ -38,7 +39,8 @@ void append(RecordStretch& to, std::size_t missing, double step_s, const RecordS
     to.times.insert(to.times.end(), from.times.begin(), from.times.end());
 }
 
-/// Samples missing between two stretches of different parts that are one piece.
+/// Returns the number of samples missing between two stretches of different parts; std::nullopt if
+/// they cannot be joined.
 std::optional<std::size_t> bridged(const Part& before, const Part& after, double step_s) {
     const RecordStretch &a = before.stretch, &b = after.stretch;
     if (before.number == after.number || a.serial_number != b.serial_number ||
@@ -95,8 +97,8 @@ LongRecord joined_record(std::vector<LongRecord> parts) {
             if (std::string change =
                     sensor_change(last.stretch.serial_number, next.stretch.serial_number);
                 last.number != next.number && !change.empty()) {
-                all.warnings.push_back("from " + to_rfc3339(next.stretch.times.front()) + " on " +
-                                       change + "; divided there");
+                all.warnings.push_back("from " + to_rfc3339(next.stretch.times.front()) + " on, " +
+                                       change + "; the record is divided there");
                 next.stretch.begins_with = std::move(change);
             }
             joined.push_back(std::move(next));

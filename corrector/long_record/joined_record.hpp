@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Parts of a record that come from several files or roots, as one.
+/// One record from parts in several files or data roots.
 
 #include <vector>
 
@@ -8,12 +8,14 @@
 
 namespace a351::corrector {
 
-/// All parts in order of time.  A stretch that begins within a bridged gap (SegmentOptions) of the one
-/// before it goes on with that: what is missing between them becomes missing samples.  Its samples are
-/// counted on from there and keep their times, so that they lie up to half a step beside the first
-/// part's clock.
+/// Joins parts in order of time.
+///
+/// If a stretch of another part begins within a gap that is bridged
+/// (SegmentOptions::longest_bridge), both become one stretch with missing samples between them.
+/// Serial number, columns and removal of the tide must be the same.  The samples keep their own
+/// times, so that they are up to half a step off the clock of the first part.
 /// @param parts  at least one.
-/// @throws InputError  parts overlap, or have another step; names the two.
+/// @throws InputError  if parts overlap or have different steps; names both.
 [[nodiscard]] LongRecord joined_record(std::vector<LongRecord> parts);
 
 }  // namespace a351::corrector

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A record of hours to weeks at one point, at the rate on which it is analysed.
+/// A record of hours to weeks at one point, at the rate at which it is analysed.
 
 #include <cstddef>
 #include <filesystem>
@@ -13,45 +13,51 @@
 
 namespace a351::corrector {
 
-/// The publication's samples: three stages of 10 from 50 Hz.
+/// Time between samples, s.  Source: the publication's record, decimated from 50 Hz.
 inline constexpr double kRecordStep_s = 20.0;
+/// Factor of a decimation stage.
 inline constexpr int kRecordFactor = 10;
+/// Number of stages from 50 Hz to kRecordStep_s.
 inline constexpr int kMostRecordStages = 3;
 
-/// A longer gap begins a new stretch.
+/// Longest gap within a stretch, s; a longer one begins a new stretch.
 inline constexpr double kLongestGap_s = 3600.0;
-/// A sample that is not there.
+/// Value of a missing sample.
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Samples on one clock; missing ones are NaN.  All vectors have the same length, but `raw` is empty
-/// where nothing was decimated.
+/// Samples on one clock; missing samples are NaN.  All vectors have the same length n; `raw` and
+/// `axes_mgal` may be empty.
 struct RecordStretch {
-    /// Least and greatest sample before decimation in the step that begins with each sample.
+    /// Least and greatest value before decimation, within the step that begins with a sample.
     struct RawRange {
         double acceleration_low_mgal, acceleration_high_mgal;
         double temperature_low_degc, temperature_high_degc;
     };
 
-    std::string serial_number;  ///< Of the sensor; empty: not told.
-    std::string begins_with;    ///< What is new from here on, "another sensor: ..."; empty: a gap.
-    std::vector<UtcTime> times;
-    std::vector<double> acceleration_mgal;  ///< Norm of the decimated axes.
-    /// x, y, z as the sensor gave them, tide and all; none where the record has only their norm.
+    std::string serial_number;  ///< Serial number of the sensor; empty: not known.
+    /// Change at the start of the stretch, e.g. "another sensor: ..."; empty: start or gap.
+    std::string begins_with;
+    std::vector<UtcTime> times;             ///< (n) Times of the samples.
+    std::vector<double> acceleration_mgal;  ///< (n) Norm of the decimated axes.
+    /// Axes x, y, z (n each) as the sensor gave them, with the tide; empty if only the norm is
+    /// known.
     std::vector<std::vector<double>> axes_mgal;
-    std::vector<double> temperature_degc;
-    std::vector<RawRange> raw;
+    std::vector<double> temperature_degc;  ///< (n)
+    std::vector<RawRange> raw;             ///< (n); empty if nothing was decimated.
 
+    /// Returns n.
     [[nodiscard]] std::size_t size() const noexcept { return times.size(); }
 };
 
+/// A record, as read.
 struct LongRecord {
-    std::filesystem::path source;          ///< File or data root it was read from; empty: joined.
-    std::vector<RecordStretch> stretches;  ///< In order of time; each at least one sample.
-    double raw_rate_hz = 0.0;
-    double step_s = kRecordStep_s;  ///< Between samples, on the sensor's clock.
-    bool is_tide_removed = false;
-    std::vector<text::InputFile> inputs;
-    std::vector<std::string> warnings;  ///< What was passed over, and why.
+    std::filesystem::path source;          ///< File or data root; empty for a joined record.
+    std::vector<RecordStretch> stretches;  ///< In order of time; each has at least one sample.
+    double raw_rate_hz = 0.0;              ///< Rate before decimation.
+    double step_s = kRecordStep_s;         ///< Time between samples, on the sensor's clock.
+    bool is_tide_removed = false;          ///< True: the direct tide was subtracted.
+    std::vector<text::InputFile> inputs;   ///< Files that were read.
+    std::vector<std::string> warnings;  ///< Skipped data, divisions and other facts, with reason.
 };
 
 }  // namespace a351::corrector

@@ -13,12 +13,12 @@ namespace a351::corrector {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double kCyclesPerBlock = 3.0;  // blocks of fewer are not independent
+constexpr double kCyclesPerBlock = 3.0;  // blocks with fewer cycles are not independent
 constexpr std::size_t kFewestBlocks = 4, kMostBlocks = 24;
 
 /// Sums over a block.
 struct Sums {
-    Complex acceleration, temperature;  ///< Times the conjugate of the mode.
+    Complex acceleration, temperature;  ///< Sums of the series times the conjugate of the mode.
     Sums& operator+=(const Sums& other) {
         acceleration += other.acceleration;
         temperature += other.temperature;
@@ -26,11 +26,12 @@ struct Sums {
     }
 };
 
+/// Returns the response H without a block.
 Complex without(const Sums& all, const Sums& block) {
     return (all.acceleration - block.acceleration) / (all.temperature - block.temperature);
 }
 
-/// Mean frequency of a mode's power, as a period.
+/// Returns the period (s) of the mean frequency of a mode's power; 0 for a constant.
 double period_of(std::span<const double> mode, double step_s) {
     const std::size_t length = fast_length(mode.size());
     const Spectrum spectrum = half_spectrum(mode, length);
@@ -54,9 +55,10 @@ std::vector<Sums> sums_of_blocks(const Spectrum& mode, const Spectrum& temperatu
     return sums;
 }
 
-/// Gain that chance makes, exceeded with probability `significance`: from what the response leaves of
-/// the acceleration, shifted round the record.
-/// Source of the quantile: as in response_by_spectrum(), independent shifts for degrees of freedom.
+/// Returns the gain (mGal/degC) that chance exceeds with the probability `significance`.  It comes
+/// from the rest a - H T of the acceleration, which is shifted around the record 40 times.
+/// Source of the quantile: as response_by_spectrum(), with independent shifts as degrees of
+/// freedom.
 double chance_gain(const Spectrum& mode, const Spectrum& temperature, const Spectrum& acceleration,
                    Complex gain, std::size_t margin, double cycles, double significance) {
     constexpr std::size_t kShifts = 40;
@@ -78,8 +80,10 @@ double chance_gain(const Spectrum& mode, const Spectrum& temperature, const Spec
     return std::sqrt(square * freedom * (std::pow(significance, -1.0 / freedom) - 1.0));
 }
 
+/// Sets gain, phase and their limits: the wider of jackknife and chance.
+/// @param sums    sums of all blocks.
 /// @param chance  chance_gain()
-/// @return whether the limits exclude a gain half or twice as large.
+/// @return true if the limits exclude half and twice the gain.
 bool set_limits(ResponsePoint& point, const std::vector<Sums>& sums, Complex gain, double chance,
                 double significance) {
     Sums all;
@@ -95,6 +99,7 @@ bool set_limits(ResponsePoint& point, const std::vector<Sums>& sums, Complex gai
         along += std::pow((deviation - mean).real(), 2);
         across += std::pow((deviation - mean).imag(), 2);
     }
+    // Jackknife variance of ln H: (B - 1) / B sum of (deviation - mean)^2
     const double share = (blocks - 1.0) / blocks;
     const double quantile =
         boost::math::quantile(boost::math::students_t(blocks - 1.0), 1.0 - 0.5 * significance);
@@ -110,6 +115,7 @@ bool set_limits(ResponsePoint& point, const std::vector<Sums>& sums, Complex gai
     return factor < kMostFactor && chance * kMostFactor < size;
 }
 
+/// Returns |sum y x*|^2 / (sum |x|^2 sum |y|^2) without the margins; 0 for a constant.
 double squared_correlation(const Spectrum& x, const Spectrum& y, std::size_t margin) {
     Complex xy = 0.0;
     double xx = 0.0, yy = 0.0;
@@ -159,12 +165,13 @@ std::vector<ResponsePoint> response_by_modes(const std::vector<std::vector<doubl
         const double chance =
             chance_gain(z, temperature, acceleration, gain, margin, cycles, options.significance);
         if (!std::isnormal(std::abs(gain)) || !std::isfinite(chance)) {
-            point.refusal = "one of both is constant";
-            point.needed = "a record in which both move";
+            point.refusal = "temperature or acceleration is constant";
+            point.needed = "a record in which both vary";
         } else if (!set_limits(point, sums, gain, chance, options.significance)) {
             point.refusal = "not known within a factor of two";
-            point.needed = "more swing or a longer record: a response below " +
-                           text::fixed(2.0 * chance, 0) + " mGal/degC does not show";
+            point.needed =
+                "a larger temperature swing or a longer record; here no response below " +
+                text::fixed(2.0 * chance, 0) + " mGal/degC can be detected";
         }
         points.push_back(std::move(point));
     }

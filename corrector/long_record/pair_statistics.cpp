@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFullTurn_deg = 360.0;
 
-/// Peak to peak of a sine of that standard deviation.
+/// Returns the peak-to-peak value of a sine with this standard deviation: 2 sqrt(2) times it.
 double swing(std::span<const double> values) { return 2.0 * std::sqrt(2.0 * variance_of(values)); }
 
 double zero_crossing_period_s(std::span<const double> values, double step_s) {
@@ -49,7 +49,7 @@ PairStatistics pair_statistics(std::span<const double> temperature_degc,
     pair.temperature_swing_degc = swing(temperature_degc);
     pair.acceleration_swing_mgal = swing(acceleration_mgal);
     const auto earlier = static_cast<std::size_t>(std::llround(shift_s / step_s));
-    // Residuals of a narrow band keep their phase for some cycles.
+    // In a narrow band residuals keep their phase for several cycles.
     const auto correlated = static_cast<std::size_t>(std::llround(4.0 * cycle_s / step_s));
     pair.moved = turned_and_moved(temperature_degc, acceleration_mgal, earlier, correlated);
     const int half_cycle = std::max(2, static_cast<int>(0.5 * cycle_s / step_s));
@@ -58,12 +58,12 @@ PairStatistics pair_statistics(std::span<const double> temperature_degc,
 }
 
 double phase_of_peaks_deg(const PairStatistics& pair) {
-    // A sine that comes `delay` late lags by that share of its period; the negative one is turned.
+    // A delayed sine lags by 360 delay / period; the negative peak has 180 degrees more.
     const double period_s = pair.period_s;
     const auto lag_deg = [&](double delay_s) { return kFullTurn_deg * delay_s / period_s; };
     const double by_positive = -lag_deg(pair.correlation.positive.delay_s);
     const double by_negative = 0.5 * kFullTurn_deg - lag_deg(pair.correlation.negative.delay_s);
-    // The mean of two angles is that of their vectors.
+    // Mean direction of two angles: that of the sum of their vectors.
     const double to_rad = std::numbers::pi / (0.5 * kFullTurn_deg);
     return std::atan2(std::sin(by_positive * to_rad) + std::sin(by_negative * to_rad),
                       std::cos(by_positive * to_rad) + std::cos(by_negative * to_rad)) /
@@ -84,32 +84,32 @@ std::string causal_reading(const PairStatistics& pair) {
                           &positive = pair.correlation.positive;
     const double ratio = std::abs(positive.value / negative.value);
     const double phase_deg = phase_of_peaks_deg(pair);
-    constexpr double kEqual = 1.25;  // in size, either way
-    constexpr double kWeak = 0.3;    // a tenth of the variance
+    constexpr double kEqual = 1.25;  // largest ratio of peaks of equal size
+    constexpr double kWeak = 0.3;    // correlation that explains a tenth of the variance
     constexpr double kQuadrature_deg = 45.0;
     if (std::max(std::abs(negative.value), std::abs(positive.value)) < kWeak) {
-        return "Neither peak stands out of chance: in this band the record shows no response to "
+        return "Neither peak exceeds chance: in this band the record shows no response to "
                "temperature.";
     }
-    std::string text = "The acceleration follows the temperature with its sign turned " +
-                       seconds_late(negative.delay_s) + " it, and with its own sign " +
+    std::string text = "The acceleration varies like the temperature with inverted sign " +
+                       seconds_late(negative.delay_s) + " it, and with the same sign " +
                        seconds_late(positive.delay_s) + " it. ";
     if (ratio > kEqual || ratio < 1.0 / kEqual) {
         text += "The peaks differ in size by " + text::fixed(std::max(ratio, 1.0 / ratio), 2) +
                 ": the band is not narrow, and the " +
                 (ratio > 1.0 ? std::string("positive") : std::string("negative")) +
-                " one describes the response better. ";
+                " peak describes the response better. ";
     } else {
         text +=
-            "The peaks are of nearly equal size: in a narrow band they are one statement, a "
-            "phase of " +
+            "The peaks have nearly equal size: in a narrow band both describe the same response, "
+            "with a phase of " +
             text::fixed(phase_deg, 0) + " degrees at " + text::fixed(pair.period_s, 0) + " s. ";
     }
     const bool is_early = negative.delay_s < 0.0 || positive.delay_s < 0.0;
     if (is_early) {
         text +=
-            "No effect comes before its cause: what looks early is not a delayed response of "
-            "that sign. ";
+            "No effect comes before its cause: the early peak is not a delayed response of its "
+            "sign. ";
     }
     if (std::abs(std::abs(phase_deg) - 90.0) < kQuadrature_deg) {
         text += std::string("The response is mostly to the rate of change of the temperature, ") +
@@ -120,7 +120,7 @@ std::string causal_reading(const PairStatistics& pair) {
                                   "compensates them.";
     } else {
         text += "The response is mostly to the temperature itself, with " +
-                std::string(std::abs(phase_deg) > 90.0 ? "its sign turned." : "its own sign.");
+                std::string(std::abs(phase_deg) > 90.0 ? "inverted sign." : "the same sign.");
     }
     return text;
 }

@@ -11,7 +11,7 @@
 namespace a351::corrector {
 namespace {
 
-constexpr double kMostSplit = 0.2;  // of a mode's energy in a neighbour of nearly its period
+constexpr double kMostSplit = 0.2;  // largest energy of a neighbour, share of the mode's own
 
 EemdResult decompose(const std::vector<double>& values, const RecordAnalysisOptions& options,
                      std::size_t before) {
@@ -29,7 +29,8 @@ EemdResult decompose(const std::vector<double>& values, const RecordAnalysisOpti
     return eemd(values, eemd_options);
 }
 
-/// The mode whose mean period is nearest to the cycle, by ratio, and within an octave of it.
+/// Returns the mode whose mean period is nearest to the cycle, by ratio, and within an octave of
+/// it.
 std::optional<ChosenMode> choose_mode(const EemdResult& result, double cycle_s, double step_s) {
     const auto distance = [&](const Component& mode) {
         return mode.extrema_count == 0
@@ -55,7 +56,7 @@ std::optional<ChosenMode> choose_mode(const EemdResult& result, double cycle_s, 
     return chosen;
 }
 
-/// A reading only where a part of the band shows a response above chance.
+/// Returns causal_reading(), but only if a part of the band shows a response above chance.
 std::string reading_of(const RecordAnalysis& analysis, double cycle_s) {
     const ResponsePoint* at_cycle = nullptr;
     for (const ResponsePoint& point : analysis.by_spectrum) {
@@ -67,7 +68,7 @@ std::string reading_of(const RecordAnalysis& analysis, double cycle_s) {
     std::string text =
         "In the band of " + text::fixed(cycle_s, 0) + " s this record shows no response";
     if (at_cycle != nullptr) text += " (" + at_cycle->refusal + "); needed: " + at_cycle->needed;
-    return text + ". The statistics of band and modes mean nothing here.";
+    return text + ". The statistics of band and modes have no meaning here.";
 }
 
 double change_of(const std::vector<double>& values) { return values.back() - values.front(); }
@@ -77,12 +78,13 @@ void remark_on_mode(RecordAnalysis& analysis, const std::optional<ChosenMode>& m
     if (!mode) {
         analysis.remarks.push_back(name + ": no mode has a mean period within an octave of " +
                                    text::fixed(cycle_s, 0) +
-                                   " s; a record in which the oven cycles would have one");
+                                   " s; needed: a record in which the oven cycles");
     } else if (mode->neighbour_share > kMostSplit) {
-        analysis.remarks.push_back(name + ": a neighbour of mode " + std::to_string(mode->number) +
-                                   " (" + text::fixed(mode->period_s, 0) + " s) has " +
-                                   text::fixed(100.0 * mode->neighbour_share, 0) +
-                                   " % of its energy: the oscillation may be split between both");
+        analysis.remarks.push_back(
+            name + ": a neighbour of mode " + std::to_string(mode->number) + " (" +
+            text::fixed(mode->period_s, 0) + " s) has " +
+            text::fixed(100.0 * mode->neighbour_share, 0) +
+            " % of its energy: the oscillation may be split between both modes");
     }
 }
 
@@ -90,14 +92,13 @@ void remark_on_trend(RecordAnalysis& analysis, double record_s) {
     constexpr double kLeast_s = 6.0 * 3600.0;
     if (record_s < kLeast_s) {
         analysis.remarks.push_back("trend: " + text::fixed(record_s / 3600.0, 1) +
-                                   " h are too short to tell a trend; 12 h or more would show it");
+                                   " h are too short to show a trend; needed: 12 h or more");
     }
     if (!analysis.two_paths[TwoPathTerm::warm_up].is_determined ||
         !analysis.two_paths[TwoPathTerm::drift].is_determined) {
         analysis.remarks.push_back(
-            "trend: this record does not part warm-up, drift and slow temperature; one from "
-            "power-on, "
-            "or with the temperature moved up and down over days, does");
+            "trend: this record does not separate warm-up, drift and slow temperature; needed: one "
+            "from power-on, or one over days in which the temperature moves up and down");
     }
 }
 
@@ -116,7 +117,7 @@ RecordAnalysis analyse_record(const RecordSegment& segment, double step_s,
     if (segment.size() < least_record_length(options.cycle_s, step_s))
         throw std::invalid_argument("analyse_record: segment shorter than eight cycles");
     const std::vector<double>& temperature = segment.temperature_degc;
-    // Less the first sample, for the last digits: a norm is near a million.
+    // Minus the first sample, to keep the last digits: the norm is near a million mGal.
     std::vector<double> acceleration = segment.acceleration_mgal;
     for (double& value : acceleration) value -= segment.acceleration_mgal.front();
 

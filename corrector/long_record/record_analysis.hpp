@@ -1,6 +1,7 @@
 #pragma once
 /// @file
-/// One long record as the publication analysed it, and its response by period.
+/// Analysis of one segment of a long record: the publication's statistics, response by period, two
+/// paths.
 
 #include <functional>
 #include <optional>
@@ -15,50 +16,62 @@
 
 namespace a351::corrector {
 
+/// Options of analyse_record().
 struct RecordAnalysisOptions {
-    double cycle_s = 900.0;   ///< Of the oven: the publication's 15 minutes.
-    double shift_s = 280.0;   ///< By which the publication moved the acceleration.
-    int ensemble_size = 160;  ///< As indoors in the publication.
-    std::uint64_t seed = 1;
-    int threads = 1;
-    /// Called with the members done and in all, of both decompositions.
+    double cycle_s = 900.0;   ///< Cycle of the oven; default: 15 minutes as in the publication.
+    double shift_s = 280.0;   ///< Time by which the acceleration is moved, as in the publication.
+    int ensemble_size = 160;  ///< Members of the EEMD, as in the publication's record indoors.
+    std::uint64_t seed = 1;   ///< Seed of the EEMD.
+    int threads = 1;          ///< Number of threads; the result does not depend on it.
+    /// Called with the members done and in all, of both decompositions together.
     std::function<void(std::size_t done, std::size_t total)> progress;
 };
 
-/// The mode that carries the oven's cycle.
+/// The mode of the oven's cycle: its mean period is nearest to the cycle by ratio, and within an
+/// octave.
 struct ChosenMode {
-    std::size_t number = 0;  ///< From 1, the fastest.
+    std::size_t number = 0;  ///< Number of the mode; 1 is the fastest.
     double period_s = 0.0;
-    double energy_share = 0.0;
-    double neighbour_share = 0.0;  ///< Of the stronger neighbour's variance in this one's.
+    double energy_share = 0.0;     ///< Component::energy_share of the mode.
+    double neighbour_share = 0.0;  ///< Variance of the stronger neighbour, divided by its own.
 };
 
+/// Results for one segment.
 struct RecordAnalysis {
-    double step_s = 0.0;
-    LineFit raw;    ///< Acceleration over temperature, all samples.
-    LineFit trend;  ///< Of the residues.
-    double temperature_change_degc = 0.0, acceleration_change_mgal = 0.0;  ///< Of the residues.
+    double step_s = 0.0;  ///< Time between samples.
+    LineFit raw;          ///< Acceleration over temperature, all samples.
+    LineFit trend;        ///< Residue of the acceleration over residue of the temperature.
+    /// Last minus first value of both residues.
+    double temperature_change_degc = 0.0, acceleration_change_mgal = 0.0;
     PairStatistics band;  ///< Butterworth band pass from cycle / 1.5 to cycle x 5 / 3.
     EemdResult temperature, acceleration;
-    std::optional<ChosenMode> temperature_mode, acceleration_mode;
-    std::optional<PairStatistics> modes;  ///< Of these two.
-    std::vector<ResponsePoint> by_spectrum, by_modes;
-    /// causal_reading() of the band, or why the record allows none and what record would.
+    std::optional<ChosenMode> temperature_mode, acceleration_mode;  ///< Absent: no such mode.
+    std::optional<PairStatistics> modes;               ///< Statistics of both chosen modes.
+    std::vector<ResponsePoint> by_spectrum, by_modes;  ///< Response by period, in two ways.
+    /// causal_reading() of the band; if no band shows a response above chance, the reason, and the
+    /// record that is needed.
     std::string reading;
     TwoPathFit two_paths;
-    std::vector<std::string> remarks;  ///< What is doubtful, or cannot be shown, and why.
+    std::vector<std::string> remarks;  ///< Doubtful or impossible results, with the reason.
 };
 
-/// @param segment  from divide_record().
-/// @throws std::invalid_argument  the segment is shorter than eight cycles.
+/// Analyses a segment (corrector/long_record/long_record.md, "Statistics" to "Two paths").
+///
+/// The means of the publication's statistics over ten simulated nights are in their published
+/// ranges (indoor_record_test.cpp).
+/// @param segment  from divide_record(), finite.
+/// @param step_s   time between samples, s.
+/// @param options  see RecordAnalysisOptions.
+/// @throws std::invalid_argument  if the segment is shorter than eight cycles.
 [[nodiscard]] RecordAnalysis analyse_record(const RecordSegment& segment, double step_s,
                                             const RecordAnalysisOptions& options);
 
-/// Fewest samples that analyse_record() takes.
+/// Returns the least number of samples for analyse_record(): eight cycles.
 [[nodiscard]] std::size_t least_record_length(double cycle_s, double step_s);
 
-/// Limits of the band about a cycle, seconds: 600 and 1500 of 900, as in the simulation's targets.
+/// Returns the shortest period of the band about a cycle, s: cycle / 1.5, 600 for 900.
 [[nodiscard]] double shortest_of_band_s(double cycle_s);
+/// Returns the longest period of the band about a cycle, s: cycle x 5 / 3, 1500 for 900.
 [[nodiscard]] double longest_of_band_s(double cycle_s);
 
 }  // namespace a351::corrector

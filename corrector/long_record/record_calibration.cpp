@@ -21,11 +21,11 @@ using Matrix = Eigen::Matrix<double, kCount, kCount>;
 
 constexpr Index kLevel = 0, kSlow = 1, kRate = 2, kFirstLag = 3;
 
-constexpr double kLeastInformation = 1.0;  // as much as the prior
-constexpr double kOpenDeviation = 100.0;   // of the prior's deviation
-constexpr double kOneSided95 = 1.645;
+constexpr double kLeastInformation = 1.0;  // information equal to that of the prior
+constexpr double kOpenDeviation = 100.0;   // deviation of an undetermined direction, in the prior's
+constexpr double kOneSided95 = 1.645;      // 95 % quantile of the normal distribution
 
-/// What a record says beyond the priors, in units of their deviations about their means.
+/// Information of a record without the priors, in units of their deviations about their means.
 struct Information {
     Matrix matrix = Matrix::Zero();
     Vector vector = Vector::Zero();  ///< matrix x estimate
@@ -59,12 +59,13 @@ Information information_of(const TwoPathFit& fit) {
                                (deviations(i) * deviations(j));
         }
     }
-    // The priors are independent: the other terms, integrated out, leave theirs untouched.
+    // The priors are independent, so that integrating out the other terms does not change theirs.
     const Matrix posterior = Cholesky(covariance).inverse();
     return {0.5 * (posterior + posterior.transpose()) - Matrix::Identity(), posterior * estimate};
 }
 
-/// The part of it in directions of at least kLeastInformation, and their number.
+/// Returns the part in directions with at least kLeastInformation, and the number of these
+/// directions.
 std::pair<Information, int> told(const Information& all) {
     const SymmetricEigen axes = symmetric_eigen(all.matrix);
     Information part;
@@ -79,7 +80,7 @@ std::pair<Information, int> told(const Information& all) {
     return {part, count};
 }
 
-/// vector' matrix^+ vector, and the rank.
+/// Returns v' M^+ v (M^+ pseudoinverse of the matrix, v the vector) and the rank of M.
 std::pair<double, int> explained(const Information& part) {
     constexpr double kNothing = 1e-6;
     const SymmetricEigen axes = symmetric_eigen(part.matrix);
@@ -94,6 +95,8 @@ std::pair<double, int> explained(const Information& part) {
     return {sum, rank};
 }
 
+/// Returns the probability of the differences between records: chi-square = sum v_i' M_i^+ v_i
+/// - v' M^+ v of all together, divided by kThermalErrorFactor^2.
 double agreement(const std::vector<Information>& records) {
     Information together;
     double sum = 0.0;
@@ -112,7 +115,8 @@ double agreement(const std::vector<Information>& records) {
         distribution, std::max(0.0, sum - common) / (kThermalErrorFactor * kThermalErrorFactor)));
 }
 
-ThermalResponse passed_on(const Information& all) {
+/// Returns the response for a calibration file; undetermined directions have kOpenDeviation.
+ThermalResponse response_for_file(const Information& all) {
     const SymmetricEigen axes = symmetric_eigen(all.matrix);
     Vector values = Vector::Zero();
     Matrix covariance = Matrix::Zero();
@@ -173,12 +177,12 @@ PooledThermal pool_thermal(const std::vector<TwoPathFit>& fits) {
         pooled.static_slope_error < kDeterminedDeviation * both.norm();
     pooled.agreement_p = agreement(records);
     if (pooled.parameters[kRate].is_determined || pooled.is_static_slope_determined)
-        pooled.response = passed_on(all);
+        pooled.response = response_for_file(all);
     return pooled;
 }
 
-std::string lacks_response(const std::vector<double>& temperature_degc,
-                           const std::vector<double>& acceleration_mgal, double step_s) {
+std::string reason_against_two_paths(const std::vector<double>& temperature_degc,
+                                     const std::vector<double>& acceleration_mgal, double step_s) {
     ResponseOptions options;
     const auto bands = response_by_spectrum(temperature_degc, acceleration_mgal, step_s, options);
     options.significance /= static_cast<double>(std::max<std::size_t>(bands.size(), 1));
@@ -197,19 +201,20 @@ std::string lacks_response(const std::vector<double>& temperature_degc,
 WarmUpReading warm_up_guidance(const TwoPathFit& fit, double begins_after_h, double length_h,
                                double within_mgal) {
     const FittedParameter &size = fit[TwoPathTerm::warm_up], &time = fit[TwoPathTerm::warm_up_time];
-    const std::string shown =
-        "warm-up of " + text::fixed(size.value, 1) + " +- " + text::fixed(size.standard_error, 1) +
-        " mGal at the record's begin, time " + text::fixed(time.value / kSecondsPerHour, 1) +
-        " +- " + text::fixed(time.standard_error / kSecondsPerHour, 1) + " h";
+    const std::string shown = "warm-up of " + text::fixed(size.value, 1) + " +- " +
+                              text::fixed(size.standard_error, 1) +
+                              " mGal at the start of the record, time constant " +
+                              text::fixed(time.value / kSecondsPerHour, 1) + " +- " +
+                              text::fixed(time.standard_error / kSecondsPerHour, 1) + " h";
     if (!size.is_determined || !time.is_determined ||
         std::abs(size.value) < 2.0 * size.standard_error) {
         return {std::nullopt, shown +
-                                  ": the record does not determine it; needed: a record that "
-                                  "begins when the sensor is switched on, and a day long or more"};
+                                  ": the record does not determine it; needed: a record of a day "
+                                  "or more that begins when the sensor is switched on"};
     }
     const double time_h = time.value / kSecondsPerHour;
     const double ratio = std::log(std::abs(size.value) / within_mgal);
-    // Of time_h x ratio by ln(time) and by the size.
+    // Derivatives of tW ln(|w| / within) by ln(tW) and by w.
     const Eigen::Vector2d slopes(time_h * ratio, time_h / size.value);
     constexpr auto kTime = static_cast<Index>(TwoPathTerm::warm_up_time),
                    kSize = static_cast<Index>(TwoPathTerm::warm_up);

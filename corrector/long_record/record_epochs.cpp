@@ -8,7 +8,7 @@
 namespace a351::corrector {
 namespace {
 
-/// Instants at which a channel begins an epoch.
+/// Returns the times at which an epoch of a channel begins.
 std::set<UtcTime> starts_in(const std::filesystem::path& metadata) {
     const auto document = record::load_station_document(metadata);
     std::set<UtcTime> starts;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What station metadata say of the sensor over the time of a record.
+/// Epochs of the sensor in the station metadata.
 
 #include <array>
 #include <filesystem>
@@ -14,22 +14,26 @@ namespace a351::corrector {
 
 inline constexpr std::size_t kRecordChannels = 4;  // x, y, z, temperature
 
-/// A time with one sensor and one scale of its channels.
+/// A period with one sensor and one scale of each channel.
 struct RecordEpoch {
     UtcTime start;
-    std::string serial_number;  ///< Empty: not told.
+    std::string serial_number;  ///< Serial number of the sensor; empty: not known.
     record::StationCodes codes;
     std::array<record::ChannelScale, kRecordChannels> scales;
 };
 
-/// In order of time; neighbours differ.  Samples before the first belong to the first.
+/// Reads the epochs in order of time; neighbours differ.  Samples before the first belong to the
+/// first.
+/// @param metadata  station.xml.
 /// @throws InputError  as read_station_xml() and find_channels().
 [[nodiscard]] std::vector<RecordEpoch> read_record_epochs(const std::filesystem::path& metadata);
 
-/// What is new in an epoch: "another sensor: B after A", "another scale of BNZ", "other channels".
+/// Returns the change from one epoch to the next: "another sensor: B after A", "another scale of
+/// BNZ", "other channels"; empty if there is none.
 [[nodiscard]] std::string epoch_change(const RecordEpoch& before, const RecordEpoch& after);
 
-/// @return empty where both are the same, or one is not told.
+/// Returns "another sensor: B after A" for two serial numbers.
+/// @return empty if both are the same, or if one is not known (empty).
 [[nodiscard]] std::string sensor_change(const std::string& before, const std::string& after);
 
 }  // namespace a351::corrector

@@ -17,7 +17,7 @@ std::string cell(double value, int decimals) {
     return std::isfinite(value) ? text::fixed(value, decimals) : std::string();
 }
 
-/// To be read again as it is.
+/// Returns the shortest text that is read back as the same number; empty if it is not finite.
 std::string exact_cell(double value) {
     return std::isfinite(value) ? text::shortest(value) : std::string();
 }
@@ -82,7 +82,7 @@ Json two_paths_json(const TwoPathFit& fit) {
             {"determined", parameter.is_determined},
             {"needed", parameter.is_determined ? Json(nullptr) : Json(parameter.needed)}};
     }
-    // Of the coefficients in their units, of the logarithms of lags and times.
+    // Covariance of the coefficients in their units, and of the logarithms of lags and times.
     for (Eigen::Index row = 0; row < fit.covariance.rows(); ++row) {
         Json cells = Json::array();
         for (Eigen::Index column = 0; column < fit.covariance.cols(); ++column)

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// The result of a long record as text, tables and JSON.  Run twice, the bytes are the same.
-/// Columns: corrector/methods.md, "A long record at one point".
+/// The result of a long record as text, CSV and JSON.  The same input gives the same bytes.
+/// Columns: corrector/long_record/long_record.md, "Files".
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -11,43 +11,48 @@
 
 namespace a351::corrector {
 
-/// A record that was read, divided and analysed.
+/// A record that was read, divided into segments and analysed.
 struct RecordResult {
     LongRecord record;
     RecordSegments parts;
-    std::size_t analysed = 0;  ///< Number of the segment, the longest.
+    std::size_t analysed = 0;  ///< Number of the analysed segment, from 0: the longest.
     RecordAnalysis analysis;
     RecordAnalysisOptions options;
-    std::optional<AppliedCalibration> applied;  ///< To the analysed segment.
+    std::optional<AppliedCalibration> applied;  ///< Calibration applied to the analysed segment.
 
+    /// Returns the analysed segment.
     [[nodiscard]] const RecordSegment& segment() const { return parts.segments[analysed]; }
 };
 
-/// Aligned tables: segments, statistics beside the publication's, response, reading, remarks.
+/// Returns the text for the terminal: segments, statistics and published values, reading, response,
+/// two paths, applied calibration, remarks.
 [[nodiscard]] std::string record_text(const RecordResult& result);
 
-/// A statistic with what the publication printed; a dash where it has none.
+/// A statistic and the published value; a dash if there is none.
 struct RecordStatistic {
-    std::string key;  ///< In result.json.
+    std::string key;  ///< Key in result.json.
     std::string name, unit, published;
     double value = 0.0;
-    int decimals = 0;
+    int decimals = 0;  ///< Number of decimals in tables.
 };
+/// Returns all statistics; those of the modes only if both modes were found.
 [[nodiscard]] std::vector<RecordStatistic> record_statistics(const RecordResult& result);
 
-/// `time_utc,acceleration_mgal,temperature_degc,segment`: every sample; empty where missing; the
-/// number of its segment from 1, empty where it is in none.  With a calibration `parametric_mgal` and
-/// `by_modes_mgal` follow, of the analysed segment.
+/// Returns record.csv: `time_utc,acceleration_mgal,temperature_degc,segment`, one row per sample.
+/// Cells of missing values are empty.  Segments are numbered from 1; empty outside all.  With a
+/// calibration `parametric_mgal` and `by_modes_mgal` follow, filled within the analysed segment.
 [[nodiscard]] std::string record_csv(const RecordResult& result);
 
-/// Both ways by period.
+/// Returns response.csv: the response by period, by spectrum and by modes.
 [[nodiscard]] std::string response_csv(const RecordResult& result);
 
+/// Returns result.json; values that are not finite are null.
 /// @param settings  object with every option of the run.
 [[nodiscard]] std::string record_json(const RecordResult& result,
                                       const nlohmann::ordered_json& settings);
 
-/// record.csv, response.csv and result.json.
+/// Returns record.csv, response.csv and result.json.
+/// @param settings  as record_json().
 [[nodiscard]] std::vector<text::NamedText> record_files(const RecordResult& result,
                                                         const nlohmann::ordered_json& settings);
 

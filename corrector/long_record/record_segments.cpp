@@ -11,18 +11,18 @@
 namespace a351::corrector {
 namespace {
 
-constexpr std::size_t kBeside = 9;  // samples in a median beside a step: 3 min
-constexpr double kSame_degc = 1e-9,
-                 kSame_mgal = 1e-6;  // what three filters' rounding leaves of a constant
+constexpr std::size_t kBeside = 9;  // samples of the median on either side of a step: 3 min
+// Largest difference of equal values: rounding of a constant by three filters.
+constexpr double kSame_degc = 1e-9, kSame_mgal = 1e-6;
 
 double median_of(const std::vector<double>& values, std::size_t first, std::size_t behind) {
     return median({values.begin() + static_cast<std::ptrdiff_t>(first),
                    values.begin() + static_cast<std::ptrdiff_t>(behind)});
 }
 
-/// Valid samples of a stretch, by their places.
+/// Valid samples of a stretch.
 struct Valid {
-    std::vector<std::size_t> places;
+    std::vector<std::size_t> places;  ///< Their numbers in the stretch.
     std::vector<double> acceleration_mgal, temperature_degc;
 
     [[nodiscard]] std::size_t size() const noexcept { return places.size(); }
@@ -54,7 +54,7 @@ Valid valid_samples(const RecordStretch& stretch, const std::vector<bool>& is_st
     return valid;
 }
 
-/// Size of the step before each valid sample, where there is one; 0 elsewhere.
+/// Returns the size of the step before each valid sample, mGal; 0 if there is none.
 std::vector<double> find_steps(const std::vector<double>& values, const SegmentOptions& options) {
     const std::size_t count = values.size();
     std::vector<double> steps(count, 0.0);
@@ -66,13 +66,13 @@ std::vector<double> find_steps(const std::vector<double>& values, const SegmentO
     }
     const double limit =
         std::max(options.step_threshold * kGaussianPerMad * median(sizes), options.least_step_mgal);
-    // A step shows as high in its neighbours' medians; of equals the middle one.
+    // A step also raises the differences of medians next to it.
     for (std::size_t i = kBeside; i + kBeside <= count;) {
         if (std::abs(rises[i]) <= limit) {
             ++i;
             continue;
         }
-        // The greatest single change within the run of large rises is where it happened.
+        // The step is at the greatest single change within the run of large differences.
         std::size_t behind = i;
         while (behind + kBeside <= count && std::abs(rises[behind]) > limit) ++behind;
         std::size_t at = i;
@@ -135,7 +135,8 @@ private:
             for (std::size_t i = 0; i < is_stuck.size(); ++i)
                 is_stuck[i] = is_stuck[i] || is_still[i];
         };
-        // The tide moves a norm that stands still; the axes it has not touched.
+        // A stuck norm varies after the tide is subtracted, so the axes are tested if there are
+        // any.
         constexpr std::array kNames{"the x axis", "the y axis", "the z axis"};
         if (stretch.axes_mgal.empty()) refuse(stretch.acceleration_mgal, "the acceleration");
         for (std::size_t k = 0; k < stretch.axes_mgal.size(); ++k)
@@ -182,7 +183,7 @@ private:
     std::string break_text(const RecordStretch& stretch, const std::vector<bool>& is_stuck,
                            const Valid& valid, std::size_t i, bool& is_restart) const {
         for (std::size_t k = valid.places[i - 1] + 1; k < valid.places[i]; ++k)
-            if (is_stuck[k]) return "the sensor goes on";
+            if (is_stuck[k]) return "end of the stuck values";
         const double change = level(valid, i, std::min(valid.size(), i + kBeside)) -
                               level(valid, i - std::min(i, kBeside), i);
         return gap_text(
@@ -223,7 +224,7 @@ private:
         result_.segments.push_back(std::move(segment));
     }
 
-    /// Valid sample `i`, and the straight line from `previous` to it.
+    /// Appends the straight line from valid sample `previous` to valid sample `i`, and sample `i`.
     static void append(RecordSegment& segment, const Valid& valid, std::size_t previous,
                        std::size_t i) {
         const std::size_t steps = valid.places[i] - valid.places[previous];

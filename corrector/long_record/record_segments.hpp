@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The parts of a long record that can be analysed, and why the rest cannot.
+/// The segments of a long record that can be analysed, and the reasons why other parts cannot.
 
 #include <string>
 #include <vector>
@@ -9,37 +9,41 @@
 
 namespace a351::corrector {
 
+/// Limits for the division into segments; samples are 20 s apart.
 struct SegmentOptions {
-    /// Longest gap bridged by a straight line, in samples: a third of a cycle of 15 min.
+    /// Longest gap that is bridged by a straight line, samples.  Reason: a third of a cycle of 15
+    /// min.
     std::size_t longest_bridge = 15;
-    /// Shortest segment in samples: 3 h, twelve cycles of 15 min.
+    /// Shortest segment, samples.  Reason: 3 h are twelve cycles of 15 min.
     std::size_t shortest = 540;
-    /// A temperature, axis or acceleration that is the same to the last digit for so many samples, 20 min, is
-    /// stuck: the sensor has more noise than that.
+    /// Least number of equal samples of a stuck temperature, axis or acceleration (20 min).
+    /// Reason: the noise of a working sensor changes the last digits.
     std::size_t stuck = 60;
-    /// A step between the medians of nine samples before and after, over 1.4826 MAD of all such
-    /// differences, and at least in mGal: the box was moved.
+    /// Least step of the acceleration, in units of 1.4826 MAD of all such differences.  A step is
+    /// the difference between the medians of nine samples after and before; the box was moved.
     double step_threshold = 8.0;
+    /// Least step of the acceleration, mGal; both limits must be exceeded.
     double least_step_mgal = 5.0;
-    /// find_disturbances(): knocks.
+    /// Threshold of find_disturbances() for knocks.
     double disturbance_threshold = 8.0;
-    /// Change of temperature across a gap after which the sensor must have been without power: five
-    /// times the cycle's swing.
+    /// Change of temperature across a gap, degC, above which the sensor must have been without
+    /// power.  Reason: five times the swing of the oven's cycle.
     double restart_degc = 0.1;
 };
 
-/// A run of samples without a break, bridged where single ones were missing.
+/// A run of n samples without a break; missing samples are bridged by straight lines.
 struct RecordSegment {
-    UtcTime start;
-    UtcTime end;                ///< Of the last sample.
-    std::string serial_number;  ///< Of the sensor; empty: not told.
-    std::string begins_with;    ///< Why it begins: "the record begins", "gap of 512 s" ...
-    std::vector<double> acceleration_mgal;
-    std::vector<double> temperature_degc;
-    std::size_t bridged = 0;    ///< Samples made by a straight line ...
-    std::size_t disturbed = 0;  ///< ... of which so many were knocks.
-    bool is_restart = false;    ///< The sensor was switched on before it.
+    UtcTime start;              ///< Time of the first sample.
+    UtcTime end;                ///< Time of the last sample.
+    std::string serial_number;  ///< Serial number of the sensor; empty: not known.
+    std::string begins_with;    ///< Reason of its start: "the record begins", "gap of 512 s" ...
+    std::vector<double> acceleration_mgal;  ///< (n)
+    std::vector<double> temperature_degc;   ///< (n)
+    std::size_t bridged = 0;                ///< Number of samples from straight lines.
+    std::size_t disturbed = 0;              ///< Number of these that replace knocks.
+    bool is_restart = false;                ///< True: the sensor was switched on before it.
 
+    /// Returns n.
     [[nodiscard]] std::size_t size() const noexcept { return acceleration_mgal.size(); }
 };
 
@@ -49,13 +53,14 @@ struct RefusedPart {
     std::string reason;
 };
 
+/// The parts of a record.
 struct RecordSegments {
     std::vector<RecordSegment> segments;  ///< In order of time.
-    std::vector<RefusedPart> refused;
+    std::vector<RefusedPart> refused;     ///< In order of their start.
 };
 
-/// Divides a record at gaps, steps of the acceleration, restarts and where a channel is stuck.  Samples
-/// that are stuck are missing ones.
+/// Divides a record at gaps, at steps of the acceleration and at restarts.  Stuck samples are
+/// refused and count as missing.  Rules: corrector/long_record/long_record.md, "Segments".
 [[nodiscard]] RecordSegments divide_record(const LongRecord& record,
                                            const SegmentOptions& options = {});
 

@@ -70,7 +70,7 @@ TextTable response_table(const RecordResult& result) {
 }
 
 TextTable two_paths_table(const RecordResult& result) {
-    TextTable rows{{"two paths", "value", "standard error", "unit", "not determined; needed"}};
+    TextTable rows{{"two paths", "value", "standard error", "unit", "needed to determine it"}};
     for (const FittedParameter& parameter : result.analysis.two_paths.parameters) {
         const int decimals = parameter.unit == "s" ? 0 : parameter.unit == "mGal/h" ? 4 : 2;
         rows.push_back({parameter.name, text::fixed(parameter.value, decimals),

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The tables of a long record as cells, for the terminal and the page; the first row is the header.
+/// The tables of a long record as cells, for the terminal and the page.
 
 #include <string>
 #include <vector>
@@ -9,24 +9,26 @@
 
 namespace a351::corrector {
 
+/// Cells by row; the first row is the header.
 using TextTable = std::vector<std::vector<std::string>>;
 
-/// The analysed one is marked by a star.
+/// Returns the segments; the analysed one has a star.
 [[nodiscard]] TextTable segments_table(const RecordResult& result);
-/// Statistics beside the published ones.
+/// Returns the statistics and the published values.
 [[nodiscard]] TextTable statistics_table(const RecordResult& result);
-/// Both ways by period; what is claimed only.
+/// Returns the response by period in both ways, without refused points.
 [[nodiscard]] TextTable response_table(const RecordResult& result);
-/// Parameters of the two paths, and what would determine those that are not.
+/// Returns the parameters of the two paths; for undetermined ones with the record that is needed.
 [[nodiscard]] TextTable two_paths_table(const RecordResult& result);
 
-/// A line per part of the record that is not analysed.
+/// Returns one line per part of the record that is not analysed.
 [[nodiscard]] std::vector<std::string> refused_parts(const RecordResult& result);
-/// A line per run of bands or modes that are refused for the same reason.
+/// Returns one line per run of bands or modes that are refused for the same reason.
 [[nodiscard]] std::vector<std::string> refused_bands(const RecordResult& result);
-/// Which modes were taken for the cycle; empty when there are none.
+/// Returns a line with the modes of the cycle; empty if they were not found in both series.
 [[nodiscard]] std::string chosen_modes(const RecordResult& result);
-/// Static slope, what the fit leaves, and whether that still follows the temperature.
+/// Returns a sentence on the static slope, on the residual of the fit, and on the bands in which
+/// the residual still follows the temperature.
 [[nodiscard]] std::string two_paths_reading(const RecordResult& result);
 
 }  // namespace a351::corrector

@@ -33,7 +33,7 @@ std::vector<RecordStatistic> record_statistics(const RecordResult& result) {
                              const PairStatistics& pair) {
         const CorrelationPeak &negative = pair.correlation.negative,
                               &positive = pair.correlation.positive;
-        const std::string moved = ", sign turned, " + text::fixed(pair.shift_s, 0) + " s earlier";
+        const std::string moved = ", sign inverted, " + text::fixed(pair.shift_s, 0) + " s earlier";
         list.insert(
             list.end(),
             {{key + "_period_s", name + ": period of the temperature", "s", "600-900",
@@ -53,7 +53,7 @@ std::vector<RecordStatistic> record_statistics(const RecordResult& result) {
              {key + "_positive_delay_s", name + ": delay of the positive peak", "s", "other side",
               positive.delay_s, 0},
              {key + "_positive_peak", name + ": its correlation", "", "-", positive.value, 3},
-             {key + "_peak_ratio", name + ": positive by negative peak", "", "about 1",
+             {key + "_peak_ratio", name + ": ratio of positive to negative peak", "", "about 1",
               std::abs(positive.value / negative.value), 3},
              {key + "_phase_deg", name + ": phase by both peaks", "deg", "-",
               phase_of_peaks_deg(pair), 0}});

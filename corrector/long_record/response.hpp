@@ -1,6 +1,12 @@
 #pragma once
 /// @file
 /// Gain and phase of the acceleration against the temperature by period, in two independent ways.
+///
+/// H(period) = gain exp(i phase); phase > 0: the acceleration leads.  Limits are those of 95 %
+/// confidence by default.  Methods: corrector/long_record/long_record.md, "Response by period".
+///
+/// Accuracy of both ways (response_test.cpp): at least 85 % of the claimed points contain gain and
+/// phase of the simulated plant within their limits.
 
 #include <span>
 #include <string>
@@ -8,58 +14,90 @@
 
 namespace a351::corrector {
 
-/// With the limits of 95 % confidence.
+/// A value with its confidence limits.
 struct Limits {
     double value = 0.0, low = 0.0, high = 0.0;
 };
 
-/// Of one band or mode.
+/// The response in one band, or of one mode.
 struct ResponsePoint {
-    double period_s = 0.0;  ///< Mean frequency of the temperature's power in it, as a period.
-    double shortest_s = 0.0,
-           longest_s = 0.0;  ///< Of the band; of a mode the octave about its period.
-    Limits gain;             ///< mGal/degC
-    Limits phase_deg;        ///< Positive: the acceleration leads; limits may pass +-180.
-    double coherence = 0.0;  ///< Squared; by modes, of the mode and the whole acceleration.
-    double temperature_rms_degc = 0.0;
-    std::string refusal;  ///< Why no gain is claimed; else empty.
-    std::string needed;   ///< What record would show one.
+    double period_s = 0.0;  ///< Period of the mean frequency of the temperature's power.
+    /// Limits of the band; for a mode the octave about its period.
+    double shortest_s = 0.0, longest_s = 0.0;
+    Limits gain;       ///< mGal/degC; >= 0.
+    Limits phase_deg;  ///< Positive: the acceleration leads; limits may be beyond +-180.
+    /// Squared coherence, 0 to 1.  By modes: squared correlation of the mode and the acceleration.
+    double coherence = 0.0;
+    double temperature_rms_degc = 0.0;  ///< Rms of the temperature in the band or mode.
+    std::string refusal;                ///< Reason why no gain is claimed; empty if it is claimed.
+    std::string needed;                 ///< Record that would show a gain; empty if it is claimed.
 };
 
+/// Options of both ways.
 struct ResponseOptions {
-    double cycle_s = 900.0;     ///< Bands are half octaves about this and its multiples.
-    double shortest_s = 120.0;  ///< Three filters of the decimation leave less below.
-    double cycles = 6.0;        ///< Of a period that the record must hold.
-    double significance = 0.05;
+    double cycle_s = 900.0;      ///< Cycle of the oven; one half-octave band has it in its middle.
+    double shortest_s = 120.0;   ///< Shortest period.  Reason: below, three filters attenuate.
+    double cycles = 6.0;         ///< Cycles of a period that the record must contain; by spectrum.
+    double significance = 0.05;  ///< 1 - confidence of the limits.
 };
 
-/// By cross-spectra: sine tapers over the whole segment, averaged in half-octave bands, as many tapers
-/// as resolve half the band.
+/// Computes the response by cross-spectra.
 ///
-/// The limits are the circle of J. S. Bendat and A. G. Piersol, Random Data, 4th ed., Wiley 2010,
-/// section 9.2 (after N. R. Goodman, 1957) with the degrees of freedom that the temperature's power
-/// really has in the band: a line counts as little more than the tapers.
-/// Tapers: K. S. Riedel and A. Sidorenko, IEEE Trans. Signal Process. 43, 188-195, 1995.
-/// @param temperature_degc, acceleration_mgal  (n)
+/// Both series without a straight line are multiplied by sine tapers over the whole segment;
+/// spectra are averaged over the tapers and over half-octave bands.  3 to 15 tapers are used, as
+/// many as resolve half the band.  H = S_aT / S_TT, coherence = |S_aT|^2 / (S_TT S_aa).  The limits
+/// are a circle about H:
+///
+///     |H - estimate|^2 <= (significance^(-1 / (nu - 1)) - 1) (1 - coherence) S_aa / S_TT
+///
+/// nu is the number of resolutions that the temperature's power fills in the band, minus one, at
+/// least 2: a spectral line counts as little more than the tapers.
+///
+/// A point is refused if the record has fewer than `cycles` cycles, if more than a fifth of the
+/// temperature's power is the thermometer's noise, if the limits of the gain reach 0, or if a
+/// series is constant.  Limits are always finite (response_test.cpp).
+/// @param temperature_degc   (n) finite, n >= 3.
+/// @param acceleration_mgal  (n) finite.
+/// @param step_s             time between samples, s.
+/// @param options            see ResponseOptions.
+/// @return one point per band, the fastest first.
+/// Source: J. S. Bendat and A. G. Piersol, Random Data, 4th ed., Wiley 2010, section 9.2 (after N.
+/// R. Goodman, 1957).  Tapers: K. S. Riedel and A. Sidorenko, IEEE Trans. Signal Process. 43,
+/// 188-195, 1995.
 [[nodiscard]] std::vector<ResponsePoint> response_by_spectrum(
     std::span<const double> temperature_degc, std::span<const double> acceleration_mgal,
     double step_s, const ResponseOptions& options = {});
 
-/// Power of the temperature, and what of it is the thermometer's white noise.
+/// Power of the temperature, and the thermometer's white noise in it.  White noise of variance v
+/// has the power v at every frequency.
 struct ThermometerSpectrum {
-    std::vector<double> power;  ///< At k / (n step), n of fast_length(); seven sine tapers.
-    double noise = 0.0;         ///< Mean of the power between 70 and 110 s, which no oven moves.
+    std::vector<double> power;  ///< degC^2 at the frequencies k / (n step); seven sine tapers.
+    double noise = 0.0;         ///< degC^2: mean power from 70 to 110 s, where no oven acts.
 };
-/// @param temperature_degc  (n), n of fast_length().
+/// Returns the power spectrum of the temperature without a straight line.
+/// @param temperature_degc  (n) finite, with n = fast_length(n).
+/// @param step_s            time between samples, s.
 [[nodiscard]] ThermometerSpectrum thermometer_spectrum(std::span<const double> temperature_degc,
                                                        double step_s);
 
-/// By modes: each mode of the temperature as the instrument on which temperature and acceleration
-/// are projected, H = sum a z* / sum T z* with their analytic signals, so that no mode of the
-/// acceleration has to be matched.  The limits are the wider of two: blocks left out in turn
-/// (jackknife), that is how much the response differs along the record; and the gains that appear when
-/// what the response leaves is shifted along the record, that is chance.
-/// @param modes  of the temperature, fastest first.
+/// Computes the response by modes of the temperature.
+///
+/// Temperature and acceleration are projected on each mode: H = sum a z* / sum T z*, with the
+/// analytic signals a, T and z of acceleration, temperature and mode.  The mode only selects; no
+/// mode of the acceleration has to be matched with it.  Half a period at either end is left out.
+///
+/// The limits are the wider of two:
+/// - a jackknife over 4 to 24 blocks of at least three cycles, which shows how the response varies
+///   along the record;
+/// - chance: the gains that appear if the rest a - H T is shifted around the record.
+///
+/// A point is refused with fewer than 13 cycles, if half or twice the gain is within the limits, or
+/// if a series is constant.  Modes with a period below `shortest_s` are skipped.
+/// @param modes              modes of the temperature (n each), fastest first.
+/// @param temperature_degc   (n) finite.
+/// @param acceleration_mgal  (n) finite.
+/// @param step_s             time between samples, s.
+/// @param options            `shortest_s` and `significance` are used.
 [[nodiscard]] std::vector<ResponsePoint> response_by_modes(
     const std::vector<std::vector<double>>& modes, std::span<const double> temperature_degc,
     std::span<const double> acceleration_mgal, double step_s, const ResponseOptions& options = {});

@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::size_t kFewestTapers = 3, kMostTapers = 15;
 constexpr double kHalfOctave = std::numbers::sqrt2;
-constexpr double kNoiseShare = 0.2;  // of the thermometer in a band: it lowers the gain as much
+constexpr double kNoiseShare = 0.2;  // largest share of noise; it lowers the gain by this share
 
-/// Spectra of both series with each taper; of unit white noise 1.
+/// Spectra of both series with each taper; white noise of variance 1 has the mean square 1.
 struct TaperedSpectra {
     std::vector<Spectrum> temperature, acceleration;
-    double bin_hz = 0.0;    ///< From value to value.
-    double rayleigh = 0.0;  ///< Values in the resolution of the untapered record.
+    double bin_hz = 0.0;    ///< Distance of the frequencies.
+    double rayleigh = 0.0;  ///< Number of values within the resolution of the untapered record.
 
     [[nodiscard]] std::size_t size() const { return temperature.front().size(); }
 };
@@ -37,6 +37,8 @@ TaperedSpectra tapered_spectra(std::span<const double> temperature,
     for (std::size_t taper = 1; taper <= kMostTapers; ++taper) {
         const double angle = std::numbers::pi * static_cast<double>(taper) / n1;
         for (std::size_t i = 0; i < count; ++i) {
+            // w_k(i) = sqrt(2 / (n + 1)) sin(pi k i / (n + 1)), i = 1 ... n
+            // (Riedel and Sidorenko 1995)
             const double weight =
                 std::sqrt(2.0 / n1) * std::sin(angle * static_cast<double>(i + 1));
             tapered_t[i] = weight * t[i];
@@ -48,7 +50,7 @@ TaperedSpectra tapered_spectra(std::span<const double> temperature,
     return result;
 }
 
-/// Frequencies [first, behind) of a band.
+/// A band of periods and its frequencies [first, behind).
 struct Band {
     double shortest_s, longest_s;
     std::size_t first, behind;
@@ -73,9 +75,10 @@ std::vector<Band> bands_of(const TaperedSpectra& spectrum, double step_s,
     return bands;
 }
 
-/// White noise of the thermometer: the mean spectrum at periods that no oven moves.
+/// Returns the white noise of the thermometer, degC^2: the mean power at periods where no oven
+/// acts.
 double thermometer_noise(const TaperedSpectra& spectrum) {
-    constexpr double kLongest_s = 110.0, kShortest_s = 70.0;  // the filters' edge is at 40 s
+    constexpr double kLongest_s = 110.0, kShortest_s = 70.0;  // the edge of the filters is at 40 s
     double sum = 0.0, count = 0.0;
     for (std::size_t k = 1; k < spectrum.size(); ++k) {
         const double period_s = 1.0 / (static_cast<double>(k) * spectrum.bin_hz);
@@ -92,7 +95,7 @@ ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, doub
     std::complex<double> at = 0.0;
     // The main lobe of K tapers is K + 1 resolutions wide.
     const double cycles = record_s / std::sqrt(band.shortest_s * band.longest_s);
-    constexpr double kRelativeWidth = 0.348;  // of half an octave
+    constexpr double kRelativeWidth = 0.348;  // width of half an octave, share of its middle
     const auto tapers = std::clamp(static_cast<std::size_t>(0.5 * kRelativeWidth * cycles),
                                    kFewestTapers + 1, kMostTapers + 1) -
                         1;
@@ -116,17 +119,19 @@ ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, doub
     point.period_s = tt > 0.0 ? tt / frequency : std::sqrt(band.shortest_s * band.longest_s);
     point.temperature_rms_degc =
         std::sqrt(2.0 * tt / spectrum.rayleigh / static_cast<double>(samples));
-    // Of a constant rounding may leave so little that the quotient is no number.
+    // H = S_aT / S_TT.  For a constant, rounding may leave so little that the quotient is no
+    // number.
     const std::complex<double> gain = at / tt;
     if (!(tt > 0.0) || !(aa > 0.0) || !std::isfinite(std::abs(gain)) || !std::isfinite(aa / tt)) {
-        point.refusal = "one of both is constant";
-        point.needed = "a record in which both move";
+        point.refusal = "temperature or acceleration is constant";
+        point.needed = "a record in which both vary";
         return point;
     }
-    // Bins that carry the temperature's power, in units of the resolution: a line is as wide as the
-    // tapers make it.
+    // nu: resolutions filled by the temperature's power, minus one.  A line is as wide as the
+    // tapers.
     const double freedom = std::max(tt * tt / tt2 / spectrum.rayleigh - 1.0, 2.0);
-    point.coherence = std::min(1.0, std::norm(at) / tt / aa);  // rounding goes above 1
+    point.coherence = std::min(1.0, std::norm(at) / tt / aa);  // rounding may exceed 1
+    // Limits: |H - estimate|^2 <= (alpha^(-1 / (nu - 1)) - 1) (1 - coherence) S_aa / S_TT
     const double quantile = std::pow(options.significance, -1.0 / (freedom - 1.0 + 1e-9)) - 1.0;
     const double radius = std::sqrt(quantile * (1.0 - point.coherence) * aa / tt);
     point.gain = {std::abs(gain), std::max(0.0, std::abs(gain) - radius), std::abs(gain) + radius};
@@ -147,8 +152,8 @@ ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, doub
         point.needed = "a swing of " + text::fixed(least_swing_degc, 4) + " degC";
     } else if (radius >= std::abs(gain)) {
         point.refusal = "no coherence above chance";
-        point.needed = "more swing or a longer record: a response below " +
-                       text::fixed(point.gain.high, 0) + " mGal/degC does not show";
+        point.needed = "a larger temperature swing or a longer record; here no response below " +
+                       text::fixed(point.gain.high, 0) + " mGal/degC can be detected";
     }
     return point;
 }

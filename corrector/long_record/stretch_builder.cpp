@@ -13,7 +13,8 @@ double norm_at(const std::vector<std::vector<double>>& channels, std::size_t i) 
                      channels[2][i] * channels[2][i]);
 }
 
-/// std::fmin() and std::fmax() take the number beside a NaN, but are calls.
+/// Widens a range by a value; NaN is ignored.  std::fmin() and std::fmax() would do the same, but
+/// are function calls.
 void widen(double& low, double& high, double value) {
     if (!(value >= low)) low = std::isnan(value) ? low : value;
     if (!(value <= high)) high = std::isnan(value) ? high : value;

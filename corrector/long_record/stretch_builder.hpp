@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Samples of three axes (or their norm) and temperature, block by block, to a RecordStretch.
+/// Builds a RecordStretch from blocks of samples.
 
 #include <cstdint>
 #include <span>
@@ -11,36 +11,41 @@
 
 namespace a351::corrector {
 
-/// Decimates as it goes: memory grows with the output only.  Axes are decimated first and their norm
-/// is taken afterwards, so that vibration does not rectify.
+/// Builds a stretch from samples of three axes (or their norm) and temperature.
+///
+/// Samples are decimated as they arrive, so that memory grows with the output only.  Axes are
+/// decimated first and their norm is taken afterwards, so that vibration is not rectified.  Blocks
+/// of any size give the same stretch (record_reading_test.cpp).
 class StretchBuilder {
 public:
-    /// @param stages  0 to kMostRecordStages of 10.
+    /// @param stages  number of decimation stages of 10, 0 to kMostRecordStages.
     /// @param axes    3 (x, y, z) or 1 (their norm).
     StretchBuilder(int stages, std::size_t axes);
 
-    /// Inputs from one sample of the output to the next.
+    /// Returns the number of input samples per output sample.
     [[nodiscard]] std::int64_t inputs_per_sample() const noexcept { return inputs_per_sample_; }
 
-    /// Takes samples that follow the last ones, mGal and degC, NaN where missing.
-    /// @param channels  the axes, then the temperature; all of the same length.
+    /// Adds samples that follow the last ones; NaN if missing.
+    /// @param channels  the axes (mGal), then the temperature (degC); all of the same length.
     void push(const std::vector<std::vector<double>>& channels);
 
-    /// Of the input that is sample `k` of the output; those never given follow the one before them.
+    /// Sets the time of output sample `k`.  A sample without a time is one step after the sample
+    /// before.
     void set_time(std::int64_t k, UtcTime time);
 
+    /// Returns the number of input samples added.
     [[nodiscard]] std::int64_t input_count() const noexcept { return input_count_; }
 
-    /// What has been pushed, as a stretch.
-    /// @param step_s  from output to output where no time was given.
-    /// @pre input_count() > 0 and the time of output 0 was given.
+    /// Returns all samples as a stretch; the builder cannot be used again.
+    /// @param step_s  time between output samples, s, for those without a time.
+    /// @pre input_count() > 0, and the time of output sample 0 was set.
     [[nodiscard]] RecordStretch finish(double step_s);
 
 private:
     void add_to_ranges(const std::vector<std::vector<double>>& channels);
 
     std::int64_t inputs_per_sample_ = 1;
-    std::vector<Decimator> decimators_;         ///< One per channel; none without a stage.
+    std::vector<Decimator> decimators_;         ///< One per channel; empty without stages.
     std::vector<std::vector<double>> outputs_;  ///< One per channel.
     std::vector<RecordStretch::RawRange> raw_;
     std::vector<UtcTime> times_;

@@ -20,18 +20,21 @@ namespace a351::corrector {
 namespace {
 
 using Index = Eigen::Index;
-using Lags = std::array<double, 3>;  // logarithms over the priors' deviations: fast, slow, warm-up
+/// Lags tF, tS and time tW: logarithms of lag / median, in standard deviations of their priors.
+using Lags = std::array<double, 3>;
 
-constexpr double kShortest_s = 240.0;  // below, the thermometer's noise outweighs what it shows
-constexpr Index kLinear = 5;           // drift ... slow
+constexpr double kShortest_s = 240.0;  // at shorter periods the thermometer's noise dominates
+constexpr Index kLinear = 5;           // number of linear terms: drift ... slow
 constexpr std::array<double, kLinear> kPriorDeviation{1.0, 60.0, 60.0, 30.0, 60.0};
 constexpr Lags kLagMedian_s{43.0, 2700.0, 9000.0};
 constexpr Lags kLagFactor{2.0, 2.0, 1.5};
 
+/// Returns lag k at the point u, s: median x factor^u.
 double lag_s(const Lags& u, std::size_t k) {
     return kLagMedian_s[k] * std::pow(kLagFactor[k], u[k]);
 }
 
+/// The regression by frequency: series, spectra, noise, and the cost of the lags.
 class Problem {
 public:
     Problem(const std::vector<double>& temperature, const std::vector<double>& acceleration,
@@ -55,7 +58,7 @@ public:
         for (Index k = 0; k < frequencies_; ++k) noise_(k) = 1.0 / static_cast<double>(k + 1);
     }
 
-    /// (n, kLinear) of the model's columns over the whole series.
+    /// Returns the model's columns, kLinear series of the temperature's length.
     [[nodiscard]] std::vector<std::vector<double>> columns(const TimeSeries<DegC>& temperature,
                                                            const Lags& u) const {
         const std::vector<double>& t = temperature.values();
@@ -73,7 +76,8 @@ public:
         return all;
     }
 
-    /// (2 frequencies, kLinear): real parts above imaginary ones, noise 1, priors 1.
+    /// Returns the columns (2 frequencies, kLinear), real parts above imaginary parts, scaled to
+    /// noise and priors of variance 1.
     [[nodiscard]] Eigen::MatrixXd design(const Lags& u) const {
         const auto all = columns(temperature_, u);
         Eigen::MatrixXd x(2 * frequencies_, kLinear);
@@ -87,20 +91,25 @@ public:
         return x;
     }
 
+    /// Returns the acceleration (2 frequencies), scaled to noise of variance 1.
     [[nodiscard]] Eigen::VectorXd readings() const { return whitened(readings_); }
 
+    /// Returns -ln(restricted likelihood x priors) of the lags, up to a constant; infinite if it
+    /// overflows.
     [[nodiscard]] double cost(const Lags& u) const {
         const Eigen::MatrixXd x = design(u);
         const Eigen::VectorXd y = readings();
         const Cholesky factor(normal_matrix(x));
-        if (!factor.is_positive_definite()) return HUGE_VAL;  // Numbers that overflow.
+        if (!factor.is_positive_definite()) return HUGE_VAL;  // overflow
         const Eigen::VectorXd half = factor.half_solve(x.transpose() * y);
+        // 2 cost = ln det(X'X + 1) + y'y - |L^-1 X'y|^2 + |u|^2, with L L' = X'X + 1
         double sum = factor.log_determinant() + y.squaredNorm() - half.squaredNorm();
         for (const double value : u) sum += value * value;
         return 0.5 * sum;
     }
 
-    /// From afar by subplexes, from nearby by parabolas, which need a third of the time.
+    /// Returns the lags of least cost.  Without a start nearby by Subplex, with one by BOBYQA,
+    /// which needs a third of the time.
     [[nodiscard]] Lags most_likely(Lags u, bool is_nearby) const {
         constexpr unsigned kLags = 3;
         const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> search(
@@ -110,7 +119,7 @@ public:
             std::transform(point, point + kLags, at.begin(), search_point);
             return search_cost(static_cast<const Problem*>(problem)->cost(at));
         };
-        constexpr double kFarthest = 5.0;  // standard deviations of the priors
+        constexpr double kFarthest = 5.0;  // bound of the search, standard deviations of the priors
         nlopt_set_min_objective(search.get(), cost_of, const_cast<Problem*>(this));
         nlopt_set_lower_bounds1(search.get(), -kFarthest);
         nlopt_set_upper_bounds1(search.get(), kFarthest);
@@ -123,13 +132,14 @@ public:
         return u;
     }
 
-    /// In units of the priors' deviations.
+    /// Returns the coefficients in deviations of their priors: (X'X + 1)^-1 X'y.
     [[nodiscard]] Eigen::VectorXd coefficients(const Lags& u) const {
         const Eigen::MatrixXd x = design(u);
         return Cholesky(normal_matrix(x)).solve(x.transpose() * readings());
     }
 
-    /// Of coefficients and lags, in units of the priors' deviations; linearised.
+    /// Returns the covariance of coefficients and lags, in deviations of their priors:
+    /// (J'J + 1)^-1, with the derivatives J by coefficients and lags.
     [[nodiscard]] Eigen::MatrixXd covariance(const Lags& u, const Eigen::VectorXd& beta) const {
         constexpr double kStep = 0.05;
         Eigen::MatrixXd jacobian(2 * frequencies_, static_cast<Index>(kTwoPathTerms));
@@ -144,7 +154,7 @@ public:
         return Cholesky(normal_matrix(jacobian)).inverse();
     }
 
-    /// Takes the noise from what the coefficients leave.
+    /// Sets the noise from the residuals.
     void update_noise(const Lags& u, const Eigen::VectorXd& beta) {
         const Eigen::VectorXd rest = readings() - design(u) * beta;
         Eigen::VectorXd power(frequencies_);
@@ -162,31 +172,34 @@ private:
         return n;
     }
 
+    /// Sets the weights of the frequencies: the share of the temperature's power that is not noise.
+    ///
     /// Noise of the thermometer in the regressors would flatten the fit, most where the oven hardly
-    /// moves: each frequency counts with the share of its power that is no noise.  Where that power is
-    /// less than three times the noise, nothing is: of noise alone, 14 degrees of freedom by seven
-    /// tapers, it is above once in ten thousand.
+    /// acts.  If the power is less than three times the noise, the weight is 0: noise alone, with
+    /// 14 degrees of freedom from seven tapers, exceeds this once in ten thousand frequencies.
     /// Source: R. J. Carroll et al., Measurement Error in Nonlinear Models, 2nd ed., Chapman & Hall
     /// 2006, chap. 4 (regression calibration).
     void set_trust() {
         constexpr double kLeastPower = 3.0;
         const ThermometerSpectrum spectrum = thermometer_spectrum(temperature_.values(), step_s_);
-        trust_.resize(frequencies_);
+        signal_share_.resize(frequencies_);
         for (Index k = 0; k < frequencies_; ++k) {
             const double power = spectrum.power[static_cast<std::size_t>(k + 1)];
-            trust_(k) = power < kLeastPower * spectrum.noise ? 0.0 : 1.0 - spectrum.noise / power;
+            signal_share_(k) =
+                power < kLeastPower * spectrum.noise ? 0.0 : 1.0 - spectrum.noise / power;
         }
     }
 
-    /// A column of the temperature, a straight line of that slope in it: the line leaks into every
-    /// frequency and is no noise in any.
+    /// Returns a column of the temperature with the weights applied, except to the straight line of
+    /// this slope in it: the line leaks into every frequency and is noise in none.
     [[nodiscard]] Eigen::VectorXd trusted(Eigen::VectorXd column, double slope) const {
         column -= slope * ramp_;
-        column.head(frequencies_).array() *= trust_.array();
-        column.tail(frequencies_).array() *= trust_.array();
+        column.head(frequencies_).array() *= signal_share_.array();
+        column.tail(frequencies_).array() *= signal_share_.array();
         return column + slope * ramp_;
     }
 
+    /// Returns the spectrum of a series minus its mean (2 frequencies), real above imaginary parts.
     [[nodiscard]] Eigen::VectorXd transformed(const std::vector<double>& values) const {
         const double mean = mean_of(values);
         std::vector<double> centred = values;
@@ -200,13 +213,15 @@ private:
         return parts;
     }
 
-    /// noise_ is the mean square of either part.
+    /// Divides real and imaginary parts by the root of the noise, which is the mean square of each.
     [[nodiscard]] Eigen::VectorXd whitened(Eigen::VectorXd parts) const {
         parts.head(frequencies_).array() /= noise_.array().sqrt();
         parts.tail(frequencies_).array() /= noise_.array().sqrt();
         return parts;
     }
 
+    /// Sets the noise to the power, smoothed in half octaves; the lowest frequencies to at least
+    /// 1/f.
     void smooth_noise(const Eigen::VectorXd& power) {
         constexpr Index kLowest = 8;
         constexpr double kBandRatio = std::numbers::sqrt2;  // half an octave
@@ -233,21 +248,21 @@ private:
     double mean_degc_ = 0.0;
     Index frequencies_ = 0;
     std::vector<double> numbers_;  ///< 0, 1, 2 ...
-    Eigen::VectorXd ramp_;         ///< Of these.
+    Eigen::VectorXd ramp_;         ///< Their spectrum.
     Eigen::VectorXd readings_;
     Eigen::VectorXd noise_;
-    Eigen::VectorXd trust_;  ///< Of the temperature, 0 to 1.
+    Eigen::VectorXd signal_share_;  ///< Weights of the temperature's frequencies, 0 to 1.
 };
 
 FittedParameter named(TwoPathTerm term) {
     const std::string by_days =
-        "the set point moved by some 0.1 degC every few hours for two days or more";
+        "a set point that moves by about 0.1 degC every few hours, for two days or more";
     switch (term) {
         case TwoPathTerm::drift:
             return {"drift_mgal_per_h", "drift", "mGal/h", 0, 0, false, "a week or more"};
         case TwoPathTerm::warm_up:
             return {"warm_up_mgal",
-                    "warm-up at the begin",
+                    "warm-up at the start",
                     "mGal",
                     0,
                     0,
@@ -257,20 +272,30 @@ FittedParameter named(TwoPathTerm term) {
             return {
                 "level_mgal_per_degc", "static slope, prompt", "mGal/degC", 0, 0, false, by_days};
         case TwoPathTerm::fast:
-            return {"fast_mgal_per_degc_per_h", "fast path", "mGal/(degC/h)", 0, 0, false,
-                    "more swing at 5 to 30 min"};
+            return {"fast_mgal_per_degc_per_h",
+                    "fast path",
+                    "mGal/(degC/h)",
+                    0,
+                    0,
+                    false,
+                    "a larger temperature swing at periods of 5 to 30 min"};
         case TwoPathTerm::slow:
             return {"slow_mgal_per_degc", "static slope, late", "mGal/degC", 0, 0, false, by_days};
         case TwoPathTerm::fast_lag:
-            return {"fast_lag_s", "lag of the fast path",    "s", 0, 0,
-                    false,        "more swing at 4 to 8 min"};
+            return {"fast_lag_s",
+                    "lag of the fast path",
+                    "s",
+                    0,
+                    0,
+                    false,
+                    "a larger temperature swing at periods of 4 to 8 min"};
         case TwoPathTerm::slow_lag:
             return {"slow_lag_s", "lag of the slow path", "s", 0, 0, false, by_days};
         case TwoPathTerm::warm_up_time:
             break;
     }
     return {"warm_up_time_s",
-            "time of the warm-up",
+            "time constant of the warm-up",
             "s",
             0,
             0,

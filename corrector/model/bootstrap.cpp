@@ -24,7 +24,7 @@ std::optional<Interval> bootstrap_rms_interval(const std::vector<double>& errors
     }
     if (sums.size() < 2) return std::nullopt;
 
-    // The distributions of <random> differ between libraries; the generator does not.
+    // The distributions of <random> differ between libraries; the generator is the same everywhere.
     std::mt19937_64 generator(seed);
     std::vector<double> values;
     for (int draw = 0; draw < kBootstrapDraws; ++draw) {
@@ -38,6 +38,7 @@ std::optional<Interval> bootstrap_rms_interval(const std::vector<double>& errors
         values.push_back(std::sqrt(squares / count));
     }
     std::sort(values.begin(), values.end());
+    // Values outside either limit: 2.5 % of the draws.
     constexpr auto kTail = static_cast<std::size_t>(kBootstrapDraws / 40);
     return Interval{values[kTail], values[values.size() - 1 - kTail]};
 }

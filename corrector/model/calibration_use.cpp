@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 const std::vector<Eigen::Index> kAxisPlaces{DayPriors::place_of(DayTerm::x),
                                             DayPriors::place_of(DayTerm::y)};
-// As kThermalNames: rA, rS, rF, then the lags, which DayPriors has first.
+// In the order of kThermalNames: rA, rS, rF, then the lags, which are first in DayPriors.
 const std::vector<Eigen::Index> kThermalPlaces{DayPriors::place_of(DayTerm::level),
                                                DayPriors::place_of(DayTerm::slow),
                                                DayPriors::place_of(DayTerm::fast), 0, 1};
@@ -44,15 +44,16 @@ std::string name_of(const Calibration& calibration) {
 void remark_test(SurveyCorrection& result, const std::string& part,
                  const std::optional<Disagreement>& test) {
     if (!test)
-        result.remarks.push_back("the calibration's " + part +
-                                 " not tested: the readings say nothing beside it");
+        result.remarks.push_back(
+            "the calibration's " + part +
+            " not tested: the readings contain no information about this part");
     if (!is_contradicted(test)) return;
     result.remarks.push_back("the readings contradict the calibration's " + part + ": chi-square " +
                              text::fixed(test->chi_square, 1) + " for " +
                              std::to_string(test->dof) +
-                             " degrees of freedom, by chance once in more than a hundred surveys; "
-                             "is it of this unit, and "
-                             "still true? Correct the survey without it too");
+                             " degrees of freedom, by chance less than once in a hundred surveys; "
+                             "check that it belongs to this unit and is still valid, and correct "
+                             "the survey without it too");
 }
 
 Json part_json(bool is_there, bool is_used, const char* use,
@@ -74,7 +75,7 @@ Json part_json(bool is_there, bool is_used, const char* use,
 
 }  // namespace
 
-bool says_of_day(const std::optional<Calibration>& calibration) {
+bool helps_to_correct_day(const std::optional<Calibration>& calibration) {
     return calibration && (calibration->axis_bias || calibration->thermal);
 }
 
@@ -92,14 +93,13 @@ DayPriors day_priors_of(const std::optional<Calibration>& calibration) {
     return priors;
 }
 
-// What the day's data, alone, say of the shift has the covariance D + 1 about 0 when the prior is
-// true; the posterior mean is D of the way there, with D = 1 - posterior covariance, and its own
-// covariance is D.  Where D is 0 the day is silent.
+// If the prior is true, the shift (the posterior mean) scatters about 0 with the covariance
+// D = 1 - posterior covariance.  In directions in which D is 0 the day contains no information.
 std::optional<Disagreement> disagreement(const DayFit& fit,
                                          const std::vector<Eigen::Index>& places) {
-    // What D must exceed for the shift to be one.  A prior that is tight and wrong makes D small,
-    // for the noise takes the disagreement: terms, which are solved for, have the floor of rounding,
-    // lags ten times the 1e-3 to which they are searched for.
+    // Least D of a direction that is tested.  A tight and wrong prior makes D small, because the
+    // noise takes the disagreement.  Terms are solved for: their limit is rounding.  Lags are
+    // searched for to 1e-3 deviations: their limit is ten times that, squared.
     constexpr double kLeastOfTerm = 1e-10, kLeastOfLag = 1e-4;
     const auto count = static_cast<Eigen::Index>(places.size());
     Eigen::VectorXd scale(count);
@@ -115,6 +115,7 @@ std::optional<Disagreement> disagreement(const DayFit& fit,
     Disagreement test;
     for (Eigen::Index k = 0; k < count; ++k) {
         if (axes.values(k) < 1.0) continue;
+        // chi-square = s^T D^-1 s
         test.chi_square += along(k) * along(k) / axes.values(k);
         ++test.dof;
     }
@@ -124,8 +125,8 @@ std::optional<Disagreement> disagreement(const DayFit& fit,
     return test;
 }
 
-void tell_prior_use(SurveyCorrection& result, const DayFit& fit, const DayFit& without,
-                    const std::optional<double>& without_loso_mgal) {
+void report_prior_use(SurveyCorrection& result, const DayFit& fit, const DayFit& without,
+                      const std::optional<double>& without_loso_mgal) {
     const Calibration& calibration = result.options.calibration.value();
     CalibrationUse use;
     use.is_prior = true;
@@ -138,19 +139,23 @@ void tell_prior_use(SurveyCorrection& result, const DayFit& fit, const DayFit& w
     result.remarks.push_back(
         name_of(calibration) +
         " as prior: " + (calibration.axis_bias ? "axis biases" : "no axis biases") +
-        (calibration.thermal ? ", thermal response with twice its errors"
+        (calibration.thermal ? ", thermal response with its errors doubled"
                              : ", no thermal response") +
-        "; it changes corrected values by " + text::fixed(use.effect_rms_mgal, 2) + " mGal rms" +
-        (calibration.axis_bias ? "; other models are scored on readings freed from axis bias x tilt"
-                               : ""));
+        "; it changes the corrected values by " + text::fixed(use.effect_rms_mgal, 2) +
+        " mGal rms" +
+        (calibration.axis_bias
+             ? "; for the scores of other models axis bias x tilt was subtracted from the readings"
+             : ""));
     if (calibration.axis_bias) remark_test(result, "axis biases", use.axis_bias);
     if (calibration.thermal) remark_test(result, "thermal response", use.thermal);
     use.loso_without_mgal = without_loso_mgal;
     if (is_harmful(use, result.score))
         result.remarks.push_back(
-            "with the calibration the survey is worse: stations left out come back to " +
-            text::fixed(*result.score.loso_mgal, 2) + " mGal rms, without it to " +
-            text::fixed(*without_loso_mgal, 2) + "; is it of this unit, and still true?");
+            "with the calibration the survey is worse: stations left out are predicted with an "
+            "error of " +
+            text::fixed(*result.score.loso_mgal, 2) + " mGal rms, without it " +
+            text::fixed(*without_loso_mgal, 2) +
+            "; check that it belongs to this unit and is still valid");
     result.calibration = use;
 }
 
@@ -177,14 +182,14 @@ SurveyCorrection correct_with_calibration(const std::vector<SurveyRow>& rows,
     const auto n = static_cast<double>(result.rows.size());
     use.effect_rms_mgal = std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)));
     std::string text = name_of(calibration) + ": ";
-    text +=
-        calibration.axis_bias
-            ? "readings, those behind the scores of all models too, freed from axis bias x tilt, "
-              "which scatters by " +
-                  text::fixed(use.effect_rms_mgal, 2) + " mGal rms; not compared with the readings"
-            : "no axis biases";
+    text += calibration.axis_bias
+                ? "axis bias x tilt was subtracted from the readings, for the scores of all models "
+                  "too; it scatters by " +
+                      text::fixed(use.effect_rms_mgal, 2) +
+                      " mGal rms; the calibration was not compared with the readings"
+                : "no axis biases";
     if (calibration.thermal)
-        text += "; its thermal response is of no use to the model " + result.model;
+        text += "; its thermal response is not used by the model " + result.model;
     result.remarks.push_back(text);
     result.calibration = use;
     return result;
@@ -192,7 +197,7 @@ SurveyCorrection correct_with_calibration(const std::vector<SurveyRow>& rows,
 
 std::string_view calibration_in(const SurveyCorrection& result, const ModelScore& score) {
     const std::optional<Calibration>& calibration = result.options.calibration;
-    if (!says_of_day(calibration)) return "none";
+    if (!helps_to_correct_day(calibration)) return "none";
     if (score.model == "day") return "prior";
     return calibration->axis_bias ? "fixed" : "none";
 }

@@ -12,26 +12,28 @@
 namespace a351::corrector {
 namespace {
 
-constexpr std::size_t kFewestRows = 6;    // fewer say little beside the priors
-constexpr double kLongestGap_s = 1800.0;  // less than the slow lag
-constexpr double kWantedLead_s = 7200.0;  // some slow lags
+constexpr std::size_t kFewestRows = 6;    // fewer add little to the priors
+constexpr double kLongestGap_s = 1800.0;  // shorter than the slow lag
+constexpr double kWantedLead_s = 7200.0;  // several slow lags
 
 std::size_t count_of(const std::vector<bool>& rows) {
     return static_cast<std::size_t>(std::count(rows.begin(), rows.end(), true));
 }
 
-/// Rows of a fit.
+/// The rows of a fit.
 struct RowSet {
     const std::vector<bool>& in_use;
-    bool use_flags;  ///< Flagged rows are not among them.
+    bool use_flags;  ///< True: flagged rows are not in use.
 
-    [[nodiscard]] bool stands_alone(const SurveyRow& row) const {
+    /// Returns true for a row that must not influence others: it gets its own unknown.
+    [[nodiscard]] bool has_own_unknown(const SurveyRow& row) const {
         return row.is_excluded || (use_flags && row.is_flagged);
     }
 };
 
-/// What the fit holds: the reference of rows in use, but for those of the station left out.
-/// Unknown: one value for each other station, and one for every row that has no say.
+/// Returns the stations of a fit.  Held is the reference of rows in use, except those of
+/// `left_out`.  Unknown is one value for each other station, and one for each row that stands
+/// alone.
 std::vector<DayStation> stations_of(const std::vector<CorrectedRow>& rows, const RowSet& set,
                                     const std::string& left_out) {
     std::vector<DayStation> stations;
@@ -44,7 +46,7 @@ std::vector<DayStation> stations_of(const std::vector<CorrectedRow>& rows, const
         DayStation station{row.tide, std::nullopt, 0};
         if (set.in_use[i] && row.site != left_out)
             station.gravity = row.reference;
-        else if (set.stands_alone(row))
+        else if (set.has_own_unknown(row))
             station.unknown = number_of("row " + std::to_string(i));
         else
             station.unknown = number_of("station " + row.site);
@@ -53,13 +55,13 @@ std::vector<DayStation> stations_of(const std::vector<CorrectedRow>& rows, const
     return stations;
 }
 
-/// The fit of one set of rows, and of each station what it says without that station.
+/// The fit of one set of rows, and the fits without each station.
 struct DayFits {
-    std::vector<DayStation> stations;
-    DayFit fit;
-    std::vector<std::string> left_out;  ///< Stations.
-    std::vector<std::vector<DayStation>> others;
-    std::vector<DayFit> without;
+    std::vector<DayStation> stations;             ///< Stations of `fit`, one per row.
+    DayFit fit;                                   ///< Fit of all rows in use.
+    std::vector<std::string> left_out;            ///< Names of the stations left out in turn.
+    std::vector<std::vector<DayStation>> others;  ///< Stations of each fit in `without`.
+    std::vector<DayFit> without;                  ///< Fits without each station of `left_out`.
 
     [[nodiscard]] std::optional<std::size_t> number_of(const std::string& site) const {
         const auto found = std::find(left_out.begin(), left_out.end(), site);
@@ -75,7 +77,8 @@ DayFits fit_with_and_without(const std::vector<CorrectedRow>& rows, const RowSet
     for (std::size_t i = 0; i < rows.size(); ++i)
         if (set.in_use[i] && !fits.number_of(rows[i].row.site))
             fits.left_out.push_back(rows[i].row.site);
-    if (fits.left_out.size() < 2) fits.left_out.clear();  // nothing would be held
+    if (fits.left_out.size() < 2)
+        fits.left_out.clear();  // without the only one, no station would be held
     for (const std::string& site : fits.left_out)
         fits.others.push_back(stations_of(rows, set, site));
     fits.without.resize(fits.left_out.size());
@@ -120,13 +123,14 @@ std::vector<Coefficient> coefficients_of(const DayFit& fit) {
     return list;
 }
 
-/// Gravity of an unknown, with its uncertainty.
+/// Returns gravity of the unknown of a row, with its standard error.
 Estimate unknown_of(const DayFit& fit, const std::vector<DayStation>& stations, std::size_t row) {
     return fit.unknown_mgal[stations[row].unknown];
 }
 
-/// Of a set-up's corrected value, when its station is unknown: the station's, and what its own
-/// placement differs from the mean of those that share the unknown.
+/// Returns the uncertainty of a row whose station is unknown: u^2 = (standard error of the
+/// station)^2 + placement^2 (1 - 1/count).  The second part is the difference between the row's own
+/// placement error and the mean over the `count` set-ups that share the unknown.
 MilliGal row_uncertainty(const DayFit& fit, const std::vector<DayStation>& stations,
                          std::size_t row) {
     double count = 0.0;
@@ -137,7 +141,7 @@ MilliGal row_uncertainty(const DayFit& fit, const std::vector<DayStation>& stati
     return MilliGal(std::sqrt(error * error + own * own));
 }
 
-/// What is said of the row when its reference is not known.
+/// Sets the values that a row has if its reference is unknown.
 void set_left_out(CorrectedRow& out, MilliGal predicted, MilliGal uncertainty) {
     out.u_corrected = uncertainty;
     if (!out.row.reference) return;
@@ -145,10 +149,11 @@ void set_left_out(CorrectedRow& out, MilliGal predicted, MilliGal uncertainty) {
     out.studentised_residual = (*out.row.reference - predicted).value() / uncertainty.value();
 }
 
-/// The samples that the bins of a set-up average.
+/// Times of the samples in the bins of a set-up.
 struct Averaged {
     std::vector<UtcTime> times;
 
+    /// Returns the sum of the samples' durations: least spacing times number of samples.
     [[nodiscard]] double seconds() const {
         double spacing_s = seconds_between(times[0], times[1]);
         for (std::size_t i = 2; i < times.size(); ++i)
@@ -157,7 +162,7 @@ struct Averaged {
     }
 };
 
-/// One for every row.
+/// Returns the samples of every row.
 std::vector<Averaged> averaged_samples(std::size_t row_count, const DayRecord& day) {
     std::vector<Averaged> averaged(row_count);
     for (const DayBin& bin : day.bins) {
@@ -199,7 +204,7 @@ void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits, const Av
     }
 }
 
-/// Of the station's value: that of its unknown, or of the mean of several.
+/// Returns the uncertainty of a station's value: that of its unknown, or of the mean of several.
 std::optional<MilliGal> station_uncertainty(const DayFits& fits,
                                             const std::vector<std::size_t>& members,
                                             const std::string& site) {
@@ -230,7 +235,7 @@ std::vector<StationValue> station_values(const std::vector<CorrectedRow>& rows, 
         for (std::size_t i = 0; i < rows.size(); ++i) {
             if (rows[i].row.site != station.site) continue;
             own.push_back(i);
-            if (!set.stands_alone(rows[i].row)) members.push_back(i);
+            if (!set.has_own_unknown(rows[i].row)) members.push_back(i);
         }
         station.is_flagged_only = members.empty();
         if (members.empty()) members = own;
@@ -257,9 +262,9 @@ std::optional<std::string> day_refusal(const std::vector<SurveyRow>& rows,
         return "needs at least " + std::to_string(fewest) + " rows with a reference, has " +
                std::to_string(used);
     if (day->temperature.longest_gap_s > kLongestGap_s)
-        return "the temperature is missing for " +
+        return "the temperature has a gap of " +
                std::to_string(std::lround(day->temperature.longest_gap_s / 60.0)) +
-               " min at a time, allowed are " + std::to_string(std::lround(kLongestGap_s / 60.0));
+               " min, more than the allowed " + std::to_string(std::lround(kLongestGap_s / 60.0));
     std::vector<bool> has_bins(rows.size(), false);
     for (const DayBin& bin : day->bins) has_bins[bin.set_up] = true;
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -293,13 +298,13 @@ void correct_by_day(SurveyCorrection& result, const DayRowSets& sets, const DayR
     if (result.options.calibration) {
         const DayFits usual =
             fit_with_and_without(rows, {in_use, use_flags}, day, usual_day_priors());
-        tell_prior_use(result, fits.fit, usual.fit, score_of(rows, in_use, usual).loso_mgal);
+        report_prior_use(result, fits.fit, usual.fit, score_of(rows, in_use, usual).loso_mgal);
     }
     const double lead_s = seconds_between(day.temperature.series.start(), day.bins.front().time);
     if (lead_s < kWantedLead_s)
         result.remarks.push_back(
-            "the temperature is known from " + std::to_string(std::lround(lead_s / 60.0)) +
-            " min before the first occupation on; its slow effect wants two hours");
+            "the temperature record begins " + std::to_string(std::lround(lead_s / 60.0)) +
+            " min before the first occupation; its slow effect needs two hours");
 }
 
 }  // namespace a351::corrector

@@ -8,19 +8,21 @@
 namespace a351::corrector {
 
 double LinearFit::at(const Eigen::Ref<const Eigen::VectorXd>& x) const {
-    // Centred: the constant would carry the rounding of large x.
+    // Centred, because the constant b0 contains the rounding of large x.
     return mean + (x - column_means).dot(coefficients.tail(coefficients.size() - 1));
 }
 
 double LinearFit::leverage_at(const Eigen::Ref<const Eigen::VectorXd>& x) const {
     const Eigen::Index q = column_means.size();
     const Eigen::VectorXd centred = x - column_means;
+    // 1/n + (x - mean)^T C (x - mean)
     return 1.0 / static_cast<double>(row_count()) +
            centred.dot(cofactor.bottomRightCorner(q, q) * centred);
 }
 
 std::optional<double> LinearFit::residual_scale() const {
     if (dof() <= 0) return std::nullopt;
+    // s^2 = (RSS + RSS of the priors) / (n + priors - p)
     return std::sqrt((rss + prior_rss) / static_cast<double>(dof()));
 }
 
@@ -43,7 +45,7 @@ std::optional<LinearFit> fit_linear(const Eigen::Ref<const Eigen::MatrixXd>& col
     Eigen::VectorXd slopes = Eigen::VectorXd::Zero(q);
     Eigen::MatrixXd slope_cofactor = Eigen::MatrixXd::Zero(q, q);
     if (q > 0) {
-        // The constant has no prior, so the priors' rows stand beside the centred ones.
+        // The priors' rows are appended to the centred ones: the constant has no prior.
         Eigen::MatrixXd rows(n + fit.prior_count, q);
         Eigen::VectorXd right(n + fit.prior_count);
         rows.topRows(n) = x;
@@ -54,15 +56,17 @@ std::optional<LinearFit> fit_linear(const Eigen::Ref<const Eigen::MatrixXd>& col
             right(row++) = priors.weights(k) * priors.values(k);
         }
         const PivotedQr qr(rows);
-        // Columns are centred to about 1e-16 of their values; what is left of a constant one is noise.
+        // Centring is exact to about 1e-16 of the values; the rest of a constant column is noise.
         const double noise =
             1e-12 * (1.0 + columns.cwiseAbs().maxCoeff()) * std::sqrt(static_cast<double>(n));
         if (!(qr.pivots().array() > noise).all() || qr.rank() < q) return std::nullopt;
         slopes = qr.solve(right);
         fit.prior_rss = (right - rows * slopes).tail(fit.prior_count).squaredNorm();
+        // C = (Xc^T Xc + W^2)^-1
         const Eigen::MatrixXd root = qr.cofactor_root();
         slope_cofactor = root * root.transpose();
     }
+    // b0 = mean(y) - mean(x) . b, and its covariances with the slopes
     const Eigen::VectorXd mean_cofactor = slope_cofactor * fit.column_means;
     fit.coefficients(0) = fit.mean - slopes.dot(fit.column_means);
     fit.coefficients.tail(q) = slopes;

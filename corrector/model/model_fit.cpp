@@ -37,7 +37,8 @@ std::vector<std::string> stations_of(const std::vector<SurveyRow>& rows) {
 
 using ModelOf = std::function<const LinearModel*(const std::vector<SurveyRow>&)>;
 
-/// Leave-one-station-out error of the model that `model_of` takes from the remaining rows.
+/// Returns the leave-one-station-out error (mGal) of the model that `model_of` chooses for the
+/// remaining rows.
 std::optional<double> left_out_stations_mgal(const ModelOf& model_of,
                                              const std::vector<SurveyRow>& rows, UtcTime origin,
                                              const ModelPriors& priors) {
@@ -60,7 +61,7 @@ std::optional<double> left_out_stations_mgal(const ModelOf& model_of,
     return std::sqrt(sum / static_cast<double>(rows.size()));
 }
 
-/// Error (1) and (2) of the publication; (2) is empty when the drift step is refused.
+/// Errors (1) and (2) of the publication; (2) is empty if the drift step is refused.
 struct PaperErrors {
     std::vector<double> before_mgal;
     std::vector<double> after_mgal;
@@ -79,7 +80,7 @@ std::optional<PaperErrors> paper_errors(const std::vector<SurveyRow>& rows,
     return errors;
 }
 
-/// Error (2) of row `left_out`, line and drift made without it.
+/// Returns Error (2) of row `left_out`; line and drift are computed without this row.
 std::optional<double> left_out_paper_error_mgal(std::vector<SurveyRow> rows,
                                                 std::vector<bool> in_use, std::size_t left_out,
                                                 std::string_view base) {
@@ -186,10 +187,12 @@ ModelScore score_linear_model(const LinearModel& model, const std::vector<Survey
     score.dof = static_cast<std::size_t>(fit->dof());
     score.s_mgal = fit->residual_scale();
     if (score.s_mgal) {
+        // Leave-one-out error r / (1 - h), exact for least squares.
         const Eigen::ArrayXd left_out = fit->residuals.array() / (1.0 - fit->leverages.array());
         score.loo_mgal = std::sqrt(left_out.square().sum() / n);
         if (!std::isfinite(*score.loo_mgal)) score.loo_mgal.reset();
     }
+    // AICc = n ln(RSS/n) + 2K + 2K(K+1)/(n-K-1)   (Hurvich and Tsai 1989)
     if (n - k - 1.0 > 0.0 && fit->rss > 0.0 && fit->prior_count == 0) {
         score.aicc = n * std::log(fit->rss / n) + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
     }
@@ -203,7 +206,7 @@ ModelScore score_paper_model(const std::vector<SurveyRow>& rows, const std::vect
     ModelScore score;
     score.model = "paper";
     score.row_count = static_cast<std::size_t>(std::count(in_use.begin(), in_use.end(), true));
-    score.parameter_count = 4;  // slope, intercept, and the errors at both ends
+    score.parameter_count = 4;  // slope, intercept, and the errors at both ends of the drift
     const auto errors = paper_errors(rows, in_use, base);
     if (!errors) return score;
     score.rms_before_drift_mgal = rms(errors->before_mgal, in_use).value();
@@ -238,6 +241,7 @@ std::optional<ModelChoice> choose_model(const std::vector<SurveyRow>& rows, UtcT
         return *a.loso_mgal < *b.loso_mgal;
     };
     const ModelScore& best = *std::min_element(scores.begin(), scores.end(), by_loso);
+    // Limit: LOSO (1 + 1 / sqrt(2 (n - p))).
     const auto dof = static_cast<double>(best.row_count - best.parameter_count);
     const double limit = *best.loso_mgal * (1.0 + 1.0 / std::sqrt(2.0 * dof));
     const ModelScore* chosen = &best;

@@ -1,11 +1,14 @@
 #pragma once
 /// @file
-/// Linear models of what the sensor reads beyond gravity, fitted to known stations:
+/// Linear models of the difference between reading and gravity, fitted to stations of known
+/// gravity:
 ///
 ///     D_i = b0 [+ bT (T_i - T0)] [+ bR R_i] [+ b1 (t_i - t0)] [+ bx x_i + by y_i] + noise,
-///     D = acceleration - g - tide
+///     D   = acceleration - g - tide
 ///
+/// D is in mGal, T in degC, its rate R in degC/h, the time t in h, and x, y in g.
 /// T0 and t0 only shift the constant; they keep the numbers small.
+/// Models, scores and choice: corrector/methods.md, "Linear models".
 
 #include <Eigen/Core>
 #include <array>
@@ -20,23 +23,27 @@
 
 namespace a351::corrector {
 
-inline constexpr DegC kReferenceTemperature{42.6};  ///< T0, near the oven's set point.
-inline constexpr double kReferenceTime_h = 5.0;     ///< t0, after the first row: mid-day.
+/// T0, degC.  Reason: near the oven's set point.
+inline constexpr DegC kReferenceTemperature{42.6};
+/// t0, h after the first row.  Reason: middle of a survey day.
+inline constexpr double kReferenceTime_h = 5.0;
 
+/// A linear model: its name and its terms besides the constant.
 struct LinearModel {
-    std::string_view name;
-    bool has_temperature = false;
-    bool has_rate = false;
-    bool has_time = false;
-    bool has_axes = false;  ///< x, y: means of the horizontal axes, which a tilt brings in.
+    std::string_view name;         ///< Name in options and tables.
+    bool has_temperature = false;  ///< Term bT (T - T0).
+    bool has_rate = false;         ///< Term bR R.
+    bool has_time = false;         ///< Term b1 (t - t0).
+    bool has_axes = false;         ///< Terms bx x + by y: means of the horizontal axes; for tilt.
 
+    /// Returns the number of coefficients p, the constant included.
     [[nodiscard]] std::size_t parameter_count() const {
         return 1U + (has_temperature ? 1U : 0U) + (has_rate ? 1U : 0U) + (has_time ? 1U : 0U) +
                (has_axes ? 2U : 0U);
     }
 };
 
-/// The models that `auto` chooses from, fixed beforehand.
+/// Models from which `auto` chooses.  The list was fixed before any data were fitted.
 inline constexpr std::array<LinearModel, 4> kLinearModels{{
     {"t", true, false, false},
     {"t-rate", true, true, false},
@@ -44,77 +51,120 @@ inline constexpr std::array<LinearModel, 4> kLinearModels{{
     {"t-rate-drift", true, true, true},
 }};
 
-/// Models that are fitted on request only.  With axes, for rows from records: the whole-day model's
-/// regressors as far as means of occupations have them.  Drift alone, for a box whose temperature
-/// hardly changes, or to see what the other terms bring.
+/// Models that are fitted on request only.
+///
+/// - `t-rate-drift-axes`, for rows from records: the regressors of the whole-day model, as far as
+///   means of occupations contain them.
+/// - `drift`, for a box whose temperature hardly changes, or to compare with the other models.
 inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
     {"t-rate-drift-axes", true, true, true, true},
     {"drift", false, false, true},
 }};
 
-/// Null when the name is in neither list.
+/// Returns the model of this name from kLinearModels or kModelsOnRequest; null if there is none.
 [[nodiscard]] const LinearModel* find_linear_model(std::string_view name);
 
-/// Columns of the model (those of T - T0, R, t - t0, x, y that it has), one row per survey row.
-/// @param origin  instant from which t counts.
-/// @throws InputError  the model has axes and a row has no means of them.
+/// Returns the regressors of a model (n, p - 1): those of T - T0 (degC), R (degC/h), t - t0 (h), x
+/// (g) and y (g) that it has, in this order; one row per survey row.
+/// @param rows    (n), also without reference; n may be 0.
+/// @param origin  instant at which t = 0.
+/// @throws InputError  if the model has axes and a row has no means of them.
 [[nodiscard]] Eigen::MatrixXd model_columns(const LinearModel& model,
                                             const std::vector<SurveyRow>& rows, UtcTime origin);
 
-/// Names of the coefficients with their units: the constant, then one per column.
+/// Returns the names of the coefficients with their units (p): the constant, then one per column.
 [[nodiscard]] std::vector<std::string> coefficient_names(const LinearModel& model);
 
-/// Priors on the slopes of a model, in its order.
+/// Returns the priors on the slopes of a model, in the order of its columns (p - 1).  A weight is
+/// reading_sd / sd; 0 for a slope without prior.  Priors of terms that the model lacks are ignored.
 [[nodiscard]] SlopePriors slope_priors(const LinearModel& model, const ModelPriors& priors);
 
-/// @param rows  each with a reference.
-/// @return std::nullopt when they and the priors do not determine the model.
+/// Fits a model to D (mGal) by fit_linear().
+/// @param rows    (n), each with a reference.
+/// @param origin  instant at which t = 0.
+/// @param priors  priors on the slopes; see slope_priors().
+/// @return std::nullopt if there are no rows, or if rows and priors do not determine the model.
+/// @throws InputError  as model_columns().
 [[nodiscard]] std::optional<LinearFit> fit_model(const LinearModel& model,
                                                  const std::vector<SurveyRow>& rows, UtcTime origin,
                                                  const ModelPriors& priors = {});
 
-/// Root mean square errors in mGal.  Absent: not defined for so few rows, or for this model.
+/// Root mean square errors of a model, mGal.  A score is absent if it is not defined for so few
+/// rows, or for this model.
 struct ModelScore {
-    std::string model;
-    std::size_t row_count = 0;        ///< n
-    std::size_t parameter_count = 0;  ///< p
-    /// Degrees of freedom of the residuals: n, priors and datum counted in, less p.
+    std::string model;                ///< Name of the model.
+    std::size_t row_count = 0;        ///< Number of rows n.
+    std::size_t parameter_count = 0;  ///< Number of coefficients p.
+    /// Degrees of freedom of the residuals: n + rows of priors and datum - p.
     std::size_t dof = 0;
-    std::optional<double> rms_mgal;   ///< In sample, divisor n.
-    std::optional<double> s_mgal;     ///< In sample, divisor dof.
-    std::optional<double> loo_mgal;   ///< Each row predicted without it.
+    std::optional<double> rms_mgal;   ///< In sample, sqrt(RSS / n).
+    std::optional<double> s_mgal;     ///< In sample, divisor dof instead of n.
+    std::optional<double> loo_mgal;   ///< Leave-one-out: each row predicted without it.
     std::optional<double> loso_mgal;  ///< Each row predicted without the rows of its station.
-    /// n ln(rss/n) + 2K + 2K(K+1)/(n-K-1), K = p + 1.  Not for a model with a prior, where p would
-    /// count too much.
+    /// AICc = n ln(RSS/n) + 2K + 2K(K+1)/(n-K-1), K = p + 1 (C. M. Hurvich and C.-L. Tsai,
+    /// Biometrika 76, 297-307, 1989).  Absent for a model with a prior, because p would then count
+    /// too much.
     std::optional<double> aicc;
-    std::optional<double> rms_before_drift_mgal;  ///< `paper` only: of Error (1).
+    std::optional<double> rms_before_drift_mgal;  ///< `paper` only: rms of Error (1).
 };
 
-/// @param rows  those of the fit, each with a reference.
+/// Returns the scores of a linear model.
+///
+/// LOO uses r / (1 - h) with residual r and leverage h, which is exact for least squares.  LOSO
+/// fits again without each station; it is absent if one of these fits is not determined.
+///
+/// Accuracy: all scores of the eight reference regressions on the published rows agree within
+/// 0.0005 (tests/golden/tsukuba_models_test.cpp).
+/// @param rows    (n) rows of the fit, each with a reference.
+/// @param origin  instant at which t = 0.
+/// @param priors  priors on the slopes.
+/// @return only row_count and parameter_count are set if the fit is not determined.
+/// @throws InputError  as model_columns().
 [[nodiscard]] ModelScore score_linear_model(const LinearModel& model,
                                             const std::vector<SurveyRow>& rows, UtcTime origin,
                                             const ModelPriors& priors = {});
 
-/// The publication's chain, line from the rows in use, ends of the drift from all of the base.
-/// Without LOSO (the base cannot be left out) and AICc (it is not a least-squares fit).  LOO takes
-/// each row in use away; the next one of the base stands in for an end.
-/// @param in_use  one per row, true only for rows with a reference.
+/// Returns the scores of the publication's correction (paper_correction.hpp).
+///
+/// The temperature line is fitted to the rows in use.  The ends of the drift are the first and the
+/// last row of the base, in use or not.  p is 4.
+///
+/// LOSO is absent because the base cannot be left out.  AICc is absent because the correction is no
+/// least-squares fit.  LOO leaves out each row in use in turn; without an end of the drift, the
+/// next row of the base takes its place.
+///
+/// Accuracy: rms before and after the drift step, 2.0084 and 2.6249 mGal for the published rows,
+/// agree within 0.0001 mGal (tests/golden/tsukuba_models_test.cpp).
+/// @param rows    (n) in ascending time.
+/// @param in_use  (n), true only for rows with a reference.
+/// @param base    name of the base station.
+/// @return rms_before_drift_mgal only if the drift step is refused; no score without a line.
 [[nodiscard]] ModelScore score_paper_model(const std::vector<SurveyRow>& rows,
                                            const std::vector<bool>& in_use, std::string_view base);
 
-/// Among the models within one standard error of the least LOSO, LOSO / sqrt(2 (n - p)), the one
-/// with the fewest terms, then with the lesser LOSO.  `t-rate-drift` takes part only with at least
-/// three rows of the base or twelve in all.
-/// @return the name; std::nullopt when no model has a LOSO.
+/// The model that was chosen, and the limit that it had to meet.
 struct ModelChoice {
-    std::string model;
-    double limit_mgal = 0.0;  ///< Best LOSO plus one standard error.
+    std::string model;        ///< Name of the model.
+    double limit_mgal = 0.0;  ///< Least LOSO plus its standard error.
 };
+
+/// Chooses one of kLinearModels by its LOSO.
+///
+/// The limit is the least LOSO plus its standard error, LOSO / sqrt(2 (n - p)).  Among the models
+/// within the limit, the one with the fewest terms is chosen, then the one with the smaller LOSO.
+/// `t-rate-drift` takes part only with at least three occupations of the base or twelve rows.
+/// @param rows    (n) rows of the fit, each with a reference.
+/// @param origin  instant at which t = 0.
+/// @param base    name of the base station.
+/// @param priors  priors on the slopes.
+/// @return std::nullopt if no model has a LOSO and more rows than coefficients.
 [[nodiscard]] std::optional<ModelChoice> choose_model(const std::vector<SurveyRow>& rows,
                                                       UtcTime origin, std::string_view base,
                                                       const ModelPriors& priors = {});
 
-/// LOSO of the procedure: the choice repeated without each station.
+/// Returns the LOSO (mGal) of choosing and fitting together: the choice is repeated without each
+/// station.  Absent if one of these choices or fits is impossible.
+/// @param rows, origin, base, priors  as choose_model().
 [[nodiscard]] std::optional<double> choice_loso_mgal(const std::vector<SurveyRow>& rows,
                                                      UtcTime origin, std::string_view base,
                                                      const ModelPriors& priors = {});

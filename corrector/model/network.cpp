@@ -18,20 +18,24 @@ void solve(NetworkAdjustment& network, const NetworkSystem& system) {
     for (Eigen::Index i = 0; i < n; ++i) {
         weights(i) = 1.0 / network.rows[static_cast<std::size_t>(i)].sd;
     }
+    // x = (A^T W A)^-1 A^T W y, by QR of the weighted rows with columns of length 1.
     Eigen::MatrixXd a = weights.asDiagonal() * system.a;
     const Eigen::VectorXd scale = a.colwise().norm().transpose().cwiseInverse();
     a = a * scale.asDiagonal();
     const PivotedQr qr(a);
     const Eigen::Index p = a.cols();
     network.unknowns = scale.asDiagonal() * qr.solve(weights.asDiagonal() * system.y);
+    // Q_xx = (A^T W A)^-1
     const Eigen::MatrixXd root = scale.asDiagonal() * qr.cofactor_root();
     network.covariance = root * root.transpose();
 
+    // v = A x - y
     const Eigen::VectorXd residuals = system.a * network.unknowns - system.y;
     for (Eigen::Index i = 0; i < n; ++i) {
         NetworkRow& row = network.rows[static_cast<std::size_t>(i)];
         row.residual = residuals(i);
-        // Of the row's variance, what the adjustment leaves in its residual.
+        // r_i = (Q_vv W)_ii = 1 - (A Q_xx A^T W)_ii: share of the row's variance in its residual
+        // (Baarda 1968).
         row.redundancy = 1.0 - (system.a.row(i) * root).squaredNorm() * weights(i) * weights(i);
         network.weighted_square += std::pow(row.residual * weights(i), 2);
     }
@@ -44,7 +48,7 @@ void solve(NetworkAdjustment& network, const NetworkSystem& system) {
     }
 }
 
-/// Why these unknowns are open, and what would help.
+/// Returns a message that says why these unknowns are undetermined, and what would help.
 std::string refusal_of(const NetworkAdjustment& network, const NetworkReadings& readings,
                        const std::vector<std::size_t>& open) {
     std::vector<std::string> names;
@@ -54,9 +58,9 @@ std::string refusal_of(const NetworkAdjustment& network, const NetworkReadings& 
         names.push_back(is_term ? network.terms[k - network.stations.size()] : network.stations[k]);
         has_drift = has_drift || (is_term && names.back().starts_with("time"));
     }
-    std::string reason = "the repeated readings are fewer than the coefficients they have to give";
+    std::string reason = "there are fewer repeated readings than coefficients to determine";
     if (!has_repeat(readings)) reason = "every station is occupied only once in its loop";
-    return "the readings leave open " + text::joined(names) + ": " + reason +
+    return "the readings do not determine " + text::joined(names) + ": " + reason +
            (has_drift ? "; allowed: further occupations of a station at other times, more datum "
                         "stations, a prior on time_mgal_per_h, or a smaller drift_degree"
                       : "; allowed: further occupations, more datum stations, or a prior on a "
@@ -67,11 +71,12 @@ void add_remarks(NetworkAdjustment& network, const NetworkReadings& readings) {
     const std::string tied = groups_tied_by_drift(readings);
     if (!tied.empty()) {
         network.remarks.push_back(
-            "not connected with a datum but by the instrument's constant and drift, no "
-            "station being occupied before and after: " +
+            "connected with a datum only by the instrument's constant and drift, because no "
+            "station is occupied before and after: " +
             tied);
     }
-    // A datum's own row is always weak: its error shows in the readings' residuals.
+    // Datum rows are not checked: their redundancy is always small, because a wrong reference shows
+    // in the residuals of the readings.
     std::vector<std::string> uncontrolled;
     for (std::size_t i = 0; i < network.reading_count; ++i) {
         const NetworkRow& row = network.rows[i];
@@ -98,8 +103,9 @@ std::optional<bool> NetworkAdjustment::passes_global_test() const {
 
 std::optional<double> NetworkAdjustment::studentised(std::size_t reading) const {
     const NetworkRow& row = rows[reading];
-    // What rounding leaves of an uncontrolled row's redundancy.
+    // An uncontrolled row has redundancy 0 except for rounding.
     if (dof < 2 || row.redundancy < 1e-9) return std::nullopt;
+    // s_i^2 = (v^T W v - w_i v_i^2 / r_i) / (dof - 1)
     const double own = std::pow(row.residual / row.sd, 2) / row.redundancy;
     const double variance = (weighted_square - own) / static_cast<double>(dof - 1);
     if (!(variance > 0.0)) return std::nullopt;
@@ -125,10 +131,11 @@ NetworkResult adjust_network(const std::vector<SurveyRow>& rows, const std::vect
     }
     if (readings.stations.empty()) return {{}, "no reading in use; allowed: at least one"};
     if (std::count(readings.is_held.begin(), readings.is_held.end(), true) == 0) {
-        return {{},
-                "no datum: none of the stations in use has a reference that is held, so that the "
-                "constant is open; allowed: gravity_mgal of at least one station occupied (" +
-                    text::joined(readings.stations) + ")"};
+        return {
+            {},
+            "no datum: none of the stations in use has a reference that is held, so the "
+            "constant is undetermined; allowed: gravity_mgal of at least one occupied station (" +
+                text::joined(readings.stations) + ")"};
     }
     if (const auto groups = unconnected_groups(readings); !groups.empty()) {
         return {{},
@@ -140,7 +147,7 @@ NetworkResult adjust_network(const std::vector<SurveyRow>& rows, const std::vect
     network.stations = readings.stations;
     set_terms(network, rows, in_use, priors, options.drift_degree);
     const NetworkSystem system = build_system(network, rows, in_use, occupied, priors, options);
-    const std::vector<std::size_t> open = open_unknowns(system.a);
+    const std::vector<std::size_t> open = undetermined_unknowns(system.a);
     if (!open.empty()) return {{}, refusal_of(network, readings, open)};
     solve(network, system);
     add_remarks(network, readings);

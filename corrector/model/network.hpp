@@ -1,15 +1,20 @@
 #pragma once
 /// @file
-/// Unknown stations, known ones and the instrument in one least-squares adjustment of readings:
+/// One least-squares adjustment of all readings for unknown stations, known stations and
+/// instrument:
 ///
 ///     reading_i = g(station_i) + constant + drift (t_i - t0)^k + bT (T_i - T0) + bR R_i + error_i
 ///     datum:      g(k) = reference_k +- datum_sd           one row for each station held
-///     prior:      coefficient = mean +- sd                 one row each
+///     prior:      coefficient = mean +- sd                 one row for each prior
 ///
 ///     x = (A^T W A)^-1 A^T W y,  v = A x - y,  s0^2 = v^T W v / dof,  r_i = (Q_vv W)_ii
 ///
-/// A pause of more than kLoopPause_h begins a loop with a constant and a drift of its own; one that
-/// has no reading in use has neither.  The rate takes part when it has a prior.  Which unknowns are open and why: network_diagnosis.hpp.
+/// reading_i is acceleration - tide, mGal; W is the diagonal matrix of 1 / sd^2.
+/// A pause of more than kLoopPause_h begins a loop with its own constant and drift.  A loop without
+/// a reading in use has neither.  The rate R takes part only if it has a prior.
+///
+/// Undetermined unknowns and their reason: network_diagnosis.hpp.
+/// Methods: corrector/methods.md, "Networks".
 /// Redundancy numbers: W. Baarda, A testing procedure for use in geodetic networks, Delft 1968.
 
 #include <Eigen/Core>
@@ -22,67 +27,89 @@
 
 namespace a351::corrector {
 
-/// No day of survey pauses so long; the instrument switched off and on again has a new constant.
+/// Pause between two readings that begins a new loop, h.  Reason: no survey day has so long a
+/// pause; after it the instrument was switched off and on again and has a new constant.
 inline constexpr double kLoopPause_h = 6.0;
 
-/// Of the two-sided global test.
+/// Significance of the two-sided global test.
 inline constexpr double kGlobalTestAlpha = 0.05;
 
-/// A row whose redundancy is less is practically uncontrolled . less than a tenth of a blunder
-/// would show in its own residual.
+/// Least redundancy of a controlled row.  Below it, less than a tenth of a blunder shows in the
+/// row's own residual.
 inline constexpr double kControlledRedundancy = 0.1;
 
+/// Options of the adjustment.
 struct NetworkOptions {
-    /// Of a reference: a hundredth of what this sensor can do, as gravity networks are known.
+    /// Standard deviation of a reference, mGal.  Default: typical of gravity networks, and a
+    /// hundredth of what this sensor can achieve.
     double datum_sd_mgal = 0.01;
-    int drift_degree = 1;  ///< 0 to 2; column k is (t - t0)^k.
+    int drift_degree = 1;  ///< Degree of the drift, 0 to 2; column k is (t - t0)^k, t in h.
 };
 
-/// A row of the system: of a reading, a datum or a prior.
+/// A row of the system: a reading, a datum or a prior.
 struct NetworkRow {
-    std::string label;
-    double residual = 0.0;    ///< v, in the unit of the row.
-    double sd = 1.0;          ///< A priori.
+    std::string label;        ///< Name of the row in messages and tables.
+    double residual = 0.0;    ///< v = A x - y, in the unit of the row.
+    double sd = 1.0;          ///< Standard deviation a priori, in the unit of the row.
     double redundancy = 0.0;  ///< 0: uncontrolled, 1: fully controlled.
 };
 
+/// An adjusted network: s stations, m terms of the instrument, n survey rows.
 struct NetworkAdjustment {
-    std::vector<std::string> stations;
-    std::vector<std::string> terms;  ///< Of the instrument, with units.
-    MilliGal origin;                 ///< Added to the unknowns of the stations.
-    Eigen::VectorXd unknowns;        ///< Stations, then terms.
-    Eigen::MatrixXd covariance;      ///< A priori.
-    Eigen::MatrixXd term_columns;    ///< One line per survey row, in use or not.
-    std::vector<bool> is_tied;       ///< One per survey row: its loop has a reading in use.
-    std::vector<NetworkRow> rows;    ///< Readings in use, in order; datum; priors.
-    std::size_t reading_count = 0;
-    std::size_t datum_count = 0;
-    std::size_t dof = 0;
-    double weighted_square = 0.0;  ///< v^T W v
-    double chi_square_low = 0.0;   ///< Limits of the global test; both 0 without dof.
-    double chi_square_high = 0.0;
-    std::vector<std::string> remarks;  ///< What the user has to know of it.
+    std::vector<std::string> stations;  ///< (s) Names, in order of the first reading in use.
+    std::vector<std::string> terms;     ///< (m) Terms of the instrument, with units.
+    MilliGal origin;                    ///< Gravity of a station = origin + its unknown.
+    Eigen::VectorXd unknowns;           ///< (s + m) Stations (mGal), then terms.
+    Eigen::MatrixXd covariance;         ///< (s + m, s + m) Covariance of the unknowns a priori.
+    Eigen::MatrixXd term_columns;       ///< (n, m) Regressors of the terms, rows in use or not.
+    std::vector<bool> is_tied;          ///< (n) True if the loop of the row has a reading in use.
+    std::vector<NetworkRow> rows;       ///< Readings in use in order of time; datum; priors.
+    std::size_t reading_count = 0;      ///< Number of readings in use.
+    std::size_t datum_count = 0;        ///< Number of stations held.
+    std::size_t dof = 0;                ///< Degrees of freedom: rows - unknowns.
+    double weighted_square = 0.0;       ///< v^T W v
+    double chi_square_low = 0.0;        ///< Lower limit of the global test; 0 if dof = 0.
+    double chi_square_high = 0.0;       ///< Upper limit of the global test; 0 if dof = 0.
+    std::vector<std::string> remarks;   ///< Facts that the user must know, in sentences.
 
-    /// a posteriori / a priori standard deviation; absent without dof.
+    /// Returns s0 = sqrt(v^T W v / dof), the ratio of the standard deviations a posteriori and a
+    /// priori; absent if dof = 0.
     [[nodiscard]] std::optional<double> s0() const;
-    /// Absent without dof.
+    /// Returns true if v^T W v is within the limits of the global test; absent if dof = 0.
     [[nodiscard]] std::optional<bool> passes_global_test() const;
-    /// Residual of a reading / its standard deviation with the scale from the other rows; positive
-    /// where the reading is too low.  Absent for an uncontrolled one, and with dof < 2.
+    /// Returns the external studentised residual v / (sd s_i sqrt(r)) of a reading, where
+    /// s_i^2 = (v^T W v - (v / sd)^2 / r) / (dof - 1) comes from the other rows.  Positive: the
+    /// reading is too low.  Absent if r < 1e-9, if dof < 2, or if s_i is not positive.
+    /// @param reading  number of the reading, below reading_count.
     [[nodiscard]] std::optional<double> studentised(std::size_t reading) const;
-    /// What a term adds to gravity in a survey row.
+    /// Returns the contribution of a term to the reading of a survey row, mGal.
+    /// @param row   number of the survey row, in use or not.
+    /// @param term  number in `terms`.
     [[nodiscard]] double effect_mgal(std::size_t row, std::size_t term) const;
 };
 
-/// The adjustment, or in words why there is none.
+/// The adjustment, or the reason why there is none.
 struct NetworkResult {
     std::optional<NetworkAdjustment> adjustment;
-    std::string refusal;  ///< `trouble; allowed: ...`, empty when `adjustment` is there.
+    std::string refusal;  ///< `trouble; allowed: ...`; empty if there is an adjustment.
 };
 
-/// @param rows    in ascending time.
-/// @param in_use  one per row; a reference is not needed.
-/// @param datum   stations to hold; empty: all that have a reference.
+/// Adjusts a network.
+///
+/// The global test compares v^T W v with the chi-square distribution of `dof` degrees of freedom,
+/// two-sided at kGlobalTestAlpha.  If the test fails, nothing is scaled.
+///
+/// Accuracy (network_test.cpp): made-up readings with a quadratic drift give back gravity within
+/// 1e-9 mGal, drift terms within 1e-9 of their unit, and the temperature coefficient within
+/// 1e-8 mGal/degC.  The redundancies of all rows add up to dof.
+/// @param rows     (n) in ascending time, at least one; finite.
+/// @param in_use   (n); a row in use needs no reference.
+/// @param datum    names of the stations to hold; empty: all that have a reference.
+/// @param priors   priors on the coefficients, and the standard deviation of a reading.
+/// @param options  see NetworkOptions.
+/// @return a refusal if no reading is in use, if no station is held, if a listed station has no
+///         reference, if stations have no connection with a datum, or if the readings do not
+///         determine an unknown.
 [[nodiscard]] NetworkResult adjust_network(const std::vector<SurveyRow>& rows,
                                            const std::vector<bool>& in_use,
                                            const std::vector<std::string>& datum,

@@ -21,6 +21,7 @@ ModelScore score_of(const NetworkAdjustment& network, double reading_sd_mgal) {
     score.rms_mgal = std::sqrt(squares / static_cast<double>(network.reading_count));
     if (const auto s0 = network.s0()) score.s_mgal = *s0 * reading_sd_mgal;
     if (network.datum_count < 2) return score;
+    // v / r is the error of predicting a datum without its own row.
     squares = 0.0;
     for (std::size_t k = 0; k < network.datum_count; ++k) {
         const NetworkRow& datum = network.rows[network.reading_count + k];
@@ -31,7 +32,8 @@ ModelScore score_of(const NetworkAdjustment& network, double reading_sd_mgal) {
     return score;
 }
 
-/// Variance of what the terms add to `line`, a mean of lines of the terms' columns.
+/// Returns the variance (mGal^2 a priori) of the terms' effect on a row, or on a mean of rows.
+/// @param line  the row's regressors, or their mean.
 double effect_variance(const NetworkAdjustment& network, const Eigen::RowVectorXd& line) {
     const Eigen::Index k = line.size();
     return (line * network.covariance.bottomRightCorner(k, k)).dot(line);
@@ -96,7 +98,7 @@ StationValue adjusted_station(const SurveyCorrection& result, const NetworkAdjus
     return station;
 }
 
-/// A station that is seen in flagged rows only.
+/// Returns the value of a station that occurs in flagged rows only.
 StationValue flagged_station(const SurveyCorrection& result, const NetworkAdjustment& network,
                              const std::string& site) {
     StationValue station;
@@ -119,7 +121,7 @@ StationValue flagged_station(const SurveyCorrection& result, const NetworkAdjust
     return station;
 }
 
-/// Takes out the rows whose loop has no constant, and says so.
+/// Moves rows whose loop has no constant to left_out, with a remark.
 void leave_out_untied(SurveyCorrection& result, const NetworkAdjustment& network) {
     std::vector<CorrectedRow> rows;
     std::string names;
@@ -136,10 +138,10 @@ void leave_out_untied(SurveyCorrection& result, const NetworkAdjustment& network
     }
     result.rows = std::move(rows);
     if (names.empty()) return;
-    result.remarks.push_back("no reading in use between two pauses of more than " +
-                             std::to_string(std::lround(kLoopPause_h)) +
-                             " h, so that the instrument's constant there is open: left out are " +
-                             names);
+    result.remarks.push_back(
+        "no reading in use between two pauses of more than " +
+        std::to_string(std::lround(kLoopPause_h)) +
+        " h, so the instrument's constant is undetermined there: left out are " + names);
 }
 
 void set_stations(SurveyCorrection& result, const NetworkAdjustment& network) {

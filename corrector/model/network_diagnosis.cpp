@@ -24,18 +24,19 @@ bool holds_datum(const NetworkReadings& readings, const std::set<std::size_t>& s
 
 }  // namespace
 
-std::vector<std::size_t> open_unknowns(const Eigen::MatrixXd& design) {
-    // Columns of equal length: a coefficient's unit must not decide on its rank.
+std::vector<std::size_t> undetermined_unknowns(const Eigen::MatrixXd& design) {
+    // Columns of length 1, so that the unit of a coefficient has no effect on the rank.
     Eigen::MatrixXd scaled = design;
     for (Eigen::Index k = 0; k < scaled.cols(); ++k) {
         const double norm = scaled.col(k).norm();
         if (norm > 0.0) scaled.col(k) /= norm;
     }
-    // Zero lines below, so that the null space is complete with fewer rows than unknowns.
+    // Zero rows are appended, so that the null space is complete with fewer rows than unknowns.
     const Eigen::Index short_of = std::max<Eigen::Index>(0, scaled.cols() - scaled.rows());
     scaled.conservativeResize(scaled.rows() + short_of, Eigen::NoChange);
     scaled.bottomRows(short_of).setZero();
-    // Times and temperatures carry 1e-13 of their spread; no survey tells columns closer than this.
+    // Times and temperatures are rounded to 1e-13 of their range.  No survey can separate columns
+    // that differ by less than this tolerance.
     constexpr double kTolerance = 1e-9;
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinV);
     Eigen::VectorXd open = Eigen::VectorXd::Zero(scaled.cols());
@@ -51,7 +52,7 @@ std::vector<std::size_t> open_unknowns(const Eigen::MatrixXd& design) {
 }
 
 std::vector<std::string> unconnected_groups(const NetworkReadings& readings) {
-    // A loop joins its stations: they share its constant.  Merge until nothing changes.
+    // The stations of a loop are connected, because they share its constant: merge their groups.
     std::vector<std::size_t> group(readings.stations.size());
     std::iota(group.begin(), group.end(), std::size_t(0));
     std::map<std::size_t, std::size_t> first_of_loop;
@@ -80,7 +81,7 @@ std::string groups_tied_by_drift(const NetworkReadings& readings) {
     const std::size_t n = readings.station_of.size();
     for (std::size_t i = 0; i < n; ++i) {
         group.insert(readings.station_of[i]);
-        // A group ends where none of its stations comes again.
+        // A group ends if none of its stations is occupied again later.
         const bool comes_again =
             std::any_of(readings.station_of.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                         readings.station_of.end(),

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What a network leaves open, and why, in words.
+/// Unknowns that a network does not determine, and the reasons in words.
 
 #include <Eigen/Core>
 #include <string>
@@ -10,26 +10,33 @@
 
 namespace a351::corrector {
 
-/// The readings of a network: who was where, when.
+/// The readings of a network: station and loop of each.
 struct NetworkReadings {
-    std::vector<std::string> stations;    ///< Of the network.
-    std::vector<bool> is_held;            ///< One per station: a datum.
-    std::vector<std::size_t> station_of;  ///< One per reading, in order of time.
-    std::vector<std::size_t> loop_of;     ///< One per reading.
+    std::vector<std::string> stations;    ///< (s) Names of the stations of the network.
+    std::vector<bool> is_held;            ///< (s) True for a datum.
+    std::vector<std::size_t> station_of;  ///< Number of the station of each reading, by time.
+    std::vector<std::size_t> loop_of;     ///< Number of the loop of each reading.
 };
 
-/// Unknowns that rows leave open: those in which the null space of `design` has a part.  The sds of
-/// the rows have no bearing on it.
-[[nodiscard]] std::vector<std::size_t> open_unknowns(const Eigen::MatrixXd& design);
+/// Returns the numbers of the unknowns that the rows do not determine: those that have a component
+/// in the null space of `design`.
+///
+/// Columns are scaled to length 1 first, so that units have no effect.  Singular values up to 1e-9
+/// of the largest count as 0.  The standard deviations of the rows have no effect and are not
+/// needed.
+/// @param design  (rows, unknowns), finite; may have fewer rows than unknowns.
+[[nodiscard]] std::vector<std::size_t> undetermined_unknowns(const Eigen::MatrixXd& design);
 
-/// Stations that no chain of stations and loops joins to a datum: one text per group.
+/// Returns the groups of stations that no chain of stations and loops connects with a datum, as one
+/// text of joined names per group; empty if there are none.
 [[nodiscard]] std::vector<std::string> unconnected_groups(const NetworkReadings& readings);
 
-/// Stations that only the instrument's constant and drift tie to a datum, because none is occupied
-/// both before and after: `; `-joined groups, empty when there are none.
+/// Returns the groups of stations that only the instrument's constant and drift connect with a
+/// datum, because no station is occupied both before and after.  Groups are joined by `; `; empty
+/// if there are none.
 [[nodiscard]] std::string groups_tied_by_drift(const NetworkReadings& readings);
 
-/// Whether some station was read twice in one loop.
+/// Returns true if a station was read twice in one loop.
 [[nodiscard]] bool has_repeat(const NetworkReadings& readings);
 
 }  // namespace a351::corrector

@@ -9,9 +9,9 @@
 namespace a351::corrector {
 namespace {
 
-/// The loop of every row, numbered over those that have a reading in use; std::nullopt in others.
+/// Loops that have a reading in use.
 struct Loops {
-    std::vector<std::optional<std::size_t>> of;
+    std::vector<std::optional<std::size_t>> of;  ///< Loop of every row; absent in other loops.
     std::size_t count = 0;
 };
 
@@ -34,7 +34,7 @@ Loops find_loops(const std::vector<SurveyRow>& rows, const std::vector<bool>& in
     return loops;
 }
 
-/// Names of constant and drift, for the second loop and later ones with its number.
+/// Returns the names of constant and drift; from the second loop on, with the number of the loop.
 std::vector<std::string> loop_terms(std::size_t loop, int drift_degree) {
     const std::string suffix = loop == 0 ? "" : "_loop" + std::to_string(loop + 1);
     std::vector<std::string> names{"constant_mgal" + suffix};
@@ -53,7 +53,7 @@ bool temperature_varies(const std::vector<SurveyRow>& rows, const std::vector<bo
     return false;
 }
 
-/// @return the new line of `a`, zero.
+/// Appends a row to the system and returns its line of `a`, filled with 0.
 Eigen::MatrixXd::RowXpr add_row(NetworkSystem& system, NetworkAdjustment& network,
                                 std::string label, double sd, double value) {
     auto& [a, y] = system;
@@ -82,7 +82,8 @@ void set_terms(NetworkAdjustment& network, const std::vector<SurveyRow>& rows,
         network.terms.emplace_back("temperature_mgal_per_degc");
     } else {
         network.remarks.emplace_back(
-            "the temperature does not vary between the readings: its coefficient cannot be told "
+            "the temperature does not vary between the readings: its coefficient cannot be "
+            "separated "
             "from the constant and is left out");
     }
     if (has_rate) network.terms.emplace_back("rate_mgal_per_degc_per_h");
@@ -158,7 +159,7 @@ NetworkSystem build_system(NetworkAdjustment& network, const std::vector<SurveyR
         line(static_cast<Eigen::Index>(k)) = 1.0;
     }
     for (std::size_t k = 0; k < network.terms.size(); ++k) {
-        // The drift of every loop has the same prior.
+        // The drifts of all loops have the same prior.
         const std::string& term = network.terms[k];
         const Prior* const prior = priors.find(term.substr(0, term.find("_loop")));
         if (prior == nullptr) continue;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The linear system of a network: who was where, the instrument's terms, the rows.
+/// The linear system of a network: stations, terms of the instrument, and rows.
 
 #include <Eigen/Core>
 #include <string>
@@ -11,28 +11,40 @@
 
 namespace a351::corrector {
 
+/// Readings in use and the references of their stations.
 struct Occupied {
     NetworkReadings readings;
-    std::vector<MilliGal> references;  ///< Of the stations; 0 where there is none.
+    std::vector<MilliGal> references;  ///< (stations) Known gravity; 0 for an unknown station.
 };
 
-/// @param in_use, datum  as of adjust_network().
+/// Returns stations, loops and references of the readings in use.
+/// @param rows, in_use, datum  as adjust_network().
 [[nodiscard]] Occupied find_stations(const std::vector<SurveyRow>& rows,
                                      const std::vector<bool>& in_use,
                                      const std::vector<std::string>& datum);
 
-/// Sets the terms of the instrument, their columns for all rows, and which rows are tied to them.  A temperature that does not
-/// vary and has no prior is left out, with a remark.
+/// Sets `terms`, `term_columns` and `is_tied` of a network.
+///
+/// Times count from the first row of each loop, less kReferenceTime_h, in h; temperatures from
+/// kReferenceTemperature, in degC.  A temperature that does not vary between the rows in use and
+/// has no prior is left out, with a remark.  The rate takes part only with a prior.
+/// @param rows, in_use, priors  as adjust_network().
+/// @param drift_degree          0 to 2.
 void set_terms(NetworkAdjustment& network, const std::vector<SurveyRow>& rows,
                const std::vector<bool>& in_use, const ModelPriors& priors, int drift_degree);
 
-/// A x = y.  Labels and standard deviations of its rows are those of NetworkAdjustment::rows.
+/// The unweighted system A x = y.  Labels and standard deviations of its rows:
+/// NetworkAdjustment::rows.
 struct NetworkSystem {
-    Eigen::MatrixXd a;
-    Eigen::VectorXd y;
+    Eigen::MatrixXd a;  ///< (rows, stations + terms)
+    Eigen::VectorXd y;  ///< (rows) Right sides, in the unit of each row.
 };
 
-/// The rows of readings in use, datum and priors; sets origin, rows and their counts as well.
+/// Returns the rows of readings in use, datum and priors, in this order.  Also sets `origin`,
+/// `rows` and their counts in `network`; the origin is the reference of the first station held.
+/// @param network   with stations and terms set; at least one station is held.
+/// @param occupied  find_stations() of the same rows.
+/// @param rows, in_use, priors, options  as adjust_network().
 [[nodiscard]] NetworkSystem build_system(NetworkAdjustment& network,
                                          const std::vector<SurveyRow>& rows,
                                          const std::vector<bool>& in_use, const Occupied& occupied,

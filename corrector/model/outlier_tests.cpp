@@ -37,6 +37,7 @@ std::optional<double> studentised_residual(double residual, double leverage, boo
     const Eigen::Index dof = fit.dof() - 1;
     const double rss = fit.rss + fit.prior_rss;
     if (dof <= 0) return std::nullopt;
+    // s^2 (1 + h) for a row outside; s_i^2 (1 - h) for a row of the fit
     double variance = rss / static_cast<double>(dof + 1) * (1.0 + leverage);
     if (is_in_fit) {
         if (leverage > 1.0 - 1e-9) return std::nullopt;
@@ -72,7 +73,7 @@ std::vector<std::optional<StatisticalDoubt>> find_outliers(std::vector<bool> in_
             in_use[*worst] = false;
             continue;
         }
-        // The s of a row outside is that of the whole fit.
+        // A row outside the fit is tested with s of the whole fit, which has dof, not dof - 1.
         const double limit_outside = studentised_limit(n, static_cast<double>(rows->dof));
         for (std::size_t i = 0; i < in_use.size(); ++i) {
             if (in_use_at_first[i] || size_of(i) <= limit_outside) continue;

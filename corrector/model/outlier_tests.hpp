@@ -1,6 +1,7 @@
 #pragma once
 /// @file
-/// Two independent criteria for bad rows.  Both are reported; neither takes a row out.
+/// Two independent criteria for bad rows, a physical and a statistical one.  Both are reported;
+/// neither removes a row from the fit.  Methods: corrector/methods.md, "Bad rows".
 
 #include <functional>
 #include <optional>
@@ -12,50 +13,79 @@
 
 namespace a351::corrector {
 
-/// Chance of blaming a row of a clean survey, over all its rows: the customary one.
+/// Probability that at least one row of a clean survey is doubted.  Reason: the usual 5 %.
 inline constexpr double kOutlierAlpha = 0.05;
 
-/// At the some 10 mGal/(degC/h) of the sensor it makes 2 mGal, the scatter of a reading.
+/// Greatest rate of the temperature without doubt, degC/h.  Reason: at about 10 mGal/(degC/h), the
+/// sensor's coefficient, it changes the reading by 2 mGal, the scatter of a reading.
 inline constexpr double kGreatestRate_degc_per_h = 0.2;
 
-/// At the some 30 mGal/degC of the sensor it makes 1.5 mGal that no full wave averages out.
+/// Greatest range of a monotone or half-wave temperature without doubt, degC.  Reason: at about
+/// 30 mGal/degC, the sensor's coefficient, it changes the reading by 1.5 mGal, which averaging over
+/// the interval does not remove.
 inline constexpr double kGreatestRange_degc = 0.05;
 
-/// A rate above kGreatestRate_degc_per_h; a temperature that is monotone or half a wave with a range
-/// above kGreatestRange_degc.
-/// @return the reasons, joined by `;`, empty when there are none.
+/// Returns the reasons to doubt a row because of its temperature, joined by `;`; empty if there are
+/// none.
+///
+/// Reasons are |rate| above kGreatestRate_degc_per_h, and, if the row has a record, a temperature
+/// that is monotone or half a wave with a range above kGreatestRange_degc.  A value equal to its
+/// limit, or NaN, is no reason.
 [[nodiscard]] std::string temperature_doubt(const SurveyRow& row);
 
-/// From temperature and record alone: temperature_doubt(), and the notes fallback and pulse.
+/// Returns the reasons to doubt a row without use of gravity, joined by `;`: temperature_doubt()
+/// and the notes fallback and pulse.
 [[nodiscard]] std::string physical_doubt(const SurveyRow& row);
 
-/// Residual / its standard deviation, s from the other rows only.
-/// @param leverage   of a row of the fit its own, else what it would have.
-/// @return std::nullopt when the fit leaves no degree of freedom, or the row none to itself.
+/// Returns the external studentised residual t of a row: its residual divided by its standard
+/// deviation, with the variance from the other rows only.
+///
+/// A row of the fit with leverage h: t = r / sqrt(s_i^2 (1 - h)), where
+/// s_i^2 = (RSS - r^2 / (1 - h)) / (dof - 1).  Another row: t = r / sqrt(RSS / dof (1 + h)).
+/// RSS includes the priors' rows.
+/// @param residual   reference - corrected, in the unit of the fit.
+/// @param leverage   h of a row of the fit; for another row LinearFit::leverage_at() of it.
+/// @param is_in_fit  true for a row of the fit.
+/// @param fit        the fit.
+/// @return std::nullopt if the fit has fewer than two degrees of freedom, if the variance is not
+///         positive, or if a row of the fit has h > 1 - 1e-9.
 /// Source: N. R. Draper and H. Smith, Applied Regression Analysis, 3rd ed., Wiley 1998, ch. 8.
 [[nodiscard]] std::optional<double> studentised_residual(double residual, double leverage,
                                                          bool is_in_fit, const LinearFit& fit);
 
-/// Limit of |studentised residual|: Student-t at kOutlierAlpha / (2 n), two-sided for n rows.
-/// Without the n one clean row in twenty would be found.
-/// @param dof  of the s in it, > 0.
+/// Returns the limit of |studentised residual|: the quantile of Student's t that is exceeded with
+/// the probability kOutlierAlpha / (2 n).
+///
+/// The test is two-sided for n rows.  Without the division by n, one clean row in twenty would be
+/// doubted.  Two values from tables agree within 0.001 (outlier_tests_test.cpp).
+/// @param n    number of rows, >= 1.
+/// @param dof  degrees of freedom of the variance, > 0.
 [[nodiscard]] double studentised_limit(std::size_t n, double dof);
 
-/// A fit to the rows in use: studentised residuals of all rows where defined, its dof.
+/// A fit to the rows in use.
 struct StudentisedRows {
-    std::vector<std::optional<double>> values;
-    std::size_t dof = 0;
+    std::vector<std::optional<double>> values;  ///< (n) Studentised residuals; absent: undefined.
+    std::size_t dof = 0;                        ///< Degrees of freedom of the fit.
 };
+/// Fits the rows in use; returns std::nullopt if they do not determine the fit.
 using Refit = std::function<std::optional<StudentisedRows>(const std::vector<bool>& in_use)>;
 
+/// A row above the limit.
 struct StatisticalDoubt {
-    double studentised = 0.0;
-    double limit = 0.0;
+    double studentised = 0.0;  ///< Studentised residual t.
+    double limit = 0.0;        ///< Limit of |t|.
 };
 
-/// Takes the row with the largest |t| out, refits and goes on as long as it is above the limit.
-/// Rows that were not in use are tested against the last fit.
-/// @return one per row, set where above the limit.
+/// Tests all rows.
+///
+/// As long as the largest |t| in use is above studentised_limit() with dof - 1, its row is removed
+/// and the rest is fitted again.  Then rows that were not in use from the start are tested against
+/// the last fit, with dof.  The search ends early if a fit is undetermined or has fewer than two
+/// degrees of freedom; the doubts found until then are returned.  Two bad rows of equal size may
+/// hide each other; the robust fit does not have this weakness.
+/// @param in_use  (n) rows of the first fit.
+/// @param refit   fits the rows that are left.
+/// @return (n) set for rows above the limit.
 [[nodiscard]] std::vector<std::optional<StatisticalDoubt>> find_outliers(std::vector<bool> in_use,
                                                                          const Refit& refit);
 

@@ -77,7 +77,7 @@ DriftStep find_end_point_drift(const std::vector<SurveyRow>& rows, const std::ve
     const auto refuse = [base](const std::string& why) {
         return DriftStep{std::nullopt, "base " + std::string(base) + " " + why};
     };
-    // Several set-ups of one stay are rows of the same occupation.
+    // Several set-ups of one stay are rows of one occupation, and give no drift.
     if (stays.empty() || rows[stays.front()].occupation == rows[stays.back()].occupation) {
         return refuse("has fewer than two occupations, two are needed");
     }

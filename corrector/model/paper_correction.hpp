@@ -1,16 +1,21 @@
 #pragma once
 /// @file
-/// The correction of the publication, step by step, as its tables (not always its text) show it:
-/// S. Matsuda, K. Nakasendo, H. Morikawa, K. Iiyama and K. Sakai, "An experimental study on basic
-/// performances of accelerometer with crystal oscillator" (in Japanese).
+/// The correction of the publication, step by step.  It follows the tables, which differ from the
+/// text in places (tests/golden/tsukuba/README.md): S. Matsuda, K. Nakasendo, H. Morikawa, K.
+/// Iiyama and K. Sakai, "An experimental study on basic performances of accelerometer with crystal
+/// oscillator" (in Japanese).
 ///
 ///     D_i  = G_i - g_i - tide_i                    Difference
 ///     D    = a T + b                               least squares over the rows in use
 ///     G1_i = G_i - tide_i - (a T_i + b)            Corrected (1);  e1_i = g_i - G1_i
 ///     G2_i = G1_i + e1_first + (e1_last - e1_first) (t_i - t_first) / (t_last - t_first)
 ///
-/// where first and last are the ends of the day at the base station.
-/// Vectors hold one value per row, in mGal; NaN where the reference is unknown.
+/// G is the reading, g the reference, T the temperature.  First and last are the first and the last
+/// row of the base station.
+/// Vectors hold one value per row (n), mGal.  Values that need an unknown reference are NaN.
+///
+/// Accuracy: tests/golden/tsukuba_correction_test.cpp and tsukuba_models_test.cpp compare each step
+/// with the printed tables.
 
 #include <optional>
 #include <string>
@@ -21,52 +26,75 @@
 
 namespace a351::corrector {
 
+/// The line D = a T + b.
 struct TemperatureLine {
-    double slope_mgal_per_degc = 0.0;
-    MilliGal intercept;  ///< At 0 degC: 42 degC outside the data, so good to some mGal only.
-    double r_squared = 0.0;
+    double slope_mgal_per_degc = 0.0;  ///< a
+    /// b at 0 degC.  This is 42 degC outside the data, so it is known to a few mGal only.
+    MilliGal intercept;
+    double r_squared = 0.0;  ///< 1 - RSS / sum (D - mean)^2; NaN for constant D.
 };
 
+/// Returns the Difference D_i = G_i - g_i - tide_i of every row (n), mGal.
 [[nodiscard]] std::vector<double> differences_mgal(const std::vector<SurveyRow>& rows);
 
-/// @param in_use  one per row; rows without a reference are left out as well.
+/// Fits D = a T + b by least squares.
+/// @param rows    (n)
+/// @param in_use  (n) rows of the fit; rows without a reference are left out as well.
 /// @return std::nullopt with fewer than two such rows or a constant temperature.
 [[nodiscard]] std::optional<TemperatureLine> fit_temperature_line(
     const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use);
 
+/// Returns Corrected (1) of every row (n): G1_i = G_i - tide_i - (a T_i + b), mGal.  No reference
+/// is needed.
 [[nodiscard]] std::vector<double> temperature_corrected_mgal(const std::vector<SurveyRow>& rows,
                                                              const TemperatureLine& line);
 
-/// reference - corrected.
+/// Returns the errors reference - corrected of every row (n), mGal.
+/// @param corrected_mgal  (n) corrected values.
 [[nodiscard]] std::vector<double> errors_mgal(const std::vector<SurveyRow>& rows,
                                               const std::vector<double>& corrected_mgal);
 
-/// The straight line between the errors of the first and the last occupation of the base.
+/// The straight line between the errors e1 of the first and the last row of the base.
 struct EndPointDrift {
-    UtcTime first, last;
-    MilliGal first_error, last_error;
+    UtcTime first, last;               ///< Times of both rows.
+    MilliGal first_error, last_error;  ///< e1 of both rows.
 
+    /// Returns e1_last - e1_first.
     [[nodiscard]] MilliGal total() const { return last_error - first_error; }
+    /// Returns total() divided by the time between both rows.
     [[nodiscard]] double rate_mgal_per_h() const;
+    /// Returns e1_first + (e1_last - e1_first) (t - t_first) / (t_last - t_first), also outside the
+    /// two rows.
     [[nodiscard]] MilliGal at(UtcTime time) const;
 };
 
-/// The drift step, or the reason why it is refused: fewer than two occupations of the base, both
-/// ends not in use, or a base without reference gravity.
+/// The drift step, or the reason why it is refused.
 struct DriftStep {
     std::optional<EndPointDrift> drift;
-    std::string refusal;  ///< Empty when `drift` is there.
+    std::string refusal;  ///< Reason; empty if there is a drift.
 };
+
+/// Returns the drift between the first and the last row of the base.
+///
+/// It is refused if the base has fewer than two occupations, if it has no reference gravity, or if
+/// neither end is in use.
+/// @param rows             (n) in ascending time.
+/// @param in_use           (n)
+/// @param corrected1_mgal  (n) Corrected (1).
+/// @param base             name of the base station.
 [[nodiscard]] DriftStep find_end_point_drift(const std::vector<SurveyRow>& rows,
                                              const std::vector<bool>& in_use,
                                              const std::vector<double>& corrected1_mgal,
                                              std::string_view base);
 
+/// Returns Corrected (2) of every row (n): G2_i = G1_i + drift at t_i, mGal.
 [[nodiscard]] std::vector<double> drift_corrected_mgal(const std::vector<SurveyRow>& rows,
                                                        const std::vector<double>& corrected1_mgal,
                                                        const EndPointDrift& drift);
 
-/// sqrt(sum of squares / n) over the rows in use: divisor n, mean not removed.
+/// Returns sqrt(sum e^2 / n) over the rows in use: divisor n, mean not removed.
+/// @param errors_mgal  (n) errors; NaN is skipped and does not count in n.
+/// @param in_use       (n)
 /// @return NaN without such rows.
 [[nodiscard]] MilliGal rms(const std::vector<double>& errors_mgal, const std::vector<bool>& in_use);
 

@@ -1,9 +1,9 @@
 #pragma once
 /// @file
-/// What is known of the instrument before the survey: priors on coefficients of the linear models
-/// and of the network.  Each is one more row of the least-squares system,
+/// Prior knowledge of the instrument: priors on coefficients of the linear models and of the
+/// network.  Each prior adds one row to the least-squares system, in which readings have weight 1:
 ///
-///     reading_sd / sd * b = reading_sd / sd * mean,     readings with weight 1.
+///     reading_sd / sd * b = reading_sd / sd * mean
 
 #include <array>
 #include <optional>
@@ -14,43 +14,54 @@
 
 namespace a351::corrector {
 
+/// A normal prior, in the unit of its coefficient.
 struct Prior {
-    double mean = 0.0;
-    double sd = 1.0;  ///< kLeastPriorSd or more.
+    double mean = 0.0;  ///< -kGreatestPrior to kGreatestPrior.
+    double sd = 1.0;    ///< Standard deviation, kLeastPriorSd to kGreatestPrior.
 };
 
-/// Smaller ones would swamp the readings' digits in the least-squares system.
+/// Least standard deviation of a prior, in the unit of its coefficient.  Reason: with a smaller one
+/// the digits of the readings are lost in the least-squares system.
 inline constexpr double kLeastPriorSd = 1e-6;
-/// Of mean and sd; any coefficient of this sensor is far below.
+/// Greatest mean (absolute value) and standard deviation of a prior, in the unit of its
+/// coefficient.  Reason: all coefficients of this sensor are far smaller.
 inline constexpr double kGreatestPrior = 1e6;
 
+/// Coefficients that may have a prior, with their units.
 inline constexpr std::array<std::string_view, 3> kPriorNames{
     "temperature_mgal_per_degc", "rate_mgal_per_degc_per_h", "time_mgal_per_h"};
 
-/// Of standard deviations of readings and references: from the resolution of the tables to a
-/// scatter that makes them worthless.
+/// Least standard deviation of a reading or a reference, mGal.  Reason: the resolution of the
+/// tables.
 inline constexpr double kLeastSd_mgal = 0.001;
+/// Greatest standard deviation of a reading or a reference, mGal.  Reason: with this scatter it is
+/// worthless.
 inline constexpr double kGreatestSd_mgal = 1000.0;
 
+/// All priors of a survey, and the standard deviation against which they are weighted.
 struct ModelPriors {
-    std::array<std::optional<Prior>, kPriorNames.size()> values;  ///< As kPriorNames.
+    /// Priors in the order of kPriorNames.
+    std::array<std::optional<Prior>, kPriorNames.size()> values;
 
-    /// Standard deviation of a reading, which sets its weight against priors and datum.  Default:
-    /// the scatter of the published survey about its known stations.
+    /// Standard deviation of a reading, mGal; it sets the weight of readings against priors and
+    /// datum.  Default: the scatter of the published survey about its known stations.
     double reading_sd_mgal = 2.0;
 
-    /// Null when there is none, or no such coefficient.
+    /// Returns the prior of a coefficient; null if it has none, or if there is no such coefficient.
     [[nodiscard]] const Prior* find(std::string_view name) const;
 };
 
+/// Returns true if at least one coefficient has a prior.
 [[nodiscard]] bool has_any(const ModelPriors& priors);
 
-/// Sets one by name.
-/// @throws InputError  unknown name, number out of range; `origin` names the option.
+/// Sets the prior of a coefficient by name.
+/// @param origin  option or key that gives the prior, for messages.
+/// @throws InputError  if the name is unknown, or mean or standard deviation is out of range (or
+///                     NaN).
 void set_prior(ModelPriors& priors, std::string_view origin, std::string_view name, Prior prior);
 
-/// Reads `name = [mean, sd]` for each of kPriorNames.
-/// @throws InputError  another key, not two numbers, a number out of range.
+/// Reads `name = [mean, sd]` for each of kPriorNames; absent keys leave the prior as it is.
+/// @throws InputError  if there is another key, not exactly two numbers, or a number out of range.
 void read_priors(ModelPriors& priors, text::TomlTable table);
 
 }  // namespace a351::corrector

@@ -11,21 +11,21 @@
 namespace a351::corrector {
 namespace {
 
-constexpr Eigen::Index kExhaustiveRows = 25;  // 12650 subsets of four
-constexpr int kDrawnSubsets = 3000;           // hundreds are clean at 40 % bad rows
+constexpr Eigen::Index kExhaustiveRows = 25;  // 12650 subsets of four rows
+constexpr int kDrawnSubsets = 3000;           // with 40 % bad rows, hundreds of them are clean
 constexpr std::size_t kBestStarts = 10;
 constexpr int kMostSteps = 200;
-/// Below the last digit of any table: rows closer than this agree.
+/// Least scale, mGal.  Reason: below the last digit of any table; rows that are closer agree.
 constexpr double kLeastScale = 1e-6;
 
-/// y = [1 X] b with the priors' rows below.
+/// The system y = [1 X] b, and the priors' rows.
 struct Problem {
-    Eigen::MatrixXd design;  ///< (n, p) constant, centred columns.
-    Eigen::VectorXd y;
+    Eigen::MatrixXd design;  ///< (n, p) Constant, then centred columns.
+    Eigen::VectorXd y;       ///< (n) Centred.
     Eigen::MatrixXd prior_design;
     Eigen::VectorXd prior_y;
 
-    /// Weighted least squares; empty when the weighted rows leave something open.
+    /// Solves by weighted least squares; std::nullopt if the weighted rows do not determine b.
     [[nodiscard]] std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& weights) const {
         const Eigen::Index used = (weights.array() > 0.0).count();
         const Eigen::Index p = design.cols();
@@ -42,7 +42,7 @@ struct Problem {
         right.tail(prior_y.size()) = prior_y;
         if (rows.rows() < p) return std::nullopt;
         const PivotedQr qr(rows);
-        // Temperatures are printed to 0.01 degC: smaller pivots come from rows alike.
+        // Temperatures are printed to 0.01 degC: smaller pivots come from equal rows.
         constexpr double kLeastPivot = 1e-9;
         if (!(qr.pivots()(p - 1) > kLeastPivot)) return std::nullopt;
         return qr.solve(right);
@@ -73,12 +73,14 @@ Problem problem_of(const Eigen::Ref<const Eigen::MatrixXd>& columns,
     return problem;
 }
 
+/// A start of the iteration.
 struct Start {
-    double trimmed = 0.0;  ///< Sum of the h smallest squares.
+    double trimmed = 0.0;  ///< Sum of the h smallest squared residuals.
     Eigen::VectorXd b;
 };
 
-/// The h rows with the smallest residuals get weight 1.
+/// Returns weights 1 for the h rows with the smallest residuals, else 0; sets the sum of their
+/// squares.
 Eigen::VectorXd best_half(const Eigen::VectorXd& residuals, Eigen::Index h, double& trimmed) {
     std::vector<Eigen::Index> order(static_cast<std::size_t>(residuals.size()));
     std::iota(order.begin(), order.end(), Eigen::Index(0));
@@ -95,7 +97,7 @@ Eigen::VectorXd best_half(const Eigen::VectorXd& residuals, Eigen::Index h, doub
     return weights;
 }
 
-/// Calls `visit` with 0/1 weights of subsets of p rows.
+/// Calls `visit` with the 0/1 weights of each subset of p rows.
 template <class Visit>
 void for_each_subset(Eigen::Index n, Eigen::Index p, const Visit& visit) {
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
@@ -110,7 +112,7 @@ void for_each_subset(Eigen::Index n, Eigen::Index p, const Visit& visit) {
         } while (std::prev_permutation(chosen.begin(), chosen.end()));
         return;
     }
-    std::mt19937_64 generator(1);  // its own: the fit is the same whatever the survey's seed
+    std::mt19937_64 generator(1);  // fixed seed: the fit does not depend on the survey's
     for (int draw = 0; draw < kDrawnSubsets; ++draw) {
         weights.setZero();
         for (Eigen::Index chosen = 0; chosen < p;) {
@@ -129,7 +131,7 @@ std::optional<Eigen::VectorXd> least_trimmed_squares(const Problem& problem) {
     const Eigen::Index p = problem.design.cols();
     const Eigen::Index h = (n + p + 1) / 2;
     const auto is_better = [](const Start& a, const Start& b) { return a.trimmed < b.trimmed; };
-    std::vector<Start> best;  // a heap, the worst in front
+    std::vector<Start> best;  // a heap with the worst in front
     for_each_subset(n, p, [&](const Eigen::VectorXd& weights) {
         auto b = problem.solve(weights);
         if (!b) return;
@@ -168,12 +170,14 @@ double median_size(const Eigen::VectorXd& residuals) {
     return n % 2 == 1 ? sizes[n / 2] : 0.5 * (sizes[n / 2 - 1] + sizes[n / 2]);
 }
 
+/// Returns w = (1 - u^2)^2 for |u| < 1, else 0, with u = r / (c scale).
 Eigen::VectorXd bisquare_weights(const Eigen::VectorXd& residuals, double scale) {
     const Eigen::ArrayXd u = residuals.array() / (kBisquareTuning * scale);
     return (u.abs() < 1.0).select((1.0 - u.square()).square(), 0.0);
 }
 
-/// Huber's s: s^2 = sum psi^2 / (n - p) / mean(psi')^2.
+/// Returns s of s^2 = sum psi^2 / (n - p) / mean(psi')^2 (Huber 1981, 7.6), where psi = w r and
+/// psi' = (1 - u^2)(1 - 5 u^2) for |u| < 1, else 0.
 double covariance_scale(const RobustFit& robust) {
     const Eigen::ArrayXd r = robust.fit.residuals.array();
     const Eigen::ArrayXd u2 = (r / (kBisquareTuning * robust.start_scale)).square();
@@ -198,6 +202,7 @@ std::optional<RobustFit> fit_robust(const Eigen::Ref<const Eigen::MatrixXd>& col
 
     RobustFit robust;
     Eigen::VectorXd b = *start;
+    // scale = 1.4826 (1 + 5 / (n - p)) median |r|   (Rousseeuw and Leroy 1987)
     robust.start_scale =
         std::max(kLeastScale, kGaussianPerMad * (1.0 + 5.0 / static_cast<double>(n - p)) *
                                   median_size(problem.residuals(b)));

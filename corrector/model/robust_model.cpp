@@ -7,7 +7,8 @@
 namespace a351::corrector {
 namespace {
 
-/// Root mean square error of predicting each row from the rows that `is_other` keeps for it.
+/// Returns the root mean square error (mGal) of predicting each row from the rows that `is_other`
+/// keeps for it.
 template <class IsOther>
 std::optional<double> left_out_mgal(const LinearModel& model, const std::vector<SurveyRow>& rows,
                                     UtcTime origin, const ModelPriors& priors,

@@ -53,7 +53,8 @@ std::string statistical_doubt(double studentised, double limit) {
     return "t " + text::fixed(studentised, 2) + " over " + text::fixed(limit, 2);
 }
 
-/// Errors of the prediction without the row's station: one bad row does not hide another.
+/// Tests the errors of the prediction without the row's station.  Here one bad row does not hide
+/// another, so no row is removed.
 void test_left_out(SurveyCorrection& result) {
     const ModelScore& score = result.score;
     if (score.dof == 0) return;
@@ -100,7 +101,7 @@ std::string doubts_text(const SurveyCorrection& result) {
         text += '\n';
     }
     if (text.empty()) return "doubtful readings: none\n";
-    return "doubtful readings (none is left out for this):\n" + text;
+    return "doubtful readings (none is left out because of this):\n" + text;
 }
 
 }  // namespace a351::corrector

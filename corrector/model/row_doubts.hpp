@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// Doubts about the rows of a corrected survey.
 
 #include <string>
 
@@ -6,11 +8,15 @@
 
 namespace a351::corrector {
 
-/// Sets doubt_physical of every row, and doubt_statistical by least squares, or for the whole-day
-/// model by what it predicts without the row's station.
+/// Sets doubt_physical and doubt_statistical of every row.
+///
+/// The statistical test is find_outliers() with the least-squares fit of the model's terms or with
+/// the network.  For the whole-day model it compares the studentised residual of the prediction
+/// without the row's station with studentised_limit().  `paper` has no statistical test.
+/// @param result  survey that has been corrected.
 void set_doubts(SurveyCorrection& result);
 
-/// The rows in doubt with the reasons, one per line; says when there are none.
+/// Returns the doubtful rows with their reasons, one per line, or a line that there are none.
 [[nodiscard]] std::string doubts_text(const SurveyCorrection& result);
 
 }  // namespace a351::corrector

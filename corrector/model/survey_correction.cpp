@@ -26,10 +26,10 @@ void require_row_of(const std::vector<SurveyRow>& rows, const std::string& site,
         }
     }
     throw InputError(role + " = " + site +
-                     ": no occupation of it; allowed: " + text::joined(known));
+                     ": no occupation of this site; allowed: " + text::joined(known));
 }
 
-/// Whether a row may enter a fit, flags aside.
+/// Returns true if a row may enter a fit; flags are not considered.
 bool is_datum(const SurveyRow& row, const std::vector<std::string>& datum) {
     return row.reference && !row.is_excluded &&
            (datum.empty() || std::find(datum.begin(), datum.end(), row.site) != datum.end());
@@ -59,11 +59,11 @@ ScoredRowSet score_all_models(const std::string& name, const std::vector<SurveyR
     return set;
 }
 
-/// What the fit gives for every row, in use or not.
+/// A fit, applied to every row, in use or not.
 struct Applied {
     LinearFit fit;
-    Eigen::MatrixXd columns;  ///< All rows.
-    std::optional<double> s_mgal;
+    Eigen::MatrixXd columns;       ///< (n, p - 1) Regressors of all rows.
+    std::optional<double> s_mgal;  ///< Standard deviation of a row.
 };
 
 Applied apply_model(const LinearModel& model, const std::vector<SurveyRow>& rows,
@@ -83,6 +83,7 @@ void set_uncertainty(CorrectedRow& out, const LinearFit& fit, std::optional<doub
                      const Eigen::VectorXd& x) {
     const double leverage = fit.leverage_at(x);
     out.leverage = leverage;
+    // u = s sqrt(1 + h): a station that is not in the fit
     if (s_mgal) out.u_corrected = MilliGal(*s_mgal * std::sqrt(1.0 + leverage));
 }
 
@@ -122,7 +123,8 @@ void correct_linear(SurveyCorrection& result, const LinearModel& model, const Ap
     }
 }
 
-/// Leave-one-out errors of the rows in the fit are exact for least squares: r / (1 - h).
+/// Returns the 95 % interval of the LOO, from the leave-one-out errors r / (1 - h), which are exact
+/// for least squares.
 std::optional<Interval> loo_interval(const SurveyCorrection& result) {
     std::vector<double> errors;
     std::vector<std::string> stations;
@@ -141,14 +143,14 @@ void correct_robust(SurveyCorrection& result, const LinearModel& model, Applied&
     if (!robust) {
         throw InputError("model = robust: " + std::to_string(used.size()) +
                          " rows with a reference are too few for " + std::string(model.name) +
-                         ", or too many of them alike; allowed: more of them");
+                         ", or too many of them are equal; allowed: more rows");
     }
     applied.fit = robust->fit;
     applied.s_mgal = robust->s;
     correct_linear(result, model, applied);
     Eigen::Index at = 0;
     for (CorrectedRow& row : result.rows) {
-        // The robust scale is hardly the row's own doing: no row is left out of it.
+        // The robust scale hardly depends on a single row, so it is used as it is.
         row.studentised_residual.reset();
         if (row.residual && row.leverage.value() < 1.0) {
             const double share =
@@ -227,6 +229,7 @@ std::vector<StationValue> average_stations(const std::vector<CorrectedRow>& rows
         const auto n = static_cast<double>(station.row_count);
         station.gravity = MilliGal(sum / n);
         if (s_mgal) {
+            // u = s sqrt(1/n + h of the mean of its rows)
             station.u_gravity =
                 MilliGal(*s_mgal * std::sqrt(1.0 / n + applied.fit.leverage_at(x / n)));
         }
@@ -303,8 +306,8 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
 
     const std::vector<SurveyRow> used = chosen_rows(rows, in_use);
     result.model = options.model;
-    auto refusal = day_refusal(rows, in_use, day, says_of_day(options.calibration));
-    if (!refusal && has_any(priors)) refusal = "has priors of its own, `prior` would be lost";
+    auto refusal = day_refusal(rows, in_use, day, helps_to_correct_day(options.calibration));
+    if (!refusal && has_any(priors)) refusal = "uses its own priors, `prior` would be ignored";
     if (options.model == "day" && refusal) {
         throw InputError("model = day: " + *refusal + "; allowed: another model");
     }
@@ -317,13 +320,13 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
         if (day != nullptr) result.remarks.push_back("not the whole-day model: " + *refusal);
         result.choice = choose_model(used, origin, base, priors);
         result.choice_loso_mgal = choice_loso_mgal(used, origin, base, priors);
-        // Too few stations to compare models: the simplest one, or its refusal.
+        // With too few stations to compare models, the simplest one is taken, or its refusal.
         result.model = result.choice ? result.choice->model : "t";
     }
     const bool is_robust = result.model == "robust";
     const LinearModel* const model =
         find_linear_model(is_robust ? options.robust_terms : result.model);
-    // The line of `paper` is the publication's, without priors.
+    // The line of `paper` is the publication's: it has no priors.
     Applied applied = model != nullptr ? apply_model(*model, rows, used, origin, priors)
                                        : apply_model(kLinearModels.front(), rows, used, origin, {});
     if (is_robust) {

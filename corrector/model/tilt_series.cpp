@@ -14,10 +14,13 @@
 namespace a351::corrector {
 namespace {
 
-constexpr std::size_t kFewestSetUps = 6;  // level, four tilts, level again
-// 2 Gal of bias then make 17 mGal, ten times the scatter of set-ups.
+// Number of set-ups: level, four tilts, level again.
+constexpr std::size_t kFewestSetUps = 6;
+// Least tilt of each axis to both sides.  A bias of 2 Gal then changes the reading by 17 mGal, ten
+// times the scatter of set-ups.
 constexpr double kLeastTilt_deg = 0.5;
-// 0.3 degC move the reading by 10 mGal, of which the fit may leave a tenth.
+// Greatest range of temperature between set-ups.  0.3 degC change the reading by 10 mGal, of which
+// the fit may leave a tenth.
 constexpr double kGreatestRange_degc = 0.3;
 
 bool is_in_series(const SurveyRow& row) { return !row.is_flagged && !row.is_excluded; }
@@ -31,7 +34,7 @@ double tilt_deg(StandardGravity along) {
     return kDegPerRad * std::asin(std::clamp(along.value(), -1.0, 1.0));
 }
 
-/// Horizontal axes of all bins that take part, degrees; (bins, 2).
+/// Returns the tilts of the horizontal axes of all bins in use, degrees (bins, 2).
 Eigen::MatrixXd tilts_deg(const OccupationRows& read) {
     const std::vector<DayBin>& bins = read.day->bins;
     Eigen::MatrixXd all(static_cast<Eigen::Index>(bins.size()), 2);
@@ -59,7 +62,7 @@ void require_both_axes(const Eigen::MatrixXd& tilts, const std::string& origin) 
     const double across = std::sqrt(std::max(0.0, axes.values(0)));
     if (across < kLeastTilt_deg / 2.0)
         refuse(origin,
-               "x and y are tilted together: across, the tilts scatter by " +
+               "x and y are tilted together: in the other direction the tilts scatter by only " +
                    text::fixed(across, 2) + " deg",
                allowed);
 }
@@ -91,11 +94,11 @@ void require_tilt_series(const OccupationRows& read, const TiltSeries& series,
     const DayRecord* const day = read.day ? &*read.day : nullptr;
     const auto refusal =
         day_refusal(read.rows, std::vector<bool>(read.rows.size(), true), day, false);
-    if (refusal) refuse(origin, *refusal, "a record without that");
+    if (refusal) refuse(origin, *refusal, "a record without this");
     require_both_axes(tilts_deg(read), origin);
 }
 
-/// The bins with | mean vector - biases |, biases in mGal.
+/// Returns the bins with the reading |mean vector - biases|, biases in mGal.
 std::vector<DayBin> freed_from(const std::vector<DayBin>& bins, const Eigen::Vector3d& biases) {
     std::vector<DayBin> freed = bins;
     for (DayBin& bin : freed) {
@@ -122,7 +125,8 @@ TiltSeries measure_axis_bias(const OccupationRows& read, const std::string& orig
         series.greatest_tilt_deg.at(axis) = column.maxCoeff();
     }
 
-    // Without a reference its error, 3 Gal at most, is one of the vertical bias: even in the tilt.
+    // Standard gravity is wrong by at most 3 Gal.  This error acts like a vertical bias, whose
+    // effect is even in the tilt.
     const MilliGal gravity =
         read.rows.front().reference.value_or(MilliGal(kMilliGalPerStandardGravity));
     std::vector<DayStation> stations;
@@ -136,7 +140,7 @@ TiltSeries measure_axis_bias(const OccupationRows& read, const std::string& orig
         mean += (bin.reading - gravity).value() / static_cast<double>(read.day->bins.size());
 
     Eigen::Vector3d biases(0.0, 0.0, mean);
-    constexpr int kRounds = 3;  // each leaves some 1e-3 of the change before
+    constexpr int kRounds = 3;  // each round leaves about 1e-3 of the change of the round before
     DayRecord day = *read.day;
     const DayPriors priors = usual_day_priors();
     for (int round = 0; round < kRounds; ++round) {

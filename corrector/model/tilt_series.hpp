@@ -11,23 +11,36 @@
 
 namespace a351::corrector {
 
+/// Axis biases from one series, and the facts about the series.
 struct TiltSeries {
-    AxisBias bias;
-    std::size_t set_ups = 0;                                      ///< Measured from.
-    std::array<double, 2> least_tilt_deg{}, greatest_tilt_deg{};  ///< Of x and y.
-    double temperature_range_degc = 0.0;                          ///< Between set-ups.
-    double placement_mgal = 0.0;  ///< Scatter of set-ups that the fit found.
+    AxisBias bias;            ///< Biases of x and y, mGal/g, with their covariance.
+    std::size_t set_ups = 0;  ///< Number of set-ups used.
+    std::array<double, 2> least_tilt_deg{}, greatest_tilt_deg{};  ///< Tilts about x and y.
+    double temperature_range_degc = 0.0;  ///< Range of the set-ups' temperatures.
+    double placement_mgal = 0.0;          ///< Scatter of set-ups, estimated by the fit.
 };
 
-/// The whole-day model with gravity held, fitted to | mean vector - biases | until they no longer
-/// change: exact at any tilt.  The bias of the vertical axis comes from the site's gravity.
-/// @param origin  of the series, for messages.
-/// @throws InputError  in words, what the series lacks: one point, six set-ups, both axes tilted by
-///                     half a degree to both sides and not only together, an even temperature.
+/// Measures the biases of the horizontal axes.
+///
+/// The whole-day model with gravity held is fitted to |m - b|, where m is the mean vector of a bin
+/// and b the biases.  This is repeated three times with the biases found before, so that no
+/// small-angle approximation remains.  b_z is the mean reading minus gravity of the site; without a
+/// known gravity standard gravity (980665 mGal) is taken, whose error is even in the tilt and does
+/// not matter.  Flagged and excluded set-ups are not used.
+///
+/// Accuracy (tilt_series_test.cpp): biases of -1200 and 700 mGal/g come out within 0.5 mGal/g for
+/// twelve set-ups at 0 and 2 degrees, and within 2 mGal/g without the site's gravity.
+/// @param read    rows and record of the series.
+/// @param origin  name of the series, for messages.
+/// @throws InputError  if set-ups are at several points or fewer than six, if the temperature
+///                     between set-ups varies by more than 0.3 degC, if day_refusal() has a reason,
+///                     if an axis is not tilted by 0.5 deg to both sides, or if both axes are only
+///                     tilted together.
 [[nodiscard]] TiltSeries measure_axis_bias(const OccupationRows& read, const std::string& origin);
 
-/// The weighted mean of independent measurements.
-/// @param series  at least one.
+/// Returns the weighted mean of independent measurements: weights are the inverse covariances, and
+/// the covariance is the inverse of their sum.
+/// @param series  at least one, with positive definite covariances.
 [[nodiscard]] AxisBias combine(const std::vector<TiltSeries>& series);
 
 }  // namespace a351::corrector

@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// Comparison of the two trends of the occupations' records.
 
 #include <string>
 
@@ -6,8 +8,9 @@
 
 namespace a351::corrector {
 
-/// One line on how far the two trends of the occupations' records (occupations.csv,
-/// smoother_minus_eemd_mgal) lie apart; empty without such rows.
+/// Returns one line with mean, rms and largest value of the difference between the two trends of
+/// the occupations' records (occupations.csv, smoother_minus_eemd_mgal); empty without rows from
+/// records.
 [[nodiscard]] std::string trend_comparison_text(const SurveyCorrection& result);
 
 }  // namespace a351::corrector

@@ -33,7 +33,7 @@ std::string list_of(const Windows& windows, std::string (*name)(const Occupation
     return list;
 }
 
-/// Carries out amendments of one file, one kind after the other.
+/// Carries out the amendments of one file, one kind after the other.
 class Amender {
 public:
     Amender(Windows& windows, const std::vector<text::Site>& sites)
@@ -79,7 +79,7 @@ public:
             for (const text::Site& site : sites_) names += (names.empty() ? "" : ", ") + site.name;
             table.refuse("to", "no such site", names);
         }
-        if (to == amendment.site) table.refuse("to", "the name it has", "another site");
+        if (to == amendment.site) table.refuse("to", "already its name", "another site");
         const auto matches = matching(table, amendment, "name");
         const int number = free_number(to, amendment.occupation);
         for (const std::size_t i : matches) {
@@ -100,11 +100,12 @@ private:
         if (kind != "rename" && table.has("set_up")) {
             amendment.set_up = required_count(table, "set_up");
         }
-        amendment.reason = required_string(table, "reason", "why, in words");
+        amendment.reason = required_string(table, "reason", "the reason, in words");
         return amendment;
     }
 
-    /// @param what  is changed about them; a second change of it is a contradiction.
+    /// Returns the indices of the windows that an amendment names.
+    /// @param what  the property to change; a second change of it is a contradiction.
     std::vector<std::size_t> matching(text::TomlTable& table, const Amendment& amendment,
                                       const std::string& what) {
         table.require_all_read();
@@ -117,7 +118,7 @@ private:
         }
         if (of_site.empty()) {
             table.refuse(
-                "site", "no occupation of it",
+                "site", "no occupation there",
                 list_of(before_, [](const OccupationWindow& window) { return window.site; }));
         }
         if (stay.empty()) {
@@ -156,7 +157,7 @@ private:
     const Windows before_;
     Windows& windows_;
     const std::vector<text::Site>& sites_;
-    std::vector<std::set<std::string>> changed_;  ///< Of each window.
+    std::vector<std::set<std::string>> changed_;  ///< Changed properties of each window.
 };
 
 std::string subject(const Amendment& amendment) {

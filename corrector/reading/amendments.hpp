@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// What a person changed about the occupations of a day afterwards, in a file of its own.
-/// The record and the event log stay as they are.
+/// Later changes to the occupations of a day by a person, in a separate file.  The record and the
+/// event log are not changed.
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
@@ -13,30 +13,35 @@
 
 namespace a351::corrector {
 
-/// An amendment as it was carried out.
+/// An amendment that was carried out.
 struct Amendment {
     std::string kind;  ///< exclude, include, retime, rename.
-    std::string site;  ///< With `occupation` and `set_up` as before all amendments.
+    std::string site;  ///< Site before all amendments, as `occupation` and `set_up`.
     int occupation = 1;
-    std::optional<int> set_up;  ///< Counts the set-ups of the stay; absent: all of them.
-    std::string change;         ///< In words; empty where the kind says all.
+    std::optional<int> set_up;  ///< Number of the set-up within the stay, from 1; absent: all.
+    std::string change;         ///< Change in words; empty if the kind says everything.
     std::string reason;
 };
 
-/// Carries out the amendments of a TOML file: arrays of tables [[exclude]] (out of every fit) and
-/// [[include]] (used 1), [[retime]] (start_utc, end_utc or both) and [[rename]] (to), each with site, occupation, set_up
-/// (not of rename) and reason.  All speak of the occupations as they were in the list; a renamed stay
-/// keeps its number where the other site has none of it, else gets the next.  Every window changed
-/// has a note of it.
-/// @return  in the order of kinds above, then of the file.
-/// @throws InputError  unknown key, no reason, no such occupation or site, two that contradict.
+/// Carries out the amendments of a TOML file.
+///
+/// The file has arrays of tables: [[exclude]] (out of every fit), [[include]] (used 1), [[retime]]
+/// (start_utc, end_utc or both) and [[rename]] (to).  Each has site, occupation, set_up (not in
+/// rename) and reason.
+///
+/// All amendments name the occupations as they were in the list before.  A renamed stay keeps its
+/// number if the other site has no stay of this number; otherwise it gets the next one.  Every
+/// changed window gets a note.
+/// @return the amendments, in the order of kinds above, then of the file.
+/// @throws InputError  unknown key, no reason, no such occupation or site, contradiction.
 std::vector<Amendment> amend(std::vector<OccupationWindow>& windows,
                              const std::filesystem::path& file,
                              const std::vector<text::Site>& sites);
 
-/// One line each.
+/// Returns one line per amendment.
 [[nodiscard]] std::string amendments_text(const std::vector<Amendment>& amendments);
 
+/// Returns an array with one object per amendment.
 [[nodiscard]] nlohmann::ordered_json amendments_json(const std::vector<Amendment>& amendments);
 
 }  // namespace a351::corrector

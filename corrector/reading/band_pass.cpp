@@ -11,7 +11,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// y[n] = b (x[n] - x[n-2]) - a1 y[n-1] - a2 y[n-2]: zeros at frequency 0 and at half the rate.
+/// One filter section y[n] = b (x[n] - x[n-2]) - a1 y[n-1] - a2 y[n-2], with zeros at frequency 0
+/// and at half the rate.
 struct Section {
     double b = 0.0, a1 = 0.0, a2 = 0.0;
 
@@ -30,7 +31,8 @@ struct Section {
 };
 
 std::array<Section, 2> design(double low, double high) {
-    // Corners as shares of the rate; the bilinear transformation s = (z - 1) / (z + 1) warps them.
+    // Corners are fractions of the rate; the bilinear transformation s = (z - 1) / (z + 1) warps
+    // them.
     const double w1 = std::tan(std::numbers::pi * low), w2 = std::tan(std::numbers::pi * high);
     const double width = w2 - w1, centre2 = w1 * w2;
     const Complex prototype = std::polar(1.0, 0.75 * std::numbers::pi);

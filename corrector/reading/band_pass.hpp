@@ -1,13 +1,25 @@
 #pragma once
+/// @file
+/// A band pass without phase shift.
 
 #include <vector>
 
 namespace a351::corrector {
 
-/// Second-order Butterworth band pass between two periods, run forward and backward: no phase, gain
-/// 1 in the band and 1/2 at both periods.  The ends are continued by point reflection over three of
-/// the longer periods before filtering.
+/// Filters a series with a second-order Butterworth band pass between two periods.
 ///
+/// The filter runs forward and backward, so it shifts no phase.  Its gain is 1 at the centre of the
+/// band, the geometric mean of both periods, and 1/2 at both periods, each within 0.005
+/// (tests/unit/sim/signal/survey_day_test.cpp).  Before filtering, each end is continued by point
+/// reflection over three of the longer periods, or over the whole series if that is shorter.
+///
+/// A NaN makes all values NaN.
+///
+/// @param values            (n) samples at constant rate, any unit; n >= 1.
+/// @param step_s            time between two samples, s, > 0.
+/// @param shorter_period_s  s, more than two steps.
+/// @param longer_period_s   s, longer than shorter_period_s.
+/// @return (n) values in the unit of the series.
 /// Source: T. W. Parks and C. S. Burrus, Digital Filter Design, Wiley 1987, chap. 7: analogue
 /// prototype, band-pass transformation, bilinear transformation with prewarped corners.
 [[nodiscard]] std::vector<double> band_pass(const std::vector<double>& values, double step_s,

@@ -11,12 +11,13 @@
 namespace a351::corrector {
 namespace {
 
-constexpr std::size_t kReach = 5;  // samples of 2 s: 41 + 10 x 41 of 0.02 s
+/// Reach of both decimation filters in samples of 2 s: 41 + 10 x 41 samples of 0.02 s, rounded up.
+constexpr std::size_t kReach = 5;
 constexpr std::size_t kFewestOfBin = 8;
 constexpr double kCutoff_s = 120.0;
 constexpr double kShortestTemperature_s = 600.0;
 
-/// Whether each sample is valid and far from any disturbance.
+/// Returns true for each sample that is valid and far from any disturbance.
 std::vector<bool> quiet_samples(const std::vector<double>& series, double threshold) {
     std::vector<double> valid;
     std::vector<std::size_t> places;
@@ -42,7 +43,8 @@ struct Stretch {
     std::size_t first, behind;
 };
 
-/// Parts of the series between gaps longer than `most` samples; each begins and ends with a value.
+/// Returns the parts of the series between gaps longer than `most` samples.  Each part begins and
+/// ends with a value.
 std::vector<Stretch> runs_between_gaps(std::span<const double> values, std::size_t most) {
     std::vector<Stretch> runs;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -53,6 +55,7 @@ std::vector<Stretch> runs_between_gaps(std::span<const double> values, std::size
     return runs;
 }
 
+/// Fills the values between two samples with a straight line.
 void bridge(std::vector<double>& values, std::size_t before, std::size_t after) {
     const double rise = (values[after] - values[before]) / static_cast<double>(after - before);
     for (std::size_t i = before + 1; i < after; ++i)
@@ -69,7 +72,7 @@ std::vector<DayBin> bin_set_up(std::size_t set_up, const DecimatedAxes& axes, do
     for (std::size_t first = 0; first < size.size(); first += kBinSamples) {
         DayBin bin;
         bin.set_up = set_up;
-        // Less 1 g, for the last digits.
+        // 1 g is subtracted before summing, to keep the last digits.
         double reading_g = 0.0, x_g = 0.0, y_g = 0.0, after_s = 0.0;
         const std::size_t behind = std::min(size.size(), first + kBinSamples);
         for (std::size_t i = first; i < behind; ++i) {

@@ -10,13 +10,14 @@
 namespace a351::corrector {
 namespace {
 
+/// Samples on either side of the centre of the running median; 61 in all.
 constexpr std::size_t kHalfWindow = 30;
 
 double median_of(std::span<const double> values) {
     return median(std::vector<double>(values.begin(), values.end()));
 }
 
-/// Slope per sample: the median over all pairs half the length apart.
+/// Returns the slope per sample: the median over all pairs of samples half the length apart.
 double median_slope(std::span<const double> series) {
     const std::size_t half = series.size() / 2;
     std::vector<double> slopes;
@@ -26,8 +27,8 @@ double median_slope(std::span<const double> series) {
     return half == 0 ? 0.0 : median(std::move(slopes));
 }
 
-/// The line through the first sample with the slope of the whole.  Where that slope exceeds the
-/// noise, a running median alone would follow every sample.
+/// Returns the line through the first sample with the slope of the whole series.  Without it a
+/// running median would follow every sample where the slope per sample is larger than the noise.
 std::vector<double> line_through(std::span<const double> series) {
     const double slope = median_slope(series);
     std::vector<double> line;

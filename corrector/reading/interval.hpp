@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The part of an occupation whose mean stands for it.
+/// The part of an occupation that is averaged.
 
 #include <cstddef>
 #include <span>
@@ -12,36 +12,45 @@ namespace a351::corrector {
 struct Part {
     std::size_t first = 0;
     std::size_t last = 0;
-    bool disturbed_first = false;  ///< The left side lies next to a disturbance.
-    bool disturbed_last = false;   ///< The right side.
+    bool disturbed_first = false;  ///< A disturbance is next to the first sample.
+    bool disturbed_last = false;   ///< A disturbance is next to the last sample.
     bool split = false;            ///< Pulses cut the record; this is the longest part.
 };
 
-/// A disturbed sample farther than `margin` from both ends is a pulse.  The record is split at
-/// pulses and the longest part kept (the earliest of several); its sides next to a pulse are
-/// disturbed.  A side at an end of the record is disturbed if a sample within `margin` of it is.
+/// Returns the longest part of a record between pulses.
+///
+/// A pulse is a disturbed sample farther than `margin` from both ends.  The record is split at
+/// pulses, and the longest part is kept (the earliest of several).  A side of the part next to a
+/// pulse is disturbed.  A side at an end of the record is disturbed if a sample within `margin` of
+/// it is.
+///
+/// The part has at least one sample, because the outermost samples are never pulses.
 ///
 /// @param disturbed  (n) from find_disturbances(), n >= 1.
-/// @param margin     Samples.
+/// @param margin     samples, >= 0.
 [[nodiscard]] Part choose_part(const std::vector<bool>& disturbed, std::size_t margin);
 
 /// Samples first..last of the part, both included.
 struct Interval {
     std::size_t first = 0;
     std::size_t last = 0;
-    bool fallback = false;  ///< Extrema were lacking; a rule below the first one was used.
+    bool fallback = false;  ///< A fallback was used, because the curve has too few extrema.
 };
 
-/// Chooses the interval from the extrema of the trend curve, so that a disturbed side lies at a
-/// comparable phase of the slow oscillation, clear of the disturbance.
+/// Chooses the interval from the extrema of the trend curve.  A disturbed side is put at a
+/// comparable phase of the slow oscillation, away from the disturbance.
 ///
-/// 1. An undisturbed side lies at the end of the curve, a disturbed one at the second extremum from
-///    it; lacking that, at the first; lacking that, at the end (the last two are fallbacks).
-/// 2. If no more than one sample is left: first to last extremum, or the whole (fallbacks).
+/// 1. An undisturbed side is at the end of the curve.
+/// 2. A disturbed side is at the second extremum from its end.  With only one extremum it is there;
+///    without extrema it is at the end (both are fallbacks).
+/// 3. If at most one sample is left, the interval is from the first extremum to the last.  With
+///    fewer than two extrema it is the whole curve (both are fallbacks).
 ///
-/// A flat extremum is at its middle, rounded down.
+/// The position of a flat extremum is its middle, rounded down
+/// (tests/unit/reading/interval_test.cpp).
 ///
-/// @param curve  (n) trend curve of one part, n >= 1.
+/// @param curve  (n) trend curve of one part, any unit, finite; n >= 1.
+/// @param disturbed_first, disturbed_last  from choose_part().
 [[nodiscard]] Interval choose_interval(std::span<const double> curve, bool disturbed_first,
                                        bool disturbed_last);
 

@@ -21,7 +21,7 @@ std::vector<double> block_means(std::span<const double> values, std::size_t bloc
     return means;
 }
 
-/// How often `values` turn back by at least `threshold` from an extremum.
+/// Returns how many times `values` turn back by at least `threshold` from an extremum.
 int turn_count(const std::vector<double>& values, double threshold) {
     int turns = 0;
     int direction = 0;  // unknown until the first move by the threshold

@@ -26,7 +26,8 @@ bool do_overlap(const OccupationWindow& a, const OccupationWindow& b) {
     return a.start < b.end && b.start < a.end;
 }
 
-/// Those that overlap the largest number of others, by place in the list.
+/// Returns the indices of the windows that overlap the largest number of others; none if no windows
+/// overlap.
 std::vector<std::size_t> most_overlapping(const std::vector<OccupationWindow>& windows) {
     std::vector<std::size_t> most;
     std::size_t largest = 1;
@@ -59,6 +60,7 @@ void leave_out_overlapping(OccupationList& list) {
     }
 }
 
+/// Keeps the windows that start at or after `from` and before `to`.
 /// @throws InputError  none starts in that time.
 void keep_between(std::vector<OccupationWindow>& windows, const std::optional<UtcTime>& from,
                   const std::optional<UtcTime>& to, const std::filesystem::path& origin) {
@@ -71,12 +73,12 @@ void keep_between(std::vector<OccupationWindow>& windows, const std::optional<Ut
         throw InputError(origin.string() + ": no occupation starts" +
                          (from ? " from " + to_rfc3339(*from) + " on" : "") +
                          (from && to ? " and" : "") + (to ? " before " + to_rfc3339(*to) : "") +
-                         "; allowed: a time with one of those that start from " +
-                         to_rfc3339(first) + " to " + to_rfc3339(last));
+                         "; allowed: a time that includes a start; the first is at " +
+                         to_rfc3339(first) + ", the last at " + to_rfc3339(last));
     }
 }
 
-/// With a warning that there are others.
+/// Keeps the occupations of the last survey day, with a warning if there are others.
 void keep_last_day(std::vector<record::Occupation>& occupations, OccupationList& list,
                    const std::filesystem::path& origin) {
     if (occupations.empty()) return;
@@ -85,10 +87,10 @@ void keep_last_day(std::vector<record::Occupation>& occupations, OccupationList&
     occupations = record::survey_day(std::move(occupations), last);
     if (occupations.size() == all) return;
     list.warnings.push_back(
-        origin.string() + ": the last day is taken, from " +
+        origin.string() + ": only the last day is used, from " +
         to_rfc3339(occupations.front().set_ups.front().start) +
         " on; occupations of earlier days: " + std::to_string(all - occupations.size()) +
-        "; from_utc and to_utc choose others");
+        "; use from_utc and to_utc to choose others");
 }
 
 UtcTime instant(const text::CsvTable& table, std::size_t row, std::string_view column) {
@@ -97,7 +99,7 @@ UtcTime instant(const text::CsvTable& table, std::size_t row, std::string_view c
     return *time;
 }
 
-/// Instants at which a start ended an occupation that had no stop.
+/// Returns the instants at which a start ended an occupation without a stop.
 std::set<UtcTime> ends_without_stop(const std::vector<record::Event>& events) {
     std::set<UtcTime> ends;
     bool is_running = false;
@@ -156,7 +158,7 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
     OccupationList list;
     for (const record::EventDamage& damage : log.damage) {
         list.warnings.push_back(damage.file.filename().string() + ":" +
-                                std::to_string(damage.line) + ": not an event, passed over");
+                                std::to_string(damage.line) + ": not an event, skipped");
     }
     const std::set<UtcTime> ends = ends_without_stop(log.events);
     auto occupations = record::occupations_of(log.events);
@@ -174,18 +176,18 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
     for (const OccupationWindow& window : list.windows) {
         if (!window.notes.empty())
             list.warnings.push_back(named(window) +
-                                    " has no stop: it lasts to the next start, at " +
+                                    " has no stop: it lasts until the next start, at " +
                                     to_rfc3339(window.end));
     }
     if (const auto site = record::running_site(log.events); site && !to) {
         list.warnings.push_back(events.string() + ": the last occupation, of " + *site +
-                                ", has no stop, left out");
+                                ", has no stop and is left out");
     }
     return list;
 }
 
-OccupationList leave_out_impossible(OccupationList list, const std::vector<text::Site>& sites,
-                                    const std::filesystem::path& origin) {
+OccupationList drop_invalid_occupations(OccupationList list, const std::vector<text::Site>& sites,
+                                        const std::filesystem::path& origin) {
     std::vector<OccupationWindow> windows;
     for (OccupationWindow& window : list.windows) {
         const auto drop = [&](const std::string& reason, const std::string& detail) {

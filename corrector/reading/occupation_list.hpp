@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// The occupations of a survey, from a table or from the event log.
 
 #include <filesystem>
 #include <optional>
@@ -11,53 +13,60 @@
 
 namespace a351::corrector {
 
-/// One set-up of the sensor at a benchmark: what the record between two instants belongs to.
+/// One set-up of the sensor at a benchmark, from its start to its end.
 struct OccupationWindow {
     std::string site;
-    int number = 1;  ///< Of the stay at this site; several set-ups of one stay share it.
+    int number = 1;  ///< Number of the stay at this site; all set-ups of one stay share it.
     UtcTime start;
     UtcTime end;
-    bool is_flagged = false;                  ///< Not to be used in the fit.
-    std::optional<MilliGal> given_tide = {};  ///< Effect on gravity.
-    bool is_excluded = false;                 ///< By an amendment.
-    std::vector<std::string> notes = {};      ///< What became of it on the way.
+    bool is_flagged = false;                  ///< Marked as not to be used in the fit.
+    std::optional<MilliGal> given_tide = {};  ///< Effect of the tide on gravity.
+    bool is_excluded = false;                 ///< Excluded by an amendment.
+    std::vector<std::string> notes = {};      ///< Flags for the table, e.g. "no-stop".
 };
 
 struct OccupationList {
-    std::vector<OccupationWindow> windows;  ///< By start, as they were read.
+    std::vector<OccupationWindow> windows;  ///< Set-ups in order of start.
     std::vector<LeftOut> left_out;
-    std::vector<std::string> warnings;  ///< What was passed over or left out, and why.
+    std::vector<std::string> warnings;  ///< Entries skipped or left out, with the reason.
 };
 
-/// Reads `site,occupation,start_utc,end_utc,used,note`, what starts from `from` on and before `to`
-/// where they are given; `used` is 1, 0 or empty (= 1).  A column
-/// `earth_tide_mgal` may follow.
-/// @throws InputError  unknown site, a cell that is not what its column says.
+/// Reads a table `site,occupation,start_utc,end_utc,used,note`.  `used` is 1, 0 or empty (= 1).  A
+/// column `earth_tide_mgal` is optional.
+/// @param from, to  if given, only occupations that start at or after `from` and before `to`.
+/// @throws InputError  unknown site, a cell that does not fit its column, no occupation in that
+///                     time.
 [[nodiscard]] OccupationList read_occupation_table(const std::filesystem::path& file,
                                                    const std::vector<text::Site>& sites,
                                                    const std::optional<UtcTime>& from = {},
                                                    const std::optional<UtcTime>& to = {});
 
-/// The occupations of a survey in an event log (directory `events` of a data root): what starts from
-/// `from` on and before `to`; where neither is given, the last survey day (record::kSurveyNight),
-/// with a warning that there are others.  One that was never stopped is left out with a warning.
+/// Reads the occupations of a survey from an event log (directory `events` of a data root).
+///
+/// An occupation that was not stopped lasts until the next start, with the note no-stop and a
+/// warning.  The last occupation of the log is left out with a warning if it was not stopped.
+/// @param from, to  only occupations that start at or after `from` and before `to`.  If neither is
+///                  given: the last survey day (record::kSurveyNight), with a warning if there are
+///                  others.
 /// @throws InputError  the log has occupations, but none in that time.
 [[nodiscard]] OccupationList read_logged_occupations(const std::filesystem::path& events,
                                                      const std::optional<UtcTime>& from = {},
                                                      const std::optional<UtcTime>& to = {});
 
-/// Leaves out, with a warning each, what cannot be: occupations at unknown sites (a slip made in the
-/// field), those that end before they start, and those that overlap others.  Of these the one that
-/// overlaps most goes first, until none does; where two overlap each other alone both go, since
-/// nobody knows which is right.
-/// @param origin  file or directory they were read from, for messages.
+/// Leaves out impossible occupations, with a warning for each.
+///
+/// These are occupations at unknown sites (a slip made in the field), those that end before they
+/// start, and those that overlap others.  The one that overlaps most others is left out first, and
+/// so on until none overlaps.  If two overlap only each other, both are left out, because it is not
+/// known which one is right.
+/// @param origin  file or directory from which they were read, for messages.
 /// @throws InputError  none is left.
-[[nodiscard]] OccupationList leave_out_impossible(OccupationList list,
-                                                  const std::vector<text::Site>& sites,
-                                                  const std::filesystem::path& origin);
+[[nodiscard]] OccupationList drop_invalid_occupations(OccupationList list,
+                                                      const std::vector<text::Site>& sites,
+                                                      const std::filesystem::path& origin);
 
-/// Notes that a window has no row, with a warning.
-/// @param detail  follows the reason in the warning.
+/// Adds an occupation without a row to `left_out`, and a warning.
+/// @param detail  text after the reason in the warning.
 void leave_out(std::vector<LeftOut>& left_out, std::vector<std::string>& warnings,
                const OccupationWindow& window, const std::string& reason,
                const std::string& detail = "");

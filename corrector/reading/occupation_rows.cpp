@@ -12,14 +12,14 @@
 namespace a351::corrector {
 namespace {
 
-constexpr std::chrono::minutes kMargin(1);  // for the filters of the temperature
-constexpr std::chrono::hours kBefore(8);    // what the slowest response to it remembers
+constexpr std::chrono::minutes kMargin(1);  // reach of the temperature's filters, 9 s, and more
+constexpr std::chrono::hours kBefore(8);    // memory of the slowest response to temperature
 
 UtcTime first_sample(bool is_axis, const std::vector<OccupationWindow>& windows) {
     return windows.front().start - (is_axis ? Nanoseconds(kMargin) : Nanoseconds(kBefore));
 }
 
-/// Every file that read_samples() looks at.
+/// Returns every file that read_samples() reads.
 std::vector<text::InputFile> archive_files(const SurveySource& source,
                                            const record::StationCodes& codes,
                                            const SurveyChannels& channels,
@@ -46,8 +46,8 @@ std::vector<text::InputFile> archive_files(const SurveySource& source,
     return inputs;
 }
 
-/// All samples from the first window to the last, and the temperature before; each channel is read
-/// once.
+/// Reads all samples from the first window to the last, and the temperature before.  Each channel
+/// is read once.
 SurveySamples read_samples(const SurveySource& source, const record::StationCodes& codes,
                            const SurveyChannels& channels,
                            const std::vector<OccupationWindow>& windows) {
@@ -87,7 +87,7 @@ std::vector<text::InputFile> inputs_of(const SurveySource& source, const SurveyS
     return inputs;
 }
 
-/// The temperature from hours before the first occupation to the end of the last.
+/// Returns the temperature from kBefore before the first occupation to the end of the last.
 std::optional<DayTemperature> temperature_of_day(const SurveySamples& samples,
                                                  const SurveyChannels& channels,
                                                  const std::vector<OccupationWindow>& windows) {
@@ -107,7 +107,7 @@ std::pair<OccupationList, std::vector<Amendment>> read_occupations(
                                     : read_occupation_table(origin, sites, source.from, source.to);
     std::vector<Amendment> amendments;
     if (!source.amendments.empty()) amendments = amend(list.windows, source.amendments, sites);
-    return {leave_out_impossible(std::move(list), sites, origin), std::move(amendments)};
+    return {drop_invalid_occupations(std::move(list), sites, origin), std::move(amendments)};
 }
 
 }  // namespace
@@ -145,7 +145,7 @@ SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& valu
     return row;
 }
 
-SurveyStays read_stays(const SurveySource& source) {
+SurveyStays read_survey_inputs(const SurveySource& source) {
     SurveyStays stays;
     stays.sites = text::read_sites(source.sites);
     std::tie(stays.list, stays.amendments) = read_occupations(source, stays.sites);
@@ -212,7 +212,7 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     if (result.rows.empty()) {
         throw InputError(source.path.string() + ": root = " + source.root.string() +
                          ": no occupation has samples; last: " + result.warnings.back() +
-                         "; allowed: an archive of those hours");
+                         "; allowed: an archive that covers these hours");
     }
     std::stable_sort(result.left_out.begin(), result.left_out.end(),
                      [](const LeftOut& a, const LeftOut& b) { return a.start < b.start; });

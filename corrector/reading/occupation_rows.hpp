@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// From a data root to the rows of a survey.
 
 #include <cstddef>
 #include <filesystem>
@@ -20,20 +22,22 @@
 
 namespace a351::corrector {
 
-/// Where the readings of a survey come from, and how they are averaged.
+/// Files of a survey's readings, and the options of their average.
 struct SurveySource {
-    std::filesystem::path
-        path;  ///< File that names the others, for messages; empty: there is none.
-    std::filesystem::path root;         ///< Data root: archive/, metadata/, events/.
+    /// File that names the others, for messages; empty if there is none.
+    std::filesystem::path path;
+    std::filesystem::path root;         ///< Data root with archive/, metadata/, events/.
     std::filesystem::path sites;        ///< CSV of the benchmarks.
     std::filesystem::path occupations;  ///< CSV; empty: the event log of the root.
     std::filesystem::path amendments;   ///< TOML for amend(); empty: none.
-    std::optional<UtcTime> from;        ///< First start of an occupation that is used ...
-    std::optional<UtcTime> to;  ///< ... and the first that is not; neither: a log's last day.
+    /// Start of the time in which occupations must start.  Without `from` and `to`: all of a table,
+    /// or the last survey day of the log.
+    std::optional<UtcTime> from;
+    std::optional<UtcTime> to;  ///< End of this time, not included.
     RepresentativeOptions averaging;
 };
 
-/// The stays of a survey and the sensor that recorded them; no sample has been read.
+/// The stays of a survey and the sensor that recorded them; no sample has been read yet.
 struct SurveyStays {
     std::vector<text::Site> sites;
     OccupationList list;
@@ -43,28 +47,30 @@ struct SurveyStays {
     SurveyChannels channels;
 };
 
+/// The readings of a survey.
 struct OccupationRows {
-    std::vector<SurveyRow> rows;               ///< With the rate within the interval; by time.
-    std::vector<RepresentativeValue> records;  ///< Behind the rows, one each.
-    std::vector<MinuteTemperature> temperature_course;  ///< Over the whole survey.
+    std::vector<SurveyRow> rows;  ///< Rows in order of time; rates are those within the interval.
+    std::vector<RepresentativeValue> records;           ///< Record of each row.
+    std::vector<MinuteTemperature> temperature_course;  ///< Temperature over the whole survey.
     std::optional<DayRecord> day;       ///< Set-ups numbered as the rows; absent: no temperature.
     std::vector<LeftOut> left_out;      ///< Occupations without a value, by start.
-    std::vector<std::string> warnings;  ///< Doubts and omissions, with the reason.
+    std::vector<std::string> warnings;  ///< Doubts and omissions, with reasons.
     std::vector<Amendment> amendments;
     std::vector<text::Site> sites;
-    std::vector<text::InputFile> inputs;  ///< Every file read.
-    std::string serial_number;            ///< Of the sensor; empty: not in the metadata.
+    std::vector<text::InputFile> inputs;  ///< All files that were read.
+    std::string serial_number;            ///< Sensor; empty if not in the metadata.
 };
 
-/// The representative value of a record as a row of the survey, reference and tide left open.
-/// @param value  with a temperature.
+/// Returns the representative value of a record as a row of the survey, without reference and tide.
+/// @param value  must have a temperature.
 [[nodiscard]] SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& value);
 
 /// Reads the table of sites, the occupations and the station's metadata.
 /// @throws InputError  one of them cannot be read.
-[[nodiscard]] SurveyStays read_stays(const SurveySource& source);
+[[nodiscard]] SurveyStays read_survey_inputs(const SurveySource& source);
 
-/// Averages every occupation, on all cores; the result does not depend on their number.  The tide stays zero.
+/// Averages every occupation, on all cores.  The result does not depend on their number.  The tide
+/// is left zero.
 /// @throws InputError  no occupation has a value.
 [[nodiscard]] OccupationRows average_occupations(const SurveySource& source,
                                                  const SurveyStays& stays,

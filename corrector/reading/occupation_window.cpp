@@ -9,13 +9,15 @@
 namespace a351::corrector {
 namespace {
 
-/// More than both decimation filters reach: 41 + 10 x 41 samples.
+/// Samples of temperature beyond each end.  Reason: more than the reach of both decimation filters,
+/// 41 + 10 x 41 samples.
 constexpr std::size_t kTemperatureMargin = 500;
 
-/// Over less than a minute the rounding of the time stamps outweighs the error of the header's rate.
+/// Shortest time from which a rate is computed, s.  Reason: over less than a minute the rounding of
+/// the time stamps causes a larger error than the rate of the header has.
 constexpr double kShortestForRate_s = 60.0;
 
-/// Offset of the first sample at or after `time`; the size when there is none.
+/// Returns the offset of the first sample at or after `time`; the size if there is none.
 std::size_t first_at_or_after(const record::Segment& segment, UtcTime time) {
     std::size_t low = 0;
     std::size_t high = segment.counts.size();
@@ -30,7 +32,7 @@ std::size_t first_at_or_after(const record::Segment& segment, UtcTime time) {
     return low;
 }
 
-/// Rate between the first and the last time stamp of samples [first, behind).
+/// Returns the rate between the first and the last time stamp of samples [first, behind).
 double observed_rate_hz(const record::Segment& segment, std::size_t first, std::size_t behind) {
     const record::Segment::Anchor* earliest = nullptr;
     const record::Segment::Anchor* latest = nullptr;
@@ -87,7 +89,7 @@ std::optional<SampleGrid> sampling_grid(const std::vector<record::Segment>& segm
         rate_hz = observed_rate_hz(segment, first, behind);
     }
     if (!origin) return std::nullopt;
-    // The last sample lies before `end`; half a sample of tolerance for rounded stamps.
+    // The last sample is before `end`, with half a sample of tolerance for rounded stamps.
     const double count = std::ceil(seconds_between(*origin, end) * rate_hz - 0.5);
     return SampleGrid{*origin, rate_hz, static_cast<std::size_t>(std::max(count, 1.0))};
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Samples of the archive -> the regular record of one occupation.
+/// From samples of the archive to the regular record of one occupation.
 
 #include <array>
 #include <cstddef>
@@ -17,22 +17,26 @@
 
 namespace a351::corrector {
 
-/// Instants origin + i / rate, i = 0 ... count - 1.
+/// The instants origin + i / rate, i = 0 ... count - 1.
 struct SampleGrid {
     UtcTime origin;
     double rate_hz = 0.0;
     std::size_t count = 0;
 };
 
-/// The grid on which the sensor sampled between two instants: it starts at the first sample within
-/// [start, end) and has the rate that the longest piece shows between its time stamps, so that
-/// a sensor some ppm off its nominal rate loses no sample.
-/// @return std::nullopt without a sample in the window.
+/// Returns the grid on which the sensor sampled between two instants.
+///
+/// The grid starts at the first sample within [start, end).  Its rate is that between the time
+/// stamps of the longest piece, so that a sensor with a rate error of some ppm loses no sample;
+/// tested at 80 ppm (tests/unit/reading/occupation_window_test.cpp).  If these stamps span less
+/// than 60 s, it is the rate of the header, because then the rounding of the stamps is the larger
+/// error.
+/// @return the grid up to `end`; std::nullopt without a sample in the window.
 [[nodiscard]] std::optional<SampleGrid> sampling_grid(const std::vector<record::Segment>& segments,
                                                       UtcTime start, UtcTime end);
 
-/// Puts segments on the grid, value = offset + gain x count; NaN where no sample is.  A segment
-/// stays in one piece: its first sample decides.
+/// Puts segments on the grid, value = offset + gain x count; NaN if there is no sample.  A segment
+/// is placed by its first sample and not divided.
 [[nodiscard]] std::vector<double> place_on_grid(const std::vector<record::Segment>& segments,
                                                 const record::ChannelScale& scale,
                                                 const SampleGrid& grid);
@@ -40,23 +44,26 @@ struct SampleGrid {
 /// The channels of a station that the corrector needs.
 struct SurveyChannels {
     std::array<record::ChannelScale, 3> axes;  ///< x, y, z in m/s2.
-    record::ChannelScale temperature;          ///< In degC, at the rate of the axes.
+    record::ChannelScale temperature;          ///< degC, at the rate of the axes.
 };
 
-/// @throws InputError  a channel is missing or has another unit; `file` names the metadata.
+/// Finds the channels of the axes and of the temperature.
+/// @param file  name of the metadata, for messages.
+/// @throws InputError  a channel is missing or has another unit.
 [[nodiscard]] SurveyChannels find_channels(const record::StationMetadata& station,
                                            const std::filesystem::path& file);
 
-/// A warning for each piece of its files that could not be read.
+/// Adds a warning for each piece of the channel's files that could not be read.
 void add_damage(std::vector<std::string>& warnings, const record::ChannelData& channel);
 
-/// The channels' samples over a survey.
+/// The samples of all channels over a survey.
 struct SurveySamples {
     std::array<record::ChannelData, 3> axes;
     record::ChannelData temperature;
 };
 
-/// The record of one occupation; the temperature reaches some seconds beyond it on both sides.
+/// Returns the record of one occupation, axes in g.  The temperature extends 10 s (500 samples at
+/// 50 Hz) beyond it on both sides.
 /// @return std::nullopt without a sample of the vertical axis in the window.
 [[nodiscard]] std::optional<OccupationRecord> cut_occupation(const SurveySamples& samples,
                                                              const SurveyChannels& channels,

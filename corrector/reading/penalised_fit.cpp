@@ -8,7 +8,8 @@
 namespace a351::corrector {
 namespace {
 
-/// Refinement squares it, and the inverse is as good.
+/// Largest relative error of a fitted straight line.  Reason: one refinement reduces it to its
+/// square; the diagonal of the inverse has the error itself.
 constexpr double kMostLineError = 0.01;
 
 }  // namespace
@@ -51,8 +52,8 @@ PenalisedFit::PenalisedFit(std::span<const double> weights, double penalty)
     }
 }
 
-/// Whether the factors return a straight line as it was.  They should, for it has no second
-/// differences; across gaps much longer than the cut-off rounding makes other curves of it.
+/// Returns true if the factors reproduce a straight line.  They should, because a line has no
+/// second differences.  Across gaps much longer than the cut-off, rounding bends it.
 bool PenalisedFit::returns_line() const {
     const std::size_t n = weights_.size();
     std::vector<double> line(n);
@@ -76,7 +77,7 @@ std::vector<double> PenalisedFit::solve(std::span<const double> right_side) cons
     return x;
 }
 
-/// x of L diag(d) L' x = right_side.
+/// Returns x of L diag(d) L' x = right_side, which is given in `x`.
 std::vector<double> PenalisedFit::substitute(std::vector<double> x) const {
     const std::size_t n = x.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -91,8 +92,8 @@ std::vector<double> PenalisedFit::substitute(std::vector<double> x) const {
     return x;
 }
 
-/// right_side - A x, by differences of x: in the products of A itself, of the size of lambda x,
-/// what a smooth x leaves over would be lost.
+/// Returns right_side - A x, computed from differences of x.  The products of A itself are of the
+/// size of lambda x; the small remainder of a smooth x would be lost in them.
 std::vector<double> PenalisedFit::remainder(std::span<const double> right_side,
                                             std::span<const double> x) const {
     std::vector<double> left(right_side.begin(), right_side.end());

@@ -14,8 +14,8 @@
 namespace a351::corrector {
 namespace {
 
-constexpr std::size_t kShortestRun = 16;
-constexpr double kBlockSeconds = 60.0;
+constexpr std::size_t kShortestRun = 16;  // decimated samples, 32 s at 50 Hz
+constexpr double kBlockSeconds = 60.0;    // blocks of the standard error
 
 void validate(const RepresentativeOptions& options) {
     if (!(options.end_margin_s >= 0.0 && options.end_margin_s < 1e6)) {
@@ -33,7 +33,7 @@ void validate(const RepresentativeOptions& options) {
     }
 }
 
-/// Raw samples on either side of the centre that both stages together reach: 41 + 10 x 41.
+/// Returns the reach of both stages together in raw samples on either side: 41 + 10 x 41.
 std::size_t reach_of(const DecimationFilter& filter) {
     return filter.half_width() * (1 + filter.factor);
 }
@@ -47,7 +47,7 @@ struct Run {
     std::size_t size = 0;
 };
 
-/// The longest run without NaN; the earliest of several.
+/// Returns the longest run without NaN; the earliest of several.
 Run longest_valid_run(std::span<const double> values) {
     Run longest;
     Run current;
@@ -61,7 +61,7 @@ Run longest_valid_run(std::span<const double> values) {
     return longest;
 }
 
-/// present[i] = number of raw samples before i that have all three axes.
+/// Returns present[i], the number of raw samples before i that have all three axes.
 std::vector<std::size_t> count_present(const OccupationRecord& record) {
     std::vector<std::size_t> present(record.x.size() + 1);
     for (std::size_t i = 0; i < record.x.size(); ++i) {
@@ -85,7 +85,8 @@ SampleCounts count_samples(const std::vector<std::size_t>& present, std::size_t 
     return counts;
 }
 
-/// Decimated temperature on the grid of the decimated axes, using what was recorded beyond them.
+/// Returns the decimated temperature on the grid of the decimated axes.  Uses the temperature
+/// recorded beyond the axes.
 TimeSeries<DegC> decimate_temperature(const OccupationRecord& record,
                                       const DecimationFilter& filter) {
     const TimeSeries<DegC>& all = record.temperature;

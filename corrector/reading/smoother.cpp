@@ -12,18 +12,22 @@
 namespace a351::corrector {
 namespace {
 
-/// In standard deviations: one sample in 370 of Gaussian noise lies beyond the first.
+/// Largest residual of full weight, and smallest of no weight, standard deviations.  Reason: one
+/// sample in 370 of Gaussian noise is beyond the first.
 constexpr double kFullWeight = 3.0;
 constexpr double kNoWeight = 6.0;
 
-/// Nearly all weights of Gaussian noise settle within ten rounds; with many samples on the flanks they
-/// can alternate for ever, and the mean of old and new ones brings most of those together.
+/// Numbers of rounds.  Nearly all weights of Gaussian noise settle within kPlainRounds.  With many
+/// samples on the flanks they can alternate for ever.  Then the mean of old and new weights is
+/// taken, with which most of them settle.
 constexpr int kPlainRounds = 10;
 constexpr int kMostRounds = 100;
+/// Largest change of a weight in the last round.
 constexpr double kSettled = 1e-6;
 
-/// Of the samples' weight.  The trace is known so well for cut-offs of 1000 samples
-/// (PenalisedFit::inverse_diagonal()): a smaller difference may be its error.
+/// Smallest number of degrees of freedom of the noise, as a fraction of the samples' weight.
+/// Reason: the accuracy of the trace for cut-offs of 1000 samples
+/// (PenalisedFit::inverse_diagonal()).
 constexpr double kLeastFreedom = 1e-6;
 
 void require(bool condition, const std::string& trouble) {
@@ -46,7 +50,7 @@ double weight_of(double residual, double deviation) {
     return (1.0 - u * u) * (1.0 - u * u);
 }
 
-/// Weights by the residuals of the samples that are there.
+/// Returns the weights from the residuals of the samples; 0 for missing samples.
 std::vector<double> weights_about(std::span<const double> series, std::span<const double> curve,
                                   double rounding) {
     std::vector<double> magnitudes;
@@ -67,7 +71,7 @@ double largest_change(std::span<const double> a, std::span<const double> b) {
     return largest;
 }
 
-/// The fit, its noise level and degrees of freedom, once the weights stand.
+/// Returns the fit with its noise level and degrees of freedom, for the final weights.
 SmoothTrend describe(std::span<const double> series, PenalisedFit fit, std::vector<double> curve,
                      std::vector<double> weights, bool converged) {
     const std::vector<double> inverse = fit.inverse_diagonal();
@@ -125,7 +129,7 @@ SmoothTrend smooth(std::span<const double> series, double cutoff_period) {
             "series: " + std::to_string(count) + " samples, must be 3 or more");
     require(largest <= kLargestSample, "series: a sample's magnitude is beyond 1e150");
 
-    // Rounding is relative to what is fitted: the departure from the mean.
+    // The deviation from the mean is fitted, because rounding is relative to the fitted values.
     const double mean = sum / static_cast<double>(count);
     std::vector<double> departure(series.begin(), series.end());
     for (double& value : departure) value -= mean;

@@ -10,59 +10,75 @@
 
 namespace a351::corrector {
 
-/// Limits of the cut-off period in samples.  Below, nothing is smoothed; above, rounding shows
-/// (penalised_fit.hpp): decimate first.
+/// Limits of the cut-off period, samples.  Reason: a shorter one smooths nothing.  With a longer
+/// one rounding becomes visible (penalised_fit.hpp); decimate first.
 inline constexpr double kShortestCutoff = 2.0;
 inline constexpr double kLongestCutoff = 5000.0;
 
-/// Two samples make a line, which leaves no residual.
+/// Smallest number of samples.  Reason: a line through two samples leaves no residual.
 inline constexpr std::size_t kFewestSamples = 3;
 
-/// Of a sample's magnitude: squares of larger ones, and their sums, can overflow.
+/// Largest magnitude of a sample.  Reason: squares of larger samples, and their sums, can overflow.
 inline constexpr double kLargestSample = 1e150;
 
+/// A smooth curve with its uncertainty.
 struct SmoothTrend {
-    std::vector<double> curve;        ///< (n) Unit of the series.
-    std::vector<double> weights;      ///< (n) 0 (missing, or an outlier) to 1.
-    double noise_level = 0.0;         ///< Standard deviation of one sample about the curve.
+    std::vector<double> curve;        ///< (n), unit of the series.
+    std::vector<double> weights;      ///< (n), 0 (missing, or an outlier) to 1.
+    double noise_level = 0.0;         ///< Std. deviation of a sample from the curve, its unit.
     double degrees_of_freedom = 0.0;  ///< Trace of the matrix that makes the curve.
     bool converged = false;           ///< The weights settled to 1e-6.
-    PenalisedFit fit;                 ///< Of the weights: the errors come from its factors.
+    PenalisedFit fit;                 ///< Fit with the last weights; the errors use its factors.
 
-    /// Of every point of the curve, (n).
+    /// Returns the standard error of every point of the curve, (n), unit of the series.
     [[nodiscard]] std::vector<double> standard_errors() const;
 
-    /// Of the curve's mean over the points first..last, both included; last < n.
+    /// Returns the standard error of the curve's mean over the points first..last, both included,
+    /// unit of the series.  Precondition: first <= last < n.
     [[nodiscard]] double standard_error_of_mean(std::size_t first, std::size_t last) const;
 };
 
-/// Whittaker's smoother with the penalty that halves a sine of the period `cutoff_period`.
+/// Smooths a series with Whittaker's smoother, robust against outliers.
 ///
-/// A sample that is missing (not finite) has weight 0: the curve goes on as a cubic across a gap and
-/// as a line beyond the ends.  The others have weight 1 up to three standard deviations s of the
-/// residuals (1.4826 times their median magnitude), and less beyond, none from six on,
+/// The curve minimises the sum in penalised_fit.hpp, with the penalty that halves a sine of the
+/// period P = `cutoff_period`.  A wave of period T has the gain 1 / (1 + (sin(pi/T) /
+/// sin(pi/P))^4).
 ///
-///     w = (1 - u^2)^2,  u = (|residual| / s - 3) / 3
+/// Weights: a missing sample (not finite) has weight 0.  The curve is a cubic across a gap and a
+/// line beyond the ends.  With the residual r and the standard deviation s of the residuals (1.4826
+/// times their median magnitude), the other samples have the weight
 ///
-/// so that Gaussian noise is fitted by plain least squares and an outlier not at all; s is at least
-/// 1e-12 of the largest sample, which is rounding.  The weights are found by repetition from 1.
+///     1                    |r| <= 3 s
+///     (1 - u^2)^2          3 s < |r| < 6 s,  u = (|r| / s - 3) / 3
+///     0                    |r| >= 6 s
 ///
-/// The residuals must be noise for this.  Where the series has none and is a curve narrower than the
-/// cut-off, they are what the smoother takes off it, and s is of their size: the sharpest turns then
-/// lose weight like outliers.
+/// Hence Gaussian noise is fitted by plain least squares, and an outlier has no effect.  s is at
+/// least 1e-12 of the largest sample, which is rounding.  The weights are found by iteration from
+/// 1; `converged` is false if they do not settle within 100 fits.
 ///
-/// Standard errors: noise_level sqrt(a' A^-1 a), that is the curve's posterior deviation if its own
-/// second differences are white and of the penalty's size (G. Wahba, J. R. Stat. Soc. B 45(1),
-/// 133-150, 1983); smoother_test.cpp counts how often they hold.  Noise that is correlated over
-/// many samples makes them too small.
+/// The residuals must be noise.  If a series has no noise and is a curve narrower than the cut-off,
+/// the residuals and s are the parts of the curve that the smoother removes.  Then the sharpest
+/// turns lose weight like outliers.
 ///
-/// @param series         (n) any unit; n >= 3, of which at least three are finite; these at most
-///                       kLargestSample in magnitude.
-/// @param cutoff_period  Samples, kShortestCutoff to kLongestCutoff: the one parameter.
-/// @throws std::invalid_argument  fewer samples, larger ones, another period, or samples that do not
-///                                determine the curve (PenalisedFit) or leave no noise to measure.
+/// Standard errors are noise_level sqrt(a' A^-1 a).  This is the posterior deviation of the curve
+/// if its second differences are white and of the penalty's size (G. Wahba, J. R. Stat. Soc. B
+/// 45(1), 133-150, 1983).  Noise that is correlated over many samples makes them too small.
+///
+/// Accuracy (smoother_test.cpp):
+/// - A straight line of level 979 800 returns within 1e-8, also with gaps; a sine of the cut-off
+///   period with half its height within 1e-9.
+/// - Eight outliers of 500 deviations in 600 samples move the curve by less than 0.1 of the noise.
+/// - Of 4000 points, 68.3 +- 2.2 % are within one standard error, 95.4 +- 1.0 % within two.
+///
+/// @param series         (n) samples at constant rate, any unit; at least three must be finite,
+///                       these at most kLargestSample in magnitude.  Others (NaN, infinite) are
+///                       missing.
+/// @param cutoff_period  samples, kShortestCutoff to kLongestCutoff; the only parameter.
+/// @throws std::invalid_argument  too few samples, larger ones, another period, or samples that do
+///                                not determine the curve (PenalisedFit) or leave no noise to
+///                                measure.
 /// Source: penalised_fit.hpp; weights as in F. R. Hampel et al., Robust Statistics, Wiley, 1986,
-/// section 2.6 (redescending).  Departs from it in the bisquare flank.
+/// section 2.6 (redescending).  Different here: the bisquare flank.
 [[nodiscard]] SmoothTrend smooth(std::span<const double> series, double cutoff_period);
 
 }  // namespace a351::corrector

@@ -15,7 +15,7 @@ using std::chrono::minutes;
 
 struct TimeColumn {
     std::string_view name;
-    std::optional<minutes> zone;  ///< Of a cell that names none; absent: it must.
+    std::optional<minutes> zone;  ///< Zone of cells without one; absent: cells must have one.
 };
 constexpr std::array<TimeColumn, 3> kTimeColumns{{
     {"time_utc", minutes(0)},
@@ -80,7 +80,7 @@ std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
         row.time = time_of(table, i, column);
         if (table.has_column("outlier")) row.is_flagged = whole_number(table, i, "outlier", 0, 1);
         if (table.has_column("earth_tide_mgal")) {
-            // No solid-Earth tide exceeds 0.3 mGal; 1 catches a wrong unit.
+            // No solid-Earth tide exceeds 0.3 mGal; the limit 1 finds a wrong unit.
             row.given_tide = MilliGal(table.number(i, "earth_tide_mgal", -1.0, 1.0));
         }
         // Gravity on Earth is 976000-984000 mGal, biases are some thousands.
@@ -88,7 +88,7 @@ std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
         row.temperature = DegC(table.number(i, "temperature_degc", -60.0, 100.0));
         const auto same_time = [&row](const SurveyRow& other) { return other.time == row.time; };
         if (std::any_of(rows.begin(), rows.end(), same_time)) {
-            table.refuse(i, column.name, "stands twice", "one row per instant");
+            table.refuse(i, column.name, "appears twice", "one row per instant");
         }
         rows.push_back(std::move(row));
     }
@@ -115,7 +115,7 @@ std::vector<std::string> position_warnings(const std::vector<SurveyRow>& rows,
         const text::Site* const site = text::find_site(sites, row.site);
         if (site == nullptr || site->is_placed) continue;
         std::string warning = row.site;
-        warning += ": no position in the table of sites; the mean of the others is taken";
+        warning += ": no position in the table of sites; the mean of the others is used";
         if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) {
             warnings.push_back(std::move(warning));
         }

@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// The reading of one occupation: a row of a survey.
 
 #include <filesystem>
 #include <optional>
@@ -13,44 +15,48 @@
 
 namespace a351::corrector {
 
-/// Figures of the record behind a row, within its averaging interval unless stated otherwise.
+/// Statistics of the record from which a row was made, within the averaging interval unless stated
+/// otherwise.
 struct RecordSummary {
-    MilliGal series_mean;                    ///< Of the decimated series.
-    MilliGal curve_mean;                     ///< Of the trend that was asked for.
-    MilliGal eemd_mean;                      ///< Of the decomposition's trend.
-    MilliGal smoother_mean;                  ///< Of the smoother's trend.
-    MilliGal smoother_standard_error;        ///< For white noise.
-    std::optional<MilliGal> standard_error;  ///< Of series_mean, from blocks of 60 s.
+    MilliGal series_mean;              ///< Mean of the decimated series.
+    MilliGal curve_mean;               ///< Mean of the trend chosen by the options.
+    MilliGal eemd_mean;                ///< Mean of the decomposition's trend.
+    MilliGal smoother_mean;            ///< Mean of the smoother's trend.
+    MilliGal smoother_standard_error;  ///< Standard error of smoother_mean, for white noise.
+    std::optional<MilliGal>
+        standard_error;  ///< Standard error of series_mean, from blocks of 60 s.
     DegC temperature_range;
     TemperatureShape temperature_shape = TemperatureShape::monotone;
-    SampleCounts counts;     ///< Of the whole occupation.
-    AxisSummary x, y, z;     ///< Horizontal, horizontal, along gravity.
+    SampleCounts counts;     ///< Counts over the whole occupation.
+    AxisSummary x, y, z;     ///< Axes; z is along gravity.
     MilliGal rectification;  ///< rectification_bias().
 
     [[nodiscard]] MilliGal smoother_minus_eemd() const { return smoother_mean - eemd_mean; }
 };
 
-/// One occupation, or one set-up of it: averages over an interval without disturbance.
+/// The averages of one occupation, or one set-up of it, over an interval without disturbance.
 struct SurveyRow {
     std::string site;
-    int occupation = 1;            ///< Counts the stays at this site.
+    int occupation = 1;            ///< Number of the stay at this site, from 1.
     UtcTime time;                  ///< Middle of the averaging interval.
-    std::optional<UtcTime> start;  ///< Limits of the averaging interval, where known.
+    std::optional<UtcTime> start;  ///< Start of the averaging interval, if known; `end` alike.
     std::optional<UtcTime> end;
     bool is_flagged = false;         ///< Marked by the operator as not to be used.
-    bool is_excluded = false;        ///< By an amendment: in no fit, whatever becomes of flags.
+    bool is_excluded = false;        ///< Excluded from every fit by an amendment.
     std::vector<std::string> notes;  ///< Reasons for doubt, e.g. "fallback".
-    MilliGal acceleration;           ///< Mean, full value.
+    MilliGal acceleration;           ///< Mean; the full value, not a difference.
     DegC temperature;
-    double rate_degc_per_h = 0.0;  ///< Of the temperature.
+    double rate_degc_per_h = 0.0;  ///< Rate of the temperature, degC/h.
     std::optional<MilliGal> given_tide;
-    MilliGal tide;                      ///< Effect on gravity; to be subtracted.
+    MilliGal tide;                      ///< Effect of the tide on gravity; to be subtracted.
     std::optional<MilliGal> reference;  ///< Known gravity of the site.
-    std::optional<RecordSummary>
-        record;  ///< In every row of a survey, or in none: a table of averages.
+    /// Record of the row; present in all rows of a survey, absent in all rows of a table of
+    /// averages.
+    std::optional<RecordSummary> record;
 
-    /// @param wanted_by  opens the message.
-    /// @throws InputError  the row is of a table of averages.
+    /// Returns the record, for a computation that needs the means of the axes.
+    /// @param wanted_by  computation, at the beginning of the message.
+    /// @throws InputError  the row is from a table of averages.
     [[nodiscard]] const RecordSummary& axes_for(std::string_view wanted_by) const;
 };
 
@@ -58,23 +64,27 @@ struct SurveyRow {
 struct LeftOut {
     std::string site;
     int occupation = 1;
-    UtcTime start;  ///< Of the stay, as it was given.
-    UtcTime end;
-    std::string reason;  ///< In a few words.
+    UtcTime start;       ///< Start of the stay as given.
+    UtcTime end;         ///< End of the stay as given.
+    std::string reason;  ///< Reason in a few words.
 };
 
-/// Reads `site,occupation[,outlier],time_utc|time_jst|time[,earth_tide_mgal],acceleration_mgal,
-/// temperature_degc` and brings the rows into the order of time.  A zone written in a cell counts;
-/// without one it is the column's, and `time` needs one.  `tide` stays zero, rates are set.
-/// @throws InputError  a site that `sites` lacks, two rows at one instant, a number out of range.
+/// Reads a table `site,occupation[,outlier],time_utc|time_jst|time[,earth_tide_mgal],
+/// acceleration_mgal,temperature_degc` and sorts its rows by time.
+///
+/// A zone in a cell has priority; without one the zone of the column applies.  Cells of `time` must
+/// have a zone.  `tide` is left zero; rates are set by set_backward_rates().
+/// @throws InputError  a site that `sites` lacks, two rows at one instant, a number out of range,
+///                     no rows.
 [[nodiscard]] std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
                                                        const std::vector<text::Site>& sites);
 
-/// Sets R_i = (T_i - T_{i-1}) / (t_i - t_{i-1}) over all rows, flagged or not; 0 for the first.
+/// Sets the temperature rates R_i = (T_i - T_{i-1}) / (t_i - t_{i-1}), degC/h, over all rows,
+/// flagged or not; 0 for the first.
 /// @param rows  in strictly ascending time.
 void set_backward_rates(std::vector<SurveyRow>& rows);
 
-/// A warning for every site of the rows whose position is not known.
+/// Returns a warning for every site of the rows without a known position.
 [[nodiscard]] std::vector<std::string> position_warnings(const std::vector<SurveyRow>& rows,
                                                          const std::vector<text::Site>& sites);
 

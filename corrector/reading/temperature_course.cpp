@@ -13,7 +13,7 @@ struct Sum {
 };
 using MinuteSums = std::map<std::chrono::sys_time<std::chrono::minutes>, Sum>;
 
-/// Samples [begin, end) of a segment from the anchor at `begin` on.
+/// Adds the samples [begin, end) of a segment; `time` is the time stamp of sample `begin`.
 void add_record(MinuteSums& sums, const record::Segment& segment, std::size_t begin,
                 std::size_t end, UtcTime time) {
     for (std::size_t i = begin; i < end; ++i) {

@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// The temperature of a survey in means of one minute.
 
 #include <vector>
 
@@ -9,12 +11,16 @@
 
 namespace a351::corrector {
 
+/// The mean temperature of one minute.
 struct MinuteTemperature {
-    UtcTime middle;  ///< Of a minute of UTC.
-    DegC mean;       ///< Of its samples.
+    UtcTime middle;  ///< Middle of a minute of UTC.
+    DegC mean;       ///< Mean of its samples.
 };
 
-/// The sensor's temperature in means of one minute; minutes without a sample are left out.
+/// Returns the sensor's temperature in means of one minute, in order of time; minutes without a
+/// sample are left out.
+/// @param segments  counts of the temperature channel, with time stamps.
+/// @param scale     degC = offset + gain x count.
 [[nodiscard]] std::vector<MinuteTemperature> temperature_course(
     const std::vector<record::Segment>& segments, const record::ChannelScale& scale);
 

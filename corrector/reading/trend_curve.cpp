@@ -7,8 +7,8 @@
 namespace a351::corrector {
 namespace {
 
-/// Four extrema are needed for two from either end, and one slow wave has two per period: up to
-/// three and a half waves in a record count as slow.
+/// Largest number of extrema of the slow curve.  Reason: the interval needs four, two from either
+/// end.  A wave has two per period, so up to three and a half waves in a record count as slow.
 constexpr std::size_t kMostExtrema = 7;
 
 bool is_zero(const Component& mode) {
@@ -16,7 +16,8 @@ bool is_zero(const Component& mode) {
                        [](double value) { return value == 0.0; });
 }
 
-/// The mode of the longest mean period among those that are not zero; null without any.
+/// Returns the mode of the longest mean period among those that are not zero; nullptr if all are
+/// zero.
 const Component* slowest_mode(const EemdResult& components) {
     const Component* slowest = nullptr;
     for (const Component& mode : components.modes) {

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The slow part of a series by its decomposition.
+/// The slow part of a series, from its decomposition.
 
 #include <span>
 #include <vector>
@@ -9,27 +9,38 @@
 
 namespace a351::corrector {
 
-/// Where the trend of an occupation comes from; the other one is computed beside it.
+/// Method of an occupation's trend; the other one is computed too, for comparison.
 enum class TrendMethod {
     eemd,      ///< trend_curve() of the decomposition.
     smoother,  ///< smooth(), smoother.hpp.
 };
 
-/// How much of the decomposition makes the trend curve.  No mode is ever chosen by its number.
+/// Part of the decomposition that is the trend curve.  No mode is chosen by its number.
 enum class TrendCurve {
     paper,  ///< The residue and the mode of the longest mean period.
-    slow,   ///< The residue after the fewest modes that leave at most 7 extrema in it.
+    slow,   ///< The residue after the smallest number of modes that leaves at most 7 extrema.
 };
 
-/// The residue and the slowest mode that is not zero, (n) in their unit.
+/// Returns the sum of the residue and the mode of the longest mean period among those that are not
+/// zero; the residue if there is none.
+/// @return (n), unit of the components.
 [[nodiscard]] std::vector<double> paper_curve(const EemdResult& components);
 
+/// The trend of a series.
 struct Trend {
     std::vector<double> curve;  ///< (n), unit of the signal.
     double noise_level = 0.0;   ///< Std. deviation of the added noise, unit of the signal.
 };
 
-/// @throws  as eemd().
+/// Returns the trend curve of a series.
+///
+/// Accuracy (tests/unit/reading/trend_curve_test.cpp), on 16 simulated records of 450 samples with
+/// a drift, a wave and white noise of half its amplitude: the rms error is 0.091 of the amplitude
+/// with `slow` and 0.125 with `paper` (decimation.md).
+/// @param signal         (n) as of eemd(): finite, without gaps.
+/// @param decomposition  options of eemd().
+/// @return curve of n samples in the unit of the signal.
+/// @throws               as eemd().
 [[nodiscard]] Trend trend_curve(std::span<const double> signal, const EemdOptions& decomposition,
                                 TrendCurve choice);
 

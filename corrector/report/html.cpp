@@ -70,7 +70,7 @@ std::string line(std::string_view tag, std::string_view alignment, const HtmlCel
 
 std::string html_table(std::string_view alignment, const HtmlCells& header,
                        const std::vector<HtmlCells>& rows) {
-    constexpr std::size_t kMany = 12;  // more columns are too wide for A4 at the size of the text
+    constexpr std::size_t kMany = 12;  // more columns do not fit on A4 at the normal text size
     std::string html =
         alignment.size() > kMany ? "<div class=\"wide many\">" : "<div class=\"wide\">";
     html += "<table>\n<thead>" + line("th", alignment, header) + "</thead>\n<tbody>\n";

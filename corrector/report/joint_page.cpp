@@ -11,7 +11,8 @@
 namespace a351::corrector {
 namespace {
 
-/// As a part of a relative address (RFC 3986, unreserved characters as they are).
+/// Returns a name as a part of a relative address (RFC 3986; unreserved characters are not
+/// changed).
 std::string address_part(const std::string& name) {
     constexpr std::string_view kDigits = "0123456789ABCDEF";
     constexpr std::string_view kUnreserved =
@@ -100,13 +101,13 @@ std::string stations_table(const std::vector<JointDay>& days,
 
 std::string scatter_sentence(const std::vector<SurveyCorrection>& results) {
     const auto scatter = scatter_of_days(results);
-    if (!scatter) return "No station was seen on two days: nothing compares them.";
-    std::string text = "Stations seen on several days differ by " +
+    if (!scatter) return "No station was measured on two days, so the days cannot be compared.";
+    std::string text = "Stations measured on several days differ by " +
                        text::fixed(scatter->rms_mgal, 2) + " mGal rms from day to day (" +
                        std::to_string(scatter->dof) + " degrees of freedom)";
     if (scatter->expected_mgal)
-        text += "; their u let expect " + text::fixed(*scatter->expected_mgal, 2) +
-                ", less where a day's fit holds their references";
+        text += "; expected from their u: " + text::fixed(*scatter->expected_mgal, 2) +
+                ", less if a day's fit holds their references";
     return text + '.';
 }
 
@@ -152,14 +153,14 @@ std::string joint_html(const std::vector<JointDay>& days) {
     const std::string title = "Gravity survey of " + std::to_string(days.size()) + " days";
     std::string body = "<h1>" + html_text(title) + "</h1>\n";
     if (!troubles.empty())
-        body += html_paragraph("Not corrected, and not in what follows:") + html_list(troubles);
+        body += html_paragraph("Not corrected, and not included below:") + html_list(troubles);
     body += "<h2>Days</h2>\n" + days_table(days) + links(days);
     body += "<h2>Stations</h2>\n" + stations_table(days, results) +
             html_paragraph(
-                "Gravity: mean of the days, each weighted by 1/u^2 (plain where a day has no u); u "
-                "takes the days for independent, though they share instrument and references. NAME "
-                "- joint: the day's value less the mean; * only readings that the "
-                "day's fit left out.") +
+                "Gravity: mean of the days, each weighted by 1/u^2 (not weighted if a day has no "
+                "u). u assumes that the days are independent, although they share instrument and "
+                "references. NAME - joint: the day's value minus the mean. *: only readings "
+                "that were left out of the day's fit.") +
             html_paragraph(scatter_sentence(results));
     return html_page(title, body);
 }

@@ -9,26 +9,27 @@
 
 namespace a351::corrector {
 
-/// A day that was asked for: corrected, or why it is not.
+/// One day of the survey: its result, or the reason why there is none.
 struct JointDay {
     std::string name;
-    std::string folder;                        ///< Of its result, beside the page.
-    const SurveyCorrection* result = nullptr;  ///< Null: not corrected.
-    std::string trouble = {};                  ///< Why not.
+    std::string folder;                        ///< Folder of its result, next to the page.
+    const SurveyCorrection* result = nullptr;  ///< Result; null if not corrected.
+    std::string trouble = {};                  ///< Reason if not corrected.
 };
 
-/// How far values of stations seen on several days differ from day to day.
+/// Scatter from day to day of stations measured on several days.
 struct DayScatter {
-    double rms_mgal = 0.0;  ///< About the mean of each station, with the degrees of freedom.
-    std::size_t dof = 0;    ///< Days of each such station, less one.
-    std::optional<double> expected_mgal;  ///< RMS of their u; absent where one has none.
+    double rms_mgal = 0.0;  ///< RMS about the mean of each station, divisor `dof`.
+    std::size_t dof = 0;    ///< Degrees of freedom: the sum over stations of days minus one.
+    std::optional<double> expected_mgal;  ///< RMS of the values' u; absent if a value has no u.
 };
 
-/// @return std::nullopt when no station was seen twice.
+/// Computes the scatter from day to day.
+/// @return std::nullopt if no station was measured on two days.
 [[nodiscard]] std::optional<DayScatter> scatter_of_days(const std::vector<SurveyCorrection>& days);
 
-/// The page: days with their scores and a link to their reports, joint stations with what each day
-/// differs from them.  Alone in its file.
+/// Returns the page: days with their scores and links to their reports, and the joint stations with
+/// the difference of each day.  It needs no other file.
 [[nodiscard]] std::string joint_html(const std::vector<JointDay>& days);
 
 }  // namespace a351::corrector

@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// The page of a long record.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -9,9 +11,9 @@
 
 namespace a351::corrector {
 
-/// record.html of a long record, with its figures.
+/// Makes record.html of a long record, with its figures.
 /// @param settings         object with every option of the run.
-/// @param picture_formats  besides SVG, of picture_formats().
+/// @param picture_formats  formats other than SVG, from picture_formats().
 [[nodiscard]] Report make_long_record_page(const RecordResult& result,
                                            const nlohmann::ordered_json& settings,
                                            const std::vector<std::string>& picture_formats);

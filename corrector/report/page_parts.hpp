@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What the pages of the corrector share.
+/// Common parts of the corrector's pages.
 
 #include <string>
 #include <vector>
@@ -10,16 +10,19 @@
 
 namespace a351::corrector {
 
-/// The pictures with their captions; small ones two beside each other, after the others.
+/// Returns the pictures with their captions; small ones are side by side, after the others.
 [[nodiscard]] std::string figures_html(const std::vector<Figure>& figures, const Drawing& drawing);
 
-/// One line however many figures have the same trouble.
+/// Returns one line for all missing figures: the first reason and the number of others; none
+/// without troubles.
 [[nodiscard]] std::vector<std::string> missing_lines(const std::vector<std::string>& troubles);
 
-/// @param html  escaped already; the title is not.
+/// Returns a section of a page.
+/// @param title  text, escaped here.
+/// @param html   content, already escaped.
 [[nodiscard]] std::string section(const std::string& title, const std::string& html);
 
-/// figures/NAME.gp and .dat, then the pictures, which are moved from.
+/// Adds figures/NAME.gp and .dat, then the pictures, which are moved out of `drawing`.
 void add_figure_files(std::vector<text::NamedText>& files, const std::vector<Figure>& figures,
                       Drawing& drawing);
 

@@ -13,11 +13,13 @@
 namespace a351::corrector {
 namespace {
 
-// |error| / u: of Gaussian errors one in 22 lies above the first, one in 370 above the other.
+// Limits of |error| / u.  Reason: one in 22 Gaussian errors is above the first, one in 370 above
+// the second.
 constexpr double kCareRatio = 2.0;
 constexpr double kRepeatRatio = 3.0;
 
-// Between the two trends of one record: a quarter of the 2 mGal that good readings scatter by.
+// Largest difference between the two trends of one record.  Reason: a quarter of the 2 mGal by
+// which good readings scatter.
 constexpr double kTrendDifference_mgal = 0.5;
 
 void add(ReadingGrade& reading, Grade grade, std::string reason) {
@@ -30,15 +32,16 @@ struct NoteText {
     Grade grade;
     std::string_view text;
 };
-/// The doubts of representative_value.hpp, and amendments, in words.
+/// The flags of representative_value.hpp and of amendments, in words.
 constexpr std::array<NoteText, 11> kNoteTexts{{
     {"fallback", Grade::care,
-     "the interval could not be chosen by its first rule (fallback): look at the record"},
-    {"disturbed_start", Grade::trust, "averaged from after a disturbance at its start"},
-    {"disturbed_end", Grade::trust, "averaged up to a disturbance at its end"},
-    {"pulse", Grade::care, "a knock cut the record; its longer part was used"},
+     "the trend has too few extrema for the usual interval (fallback): look at the record"},
+    {"disturbed_start", Grade::trust, "averaged only after a disturbance at its start"},
+    {"disturbed_end", Grade::trust, "averaged only up to a disturbance at its end"},
+    {"pulse", Grade::care, "a knock split the record; its longest part was used"},
     {"gap", Grade::care, "samples are missing"},
-    {"no-stop", Grade::care, "not stopped: it lasts to the next start, the way there included"},
+    {"no-stop", Grade::care,
+     "not stopped: it lasts until the next start and includes the drive there"},
     {"unsettled", Grade::care, "the weights of the smoother did not settle"},
     {"excluded", Grade::repeat, "excluded by an amendment"},
     {"included", Grade::trust, "included by an amendment"},
@@ -46,11 +49,13 @@ constexpr std::array<NoteText, 11> kNoteTexts{{
     {"renamed", Grade::trust, "its site was amended"},
 }};
 
-/// Of the trend and its interval.
+/// Flags of the trend and its interval.
 constexpr std::array<std::string_view, 4> kTrendNotes{"fallback", "disturbed_start",
                                                       "disturbed_end", "unsettled"};
 
-/// @param is_day  the trend is not what the model averages.
+/// Adds a flag in words.
+/// @param is_day  the model averages the record without the trend, so flags of the trend do not
+///                matter.
 void add_note(ReadingGrade& reading, const std::string& note, bool is_day) {
     if (is_day && std::find(kTrendNotes.begin(), kTrendNotes.end(), note) != kTrendNotes.end())
         return;
@@ -74,14 +79,15 @@ void add_temperature(ReadingGrade& reading, const CorrectedRow& row, bool correc
     const std::string text = "temperature not steady: " + doubt;
     if (corrects_rate) {
         add(reading, Grade::care,
-            text + "; it rests on a rate correction of " +
+            text + "; the value depends on a rate correction of " +
                 text::fixed(row.rate_correction.value(), 1) + " mGal");
     } else {
         add(reading, Grade::repeat, text + ", which the model does not correct");
     }
 }
 
-/// @param is_left_out  u belongs to the prediction without the row's station, not to its residual.
+/// Adds a reason if the residual is large.
+/// @param is_left_out  u is that of the prediction without the row's station, not of the residual.
 void add_residual(ReadingGrade& reading, const CorrectedRow& row, bool is_left_out) {
     if (!row.residual || !row.u_corrected || !(row.u_corrected->value() > 0.0)) return;
     const double ratio = is_left_out ? row.studentised_residual.value_or(0.0)
@@ -101,7 +107,7 @@ void add_trends(ReadingGrade& reading, const SurveyRow& row) {
         "its two trends (smoother, EEMD) differ by " + text::fixed(difference, 2) + " mGal");
 }
 
-/// What readings of one station scatter by after all corrections.
+/// Scatter of readings of one station after all corrections.
 struct ReadingScatter {
     std::string name;
     double mgal = 0.0;
@@ -112,7 +118,7 @@ std::optional<ReadingScatter> scatter_of(const SurveyCorrection& result) {
         if (!result.score.s_mgal) return std::nullopt;
         return ReadingScatter{"s", *result.score.s_mgal};
     }
-    // The rest of what the model estimates is taken off the readings.
+    // The readings are corrected for all other terms of this model.
     for (const Coefficient& coefficient : result.coefficients) {
         if (coefficient.name == "placement_mgal")
             return ReadingScatter{"placement", coefficient.value};
@@ -120,7 +126,8 @@ std::optional<ReadingScatter> scatter_of(const SurveyCorrection& result) {
     return std::nullopt;
 }
 
-/// A reading to be repeated says nothing about another one.
+/// Adds reasons to readings of one station that disagree.  Readings to be repeated are not
+/// compared.
 void add_repeats(std::vector<ReadingGrade>& readings, const SurveyCorrection& result) {
     const auto scatter = scatter_of(result);
     if (!scatter || !(scatter->mgal > 0.0)) return;
@@ -131,9 +138,9 @@ void add_repeats(std::vector<ReadingGrade>& readings, const SurveyCorrection& re
         const double ratio = std::abs(pair.after_all.value()) / expected_mgal;
         if (ratio <= kCareRatio) continue;
         const auto text = [&](std::size_t other) {
-            return text::fixed(std::abs(pair.after_all.value()), 1) + " mGal from " +
-                   reading_name(result.rows, other) + ", " + text::fixed(ratio, 1) +
-                   " times what " + scatter->name + " lets expect";
+            return "differs by " + text::fixed(std::abs(pair.after_all.value()), 1) +
+                   " mGal from " + reading_name(result.rows, other) + ", " + text::fixed(ratio, 1) +
+                   " times the value expected from " + scatter->name;
         };
         add(readings[pair.earlier], Grade::care, text(pair.later));
         add(readings[pair.later], Grade::care, text(pair.earlier));
@@ -153,7 +160,7 @@ std::vector<ReadingGrade> grade_readings(const SurveyCorrection& result) {
         if (row.row.is_flagged) {
             add(reading, row.is_used ? Grade::care : Grade::repeat,
                 std::string("marked by the operator as not to be used") +
-                    (row.is_used ? ", in the fit all the same" : ""));
+                    (row.is_used ? ", but in the fit" : ""));
         }
         add_temperature(reading, row, corrects_rate);
         add_residual(reading, row, is_day);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Which readings of a survey to trust and which to repeat.
+/// Grades of readings: which ones to trust, and which ones to repeat.
 
 #include <string>
 #include <vector>
@@ -10,21 +10,25 @@
 namespace a351::corrector {
 
 enum class Grade {
-    trust,
-    care,    ///< Usable; something about it is unusual.
-    repeat,  ///< Its value should not be relied on.
+    trust,   ///< Nothing about it is unusual.
+    care,    ///< Usable, but something is unusual.
+    repeat,  ///< Not reliable.
 };
 
+/// The grade of one reading.
 struct ReadingGrade {
     Grade grade = Grade::trust;
-    std::vector<std::string> reasons;  ///< For a person, without the reading's name.
+    std::vector<std::string> reasons;  ///< Reasons in words, without the reading's name.
 };
 
-/// One grade per row.  A temperature that was not steady (temperature_doubt()) means `repeat` when the model has no term for its rate,
-/// else `care`; a reading that the operator marked means `repeat` unless it is in the fit.
+/// Returns one grade per row.
+///
+/// A temperature that was not steady (temperature_doubt()) means `care` if the model has a term for
+/// its rate, else `repeat`.  A reading that the operator marked means `repeat` unless it is in the
+/// fit.  The other rules are in corrector/methods.md, "Report".
 [[nodiscard]] std::vector<ReadingGrade> grade_readings(const SurveyCorrection& result);
 
-/// Whether a reading of this station is graded `trust`.
+/// Returns true if a reading of this station is graded `trust`.
 [[nodiscard]] bool has_trusted_reading(const SurveyCorrection& result,
                                        const std::vector<ReadingGrade>& grades,
                                        const std::string& site);

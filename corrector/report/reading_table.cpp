@@ -16,7 +16,7 @@ struct PageColumn {
     std::function<std::string(const CorrectedRow&)> cell;
 };
 
-/// Date and hour of the first instant, hour of the last.
+/// Returns date and time of the first instant, and time of the last.
 std::string between(UtcTime start, UtcTime end) {
     const std::string text = to_rfc3339(start);
     return text.substr(0, 10) + ' ' + text.substr(11, 8) + "\u2013" + to_rfc3339(end).substr(11, 8);
@@ -45,7 +45,7 @@ PageColumn number(const std::string& title, std::optional<MilliGal> CorrectedRow
             }};
 }
 
-/// Of rows by the whole-day model.
+/// Returns a column of rows by the whole-day model.
 PageColumn of_day(const std::string& title, double (*value)(const WholeDayPart&)) {
     return {title, 'r',
             [value](const CorrectedRow& row) { return text::fixed(value(row.day.value()), 3); }};
@@ -117,15 +117,14 @@ std::string explanation(const SurveyCorrection& result) {
         "the fit). ";
     if (result.model != "day")
         return text + "u " +
-               (result.network ? "of a single reading, a priori"
-                               : "as of a new "
-                                 "station") +
+               (result.network ? "is that of a single reading, a priori"
+                               : "is that of a new station") +
                "; t is the studentised residual.";
     return text +
-           "The model day averages all undisturbed samples between the two instants, s seconds of "
-           "them; °C/h is what its fast term takes for the rate. What is left in a residual is "
-           "placement, one value for every set-up. Left out: the value that the reading has when "
-           "its station's reference is hidden; u is the uncertainty of that, t = (reference - "
+           "The model day averages all undisturbed samples between the two instants; column s is "
+           "their duration in seconds. °C/h is the rate that its fast term uses. The residual is "
+           "placement, one value for every set-up. Left out: value of the reading if its "
+           "station's reference is not used. u is the uncertainty of this value; t = (reference - "
            "left out) / u.";
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// The table of readings in a report.
 
 #include <string>
 
@@ -6,8 +8,8 @@
 
 namespace a351::corrector {
 
-/// The table of all readings with every correction, and what its columns are, as HTML.  Columns are
-/// those the model has; occupations without a value stand in their place.
+/// Returns the table of all readings with every correction, and an explanation of its columns, as
+/// HTML.  The columns are those of the model.  Occupations without a value have a row too.
 [[nodiscard]] std::string occupations_html(const SurveyCorrection& result);
 
 }  // namespace a351::corrector

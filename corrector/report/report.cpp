@@ -17,7 +17,7 @@
 namespace a351::corrector {
 namespace {
 
-/// The figures by the section of the report they stand in.
+/// The figures of the two sections of the report.
 struct Figures {
     std::vector<Figure> results;
     std::vector<Figure> records;

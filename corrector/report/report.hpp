@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// report.html of a survey, with its figures.  Content: corrector/methods.md, "Report".
+/// The page report.html of a survey, with its figures.  Content: corrector/methods.md, "Report".
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -15,23 +15,25 @@
 
 namespace a351::corrector {
 
-/// What a report is made of beside the corrected survey; what is empty is left out of it.
+/// Input of a report other than the corrected survey; parts without input are left out.
 struct ReportSources {
     std::string title;
     std::vector<text::Site> sites;
-    std::vector<RepresentativeValue> records;           ///< Behind the rows.
-    std::vector<MinuteTemperature> temperature_course;  ///< Of the sensor.
+    std::vector<RepresentativeValue> records;           ///< Records of the rows.
+    std::vector<MinuteTemperature> temperature_course;  ///< Temperature of the sensor.
     std::vector<text::InputFile> inputs;
-    std::vector<std::string> warnings;         ///< What was passed over, and why.
-    std::vector<std::string> picture_formats;  ///< Besides SVG, of picture_formats().
+    std::vector<std::string> warnings;         ///< Entries skipped or left out, with reasons.
+    std::vector<std::string> picture_formats;  ///< Formats other than SVG, from picture_formats().
 };
 
+/// The files of a report.
 struct Report {
-    /// report.html and figures/NAME.gp, .dat, .svg (and as asked for).
+    /// Contents of report.html and of figures/NAME.gp, .dat, .svg and other formats if wanted.
     std::vector<text::NamedText> files;
-    std::vector<std::string> warnings;  ///< Figures that are missing, and why.
+    std::vector<std::string> warnings;  ///< Missing figures, with the reason.
 };
 
+/// Makes the report.
 /// @param settings  object with every option of the run.
 [[nodiscard]] Report make_report(const SurveyCorrection& result,
                                  const nlohmann::ordered_json& settings,

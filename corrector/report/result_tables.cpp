@@ -56,14 +56,14 @@ std::string stations_html(const SurveyCorrection& result) {
                           (result.model == "day" ? "as if the station were unknown."
                            : result.network      ? "a priori."
                                                  : "from the scatter in sample.") +
-                          (has_flagged ? " * Only readings that the fit left out." : ""));
+                          (has_flagged ? " * Only readings that were left out of the fit." : ""));
 }
 
 std::string closures_html(const SurveyCorrection& result) {
     const std::vector<Closure> closures = close_stations(result);
     if (closures.empty()) {
         return html_paragraph(
-            "No station was read twice: nothing closes, and drift shows only "
+            "No station was read twice, so there are no closures; drift is visible only "
             "against the references.");
     }
     std::vector<HtmlCells> rows;
@@ -84,9 +84,9 @@ std::string closures_html(const SurveyCorrection& result) {
                        "After rate, tilt", "After drift (all)", "Drift mGal/h"},
                       rows) +
            html_paragraph(
-               "Later less earlier reading of one station, in mGal. Drift: what each "
-               "pair alone implies, from the difference after rate; with p coefficients "
-               "fitted to the same readings the last differences are in sample.");
+               "Later minus earlier reading of one station, in mGal. Drift: value that each "
+               "pair alone implies, from the difference after rate. The last differences are in "
+               "sample, because the coefficients were fitted to the same readings.");
 }
 
 std::string models_html(const SurveyCorrection& result) {

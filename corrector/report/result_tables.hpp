@@ -11,15 +11,17 @@
 
 namespace a351::corrector {
 
+/// Returns the values of the stations.
 [[nodiscard]] std::string stations_html(const SurveyCorrection& result);
 
-/// Differences of repeated stations after every correction; a sentence when there are none.
+/// Returns the differences of repeated stations after every correction; a sentence if there are
+/// none.
 [[nodiscard]] std::string closures_html(const SurveyCorrection& result);
 
-/// Scores of all models and the coefficients of the one applied.
+/// Returns the scores of all models, and the coefficients of the applied one.
 [[nodiscard]] std::string models_html(const SurveyCorrection& result);
 
-/// Warnings, settings and inputs with their checksums.
+/// Returns warnings, settings, and inputs with their checksums.
 [[nodiscard]] std::string provenance_html(const nlohmann::ordered_json& settings,
                                           const std::vector<text::InputFile>& inputs,
                                           const std::vector<std::string>& warnings);

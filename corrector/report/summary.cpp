@@ -23,7 +23,8 @@ std::string grade_text(Grade grade) {
     return {};
 }
 
-/// Of the value that u belongs to: for the model day the one without the reading's station.
+/// Returns the error of the value to which u belongs.  For the model day this is the value without
+/// the reading's station.
 std::optional<double> error_of(const CorrectedRow& row, bool is_day) {
     if (!row.residual) return std::nullopt;
     if (is_day && row.day && row.day->left_out)
@@ -31,7 +32,7 @@ std::optional<double> error_of(const CorrectedRow& row, bool is_day) {
     return row.residual->value();
 }
 
-/// Occupations without a value, by time under each reason.
+/// Returns the occupations without a value for each reason, in order of time.
 std::vector<std::pair<std::string, std::vector<std::string>>> left_out_by_reason(
     const SurveyCorrection& result) {
     std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
@@ -44,7 +45,7 @@ std::vector<std::pair<std::string, std::vector<std::string>>> left_out_by_reason
     return reasons;
 }
 
-/// Readings about which there is something to say, the doubtful first.
+/// Returns the table of readings with reasons, the doubtful ones first.
 std::string reading_table(const SurveyCorrection& result, const std::vector<ReadingGrade>& grades) {
     const bool is_day = result.model == "day";
     std::vector<HtmlCells> rows;
@@ -78,7 +79,7 @@ std::string accuracy_table(const SurveyCorrection& result) {
     add("RMS error of a reading left out", score.loo_mgal, "", "cross-validated (leave-one-out)");
     add("RMS error of a station left out", score.loso_mgal, "",
         "cross-validated (leave-one-station-out)");
-    add("the same, the model chosen anew each time", result.choice_loso_mgal, "",
+    add("the same, with the model chosen again each time", result.choice_loso_mgal, "",
         "cross-validated (leave-one-station-out)");
     return html_table("lrrl", {"Quantity", "mGal", "its standard error", "Kind"}, rows);
 }
@@ -95,8 +96,8 @@ std::string headline(const SurveyCorrection& result) {
                        counted(result.stations.size(), "station") + ", base " +
                        result.options.base + ". Model " + result.model;
     if (result.options.model == "auto") {
-        text += result.model == "day" ? ", for there are records of the whole day"
-                                      : ", chosen by its error of stations left out";
+        text += result.model == "day" ? " (chosen because the whole day was recorded)"
+                                      : " (chosen by the error of stations left out)";
     }
     text += "; " + counted(result.score.row_count, "reading") + " in the fit, " +
             counted(result.score.parameter_count, result.network ? "unknown" : "coefficient");
@@ -132,14 +133,14 @@ std::vector<std::string> actions(const SurveyCorrection& result,
         add("Repeat, without a value (" + reason + ")", names);
     add("Repeat, the station has no other reading to trust", urgent);
     add("Repeat if there is time, the station has another reading to trust", optional);
-    if (list.empty()) list.emplace_back("Nothing is to be repeated.");
+    if (list.empty()) list.emplace_back("No reading needs to be repeated.");
     add("Use with care", care);
     add("Trust", trusted);
     return list;
 }
 
 std::vector<std::string> limits_of(const SurveyCorrection& result) {
-    constexpr std::size_t kFewestBaseReadings = 3;  // two cannot tell drift from a bad one
+    constexpr std::size_t kFewestBaseReadings = 3;  // two cannot separate drift from a bad reading
     std::size_t base_count = 0;
     for (const CorrectedRow& row : result.rows) {
         if (row.row.site == result.options.base && row.is_used) ++base_count;
@@ -148,8 +149,8 @@ std::vector<std::string> limits_of(const SurveyCorrection& result) {
     if (base_count < kFewestBaseReadings) {
         limits.push_back("The base " + result.options.base + " has " +
                          counted(base_count, "reading") +
-                         " in the fit; three spread over the day tell drift from a bad "
-                         "reading.");
+                         " in the fit; three readings spread over the day separate drift from a "
+                         "bad reading.");
     }
     std::size_t single_count = 0;
     std::vector<std::string> unchecked;
@@ -161,7 +162,7 @@ std::vector<std::string> limits_of(const SurveyCorrection& result) {
     if (single_count > 0) {
         limits.push_back(std::to_string(single_count) + " of " +
                          std::to_string(result.stations.size()) +
-                         " stations rest on one reading: nothing but a known reference shows a "
+                         " stations have only one reading: only a known reference can show a "
                          "blunder there.");
     }
     if (!unchecked.empty()) {
@@ -176,15 +177,15 @@ std::optional<double> standard_error_of_rms(const ModelScore& score) {
     return *score.rms_mgal / std::sqrt(2.0 * static_cast<double>(score.dof));
 }
 
-std::string honest_sentence(const ModelScore& score) {
+std::string scatter_sentence(const ModelScore& score) {
     const auto error = standard_error_of_rms(score);
     const std::string n = "n = " + std::to_string(score.row_count);
     const std::string quote =
-        " For a new station the figure to quote is " +
+        " For a new station quote " +
         (score.loso_mgal
              ? text::fixed(*score.loso_mgal, 2) + " mGal (cross-validated, leave-one-station-out)."
-             : std::string("the leave-one-station-out error, which this model and "
-                           "these readings do not have."));
+             : std::string("the leave-one-station-out error; it cannot be computed for this "
+                           "model and these readings."));
     if (!error) {
         return n +
                ": no degree of freedom is left in the fit, so the residuals say nothing about "
@@ -194,8 +195,7 @@ std::string honest_sentence(const ModelScore& score) {
     return n + ": the scatter of " + text::fixed(*score.rms_mgal, 2) +
            " mGal (in sample) has itself a standard error of about " + text::fixed(*error, 2) +
            " mGal, RMS / sqrt(2 dof) with " + std::to_string(score.dof) +
-           " degrees of freedom. Differences between models smaller than that are not findings." +
-           quote;
+           " degrees of freedom. Smaller differences between models are not significant." + quote;
 }
 
 std::string summary_html(const SurveyCorrection& result, const std::vector<std::string>& warnings,
@@ -204,15 +204,15 @@ std::string summary_html(const SurveyCorrection& result, const std::vector<std::
     std::string html = html_paragraph(headline(result));
     html += "<h2>What to do</h2>\n" + html_list(actions(result, grades)) +
             reading_table(result, grades);
-    html += "<h2>How good it is</h2>\n" + accuracy_table(result) +
-            html_paragraph(honest_sentence(result.score));
+    html += "<h2>Accuracy</h2>\n" + accuracy_table(result) +
+            html_paragraph(scatter_sentence(result.score));
     std::vector<std::string> limits = limits_of(result);
     if (!warnings.empty()) {
         limits.push_back("Warnings about the input: " + std::to_string(warnings.size()) +
                          ", see the last section.");
     }
     limits.insert(limits.end(), missing.begin(), missing.end());
-    if (!limits.empty()) html += "<h2>What limits it</h2>\n" + html_list(limits);
+    if (!limits.empty()) html += "<h2>Limits</h2>\n" + html_list(limits);
     return html;
 }
 

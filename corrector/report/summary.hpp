@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The page of a report that a person acts on.
+/// The first page of a report: what to do next.
 
 #include <optional>
 #include <string>
@@ -11,23 +11,23 @@
 
 namespace a351::corrector {
 
-/// What to do about the readings, most urgent first; readings to trust come last.
+/// Returns the actions for the readings, the most urgent first; readings to trust are last.
 [[nodiscard]] std::vector<std::string> actions(const SurveyCorrection& result,
                                                const std::vector<ReadingGrade>& grades);
 
-/// What the survey as a whole cannot tell: too few readings of the base, stations that nothing
+/// Returns the limits of the survey as a whole: too few readings of the base, stations that nothing
 /// checks.
 [[nodiscard]] std::vector<std::string> limits_of(const SurveyCorrection& result);
 
-/// Standard error of an RMS, RMS / sqrt(2 dof).
-/// @return std::nullopt without a degree of freedom.
+/// Returns the standard error of an RMS, RMS / sqrt(2 dof), in mGal; std::nullopt without a degree
+/// of freedom.
 [[nodiscard]] std::optional<double> standard_error_of_rms(const ModelScore& score);
 
-/// What the scatter found is worth, as a sentence.
-[[nodiscard]] std::string honest_sentence(const ModelScore& score);
+/// Returns a sentence on the uncertainty of the scatter.
+[[nodiscard]] std::string scatter_sentence(const ModelScore& score);
 
-/// HTML of the page.
-/// @param missing  lines on figures that are missing.
+/// Returns the HTML of the page.
+/// @param missing  lines on missing figures.
 [[nodiscard]] std::string summary_html(const SurveyCorrection& result,
                                        const std::vector<std::string>& warnings,
                                        const std::vector<std::string>& missing);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A table's columns, declared once and written as CSV and as JSON.
+/// Columns of a table, declared once and written as CSV and as JSON.
 
 #include <cstdint>
 #include <functional>
@@ -19,6 +19,7 @@ namespace a351::corrector {
 /// Value of a cell; std::monostate if the row has none.
 using Cell = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
 
+/// Returns the value as a cell; without a value an empty cell.
 [[nodiscard]] inline Cell cell(double value) { return value; }
 [[nodiscard]] inline Cell cell(const std::optional<double>& value) {
     return value ? Cell(*value) : Cell();
@@ -31,25 +32,27 @@ using Cell = std::variant<std::monostate, bool, std::int64_t, double, std::strin
     return static_cast<std::int64_t>(count);
 }
 
-/// RFC 3339, to the millisecond.
+/// Returns the instant in RFC 3339, to the millisecond.
 [[nodiscard]] inline Cell cell(UtcTime time) { return to_rfc3339(time, 3); }
 [[nodiscard]] inline Cell cell(const std::optional<UtcTime>& time) {
     return time ? Cell(to_rfc3339(*time, 3)) : Cell();
 }
 
+/// One column of a table.
 template <class Row>
 struct Column {
     std::string_view key;  ///< Name in every format, with the unit.
     std::function<Cell(const Row&)> value;
 };
 
-/// Numbers with six decimals, yes and no as 1 and 0, nothing for no value.
+/// Returns a cell as CSV: numbers with six decimals, true and false as 1 and 0, empty without a
+/// value.
 [[nodiscard]] std::string csv_text(const Cell& cell);
 
-/// Numbers in full, null for no value.
+/// Returns a cell as JSON: numbers in full, null without a value.
 [[nodiscard]] nlohmann::ordered_json json_value(const Cell& cell);
 
-/// The header line.
+/// Returns the header line of a CSV file.
 template <class Row>
 [[nodiscard]] std::string csv_header(const std::vector<Column<Row>>& columns) {
     std::string line;
@@ -57,6 +60,7 @@ template <class Row>
     return line + '\n';
 }
 
+/// Returns a line of a CSV file.
 template <class Row>
 [[nodiscard]] std::string csv_line(const std::vector<Column<Row>>& columns, const Row& row) {
     std::string line;
@@ -65,7 +69,7 @@ template <class Row>
     return line;
 }
 
-/// An object with a member for each column.
+/// Returns an object with a member for each column.
 template <class Row>
 [[nodiscard]] nlohmann::ordered_json json_object(const std::vector<Column<Row>>& columns,
                                                  const Row& row) {

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// The columns of occupations.csv, stations.csv and models.csv, in their order; table-format.md explains each.
-/// result.json has the same rows with the same keys.
+/// The columns of occupations.csv, stations.csv and models.csv, in their order.  result.json has
+/// the same rows with the same keys.  table-format.md explains each column.
 
 #include <vector>
 
@@ -10,10 +10,13 @@
 
 namespace a351::corrector {
 
-/// The first seven, from the site to the flags, are those that a left-out occupation has too.
-/// @param result  outlives the columns; has at least one row.  Rows from records and rows of the whole-day model have more columns.
+/// Returns the columns of occupations.csv.  An occupation without a value has only the first seven,
+/// from the site to the flags.  Rows from records and rows of the whole-day model have more
+/// columns.
+/// @param result  must outlive the columns and have at least one row.
 [[nodiscard]] std::vector<Column<CorrectedRow>> occupation_columns(const SurveyCorrection& result);
 
+/// Returns the columns of stations.csv.
 [[nodiscard]] std::vector<Column<StationValue>> station_columns();
 
 /// A model and the rows that it was fitted to.
@@ -22,7 +25,8 @@ struct ScoreRow {
     const ModelScore* score = nullptr;
 };
 
-/// @param result  outlives the columns.
+/// Returns the columns of models.csv.
+/// @param result  must outlive the columns.
 [[nodiscard]] std::vector<Column<ScoreRow>> score_columns(const SurveyCorrection& result);
 
 }  // namespace a351::corrector

@@ -12,10 +12,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Of an occupation whose fit says nothing: the published scatter of the sensor.
+/// Standard uncertainty of an occupation for which the fit gives none, mGal.  Source: the published
+/// scatter of the sensor.
 constexpr MilliGal kUnknownScatter{2.0};
 
-/// Without digits that mean nothing: 1e-9 degrees is 0.1 mm.
+/// Rounds to 1e-9; 1e-9 degrees is 0.1 mm.
 double rounded(double value) {
     constexpr double kSteps = 1e9;
     return std::round(value * kSteps) / kSteps;
@@ -48,7 +49,8 @@ Json feature(const StationValue& station, const text::Site& site) {
     return json;
 }
 
-/// Its reader cuts lines at '/' and ':' before it looks at commas, and takes '%' for a comment.
+/// Replaces the characters that GSadjust's reader does not accept in names: it splits lines at '/'
+/// and ':' before commas, and '%' begins a comment.
 std::string gsadjust_name(std::string name) {
     std::replace_if(
         name.begin(), name.end(), [](char c) { return c == '/' || c == ':' || c == '%'; }, '-');

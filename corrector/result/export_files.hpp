@@ -1,6 +1,7 @@
 #pragma once
 /// @file
-/// A corrected survey for other programs.  Columns and choices: corrector/methods.md, "Output".
+/// Files of a corrected survey for other programs.  Columns and choices: corrector/methods.md,
+/// "Output".
 
 #include <string>
 #include <vector>
@@ -11,22 +12,23 @@
 
 namespace a351::corrector {
 
-/// The stations as GeoJSON (RFC 7946): one feature each, a point with altitude; without a geometry
-/// where the position is not known.
+/// Returns the stations as GeoJSON (RFC 7946): one feature each, a point with altitude, or without
+/// geometry if the position is not known.
 [[nodiscard]] std::string stations_geojson(const SurveyCorrection& result,
                                            const std::vector<text::Site>& sites);
 
-/// The occupations as the CSV that GSadjust imports as "csv": tide, temperature and rate corrected,
-/// drift not, for that is what GSadjust estimates.  Each is two lines, value - u and value + u, for
-/// it takes a station's standard deviation from the scatter of its lines.  Excluded and flagged ones are
-/// comments.
-/// Source: GSadjust of the U.S. Geological Survey, 2022-01-18: gsadjust/file/read.py, read_csv(), for
-/// the columns; obstree/station.py, stdev(), and obstree/loop.py, populate(), for what becomes of them.
+/// Returns the occupations as the CSV that GSadjust imports as "csv".
+///
+/// Tide, temperature and rate are corrected.  Drift is not, because GSadjust estimates it.  Each
+/// occupation has two lines, value - u and value + u, because GSadjust takes the standard deviation
+/// of a station from the scatter of its lines.  Excluded and flagged occupations are comments.
+/// Source: GSadjust of the U.S. Geological Survey, 2022-01-18: gsadjust/file/read.py, read_csv(),
+/// for the columns; obstree/station.py, stdev(), and obstree/loop.py, populate(), for their use.
 [[nodiscard]] std::string gsadjust_csv(const SurveyCorrection& result,
                                        const std::vector<text::Site>& sites);
 
-/// Both, named stations.geojson and gsadjust.csv.
-/// @param sites  every station's is among them.
+/// Returns both, named stations.geojson and gsadjust.csv.
+/// @param sites  must contain the sites of all stations.
 [[nodiscard]] std::vector<text::NamedText> export_files(const SurveyCorrection& result,
                                                         const std::vector<text::Site>& sites);
 

@@ -15,7 +15,7 @@ JointStation join(const std::string& site, const std::vector<StationValue>& days
     JointStation joint;
     joint.site = site;
     joint.day_count = days.size();
-    // About the first day: full values near 980000 keep their last digits.
+    // The sum is about the first day, so that full values near 980000 keep their last digits.
     const MilliGal origin = days.front().gravity;
     double sum = 0.0;
     double weights = 0.0;

@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// Stations of several survey days.
 
 #include <string>
 #include <vector>
@@ -12,17 +14,19 @@ struct JointStation {
     std::string site;
     std::size_t day_count = 0;
     std::size_t row_count = 0;
-    /// Mean of the days by 1/u^2; the plain mean when a day has no u.
+    /// Mean of the days, each weighted by 1/u^2; not weighted if a day has no u.
     MilliGal gravity;
-    std::optional<MilliGal> u_gravity;  ///< 1 / sqrt(sum 1/u^2): days taken as independent.
+    std::optional<MilliGal> u_gravity;  ///< 1 / sqrt(sum 1/u^2), which assumes independent days.
     std::optional<MilliGal> reference;
     std::optional<MilliGal> residual;
 };
 
-/// Stations in the order of their first appearance.
+/// Returns the stations in the order of their first appearance.
 [[nodiscard]] std::vector<JointStation> join_days(const std::vector<SurveyCorrection>& days);
 
+/// Returns the stations as joint.csv.
 [[nodiscard]] std::string joint_csv(const std::vector<JointStation>& stations);
+/// Returns the stations as an aligned table.
 [[nodiscard]] std::string joint_text(const std::vector<JointStation>& stations);
 
 }  // namespace a351::corrector

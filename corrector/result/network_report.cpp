@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Adjusted stations against references that the network does not hold.
+/// Comparison of adjusted stations with references that the network does not hold.
 struct ReferenceCheck {
     std::size_t station_count = 0;
     double rms_mgal = 0.0;
@@ -52,9 +52,8 @@ std::string network_text(const SurveyCorrection& result) {
                 text::fixed(network.chi_square_high, 2) + ": " + (*passes ? "passed" : "FAILED") +
                 "; s0 = " + text::fixed(*network.s0(), 3) + " for readings of sd " + sd + " mGal\n";
         if (!*passes) {
-            text += "  with reading_sd_mgal = " + text::fixed(result.score.s_mgal.value(), 3) +
-                    " the readings would have the scatter they show; first look for what is "
-                    "wrong\n";
+            text += "  the scatter of the readings agrees with reading_sd_mgal = " +
+                    text::fixed(result.score.s_mgal.value(), 3) + "; first look for a fault\n";
         }
     }
     text += "u of the stations: a priori (readings of sd " + sd +

@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// Results of a network adjustment.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -7,10 +9,10 @@
 
 namespace a351::corrector {
 
-/// The network's degrees of freedom, global test and redundancies; empty for another model.
+/// Returns the network's size, degrees of freedom and global test as text; empty for another model.
 [[nodiscard]] std::string network_text(const SurveyCorrection& result);
 
-/// The same; null for another model.
+/// Returns the same with the redundancy of each row as JSON; null for another model.
 [[nodiscard]] nlohmann::ordered_json network_json(const SurveyCorrection& result);
 
 }  // namespace a351::corrector

@@ -130,7 +130,7 @@ std::string result_json(const SurveyCorrection& result, const Json& settings,
                                     {"end_utc", to_rfc3339(occupation.end, 3)},
                                     {"reason", occupation.reason}});
     }
-    // A name of a site may be in any encoding; JSON is UTF-8.
+    // Names of sites may be in any encoding, but JSON is UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The tables and the JSON of a corrected survey.  Run twice, the bytes are the same.
+/// The tables and the JSON of a corrected survey.  Two runs give the same bytes.
 /// Columns and keys: table-format.md.
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,16 +13,20 @@
 
 namespace a351::corrector {
 
+/// Returns the content of occupations.csv.
 [[nodiscard]] std::string occupations_csv(const SurveyCorrection& result);
+/// Returns the content of stations.csv.
 [[nodiscard]] std::string stations_csv(const SurveyCorrection& result);
+/// Returns the content of models.csv.
 [[nodiscard]] std::string models_csv(const SurveyCorrection& result);
 
-/// @param settings  object with every option of the run, in the order to be written.
+/// Returns the content of result.json.
+/// @param settings  object with every option of the run, in the order to write.
 [[nodiscard]] std::string result_json(const SurveyCorrection& result,
                                       const nlohmann::ordered_json& settings,
                                       const std::vector<text::InputFile>& inputs);
 
-/// The four files of a survey.
+/// Returns the four files of a survey.
 [[nodiscard]] std::vector<text::NamedText> result_files(const SurveyCorrection& result,
                                                         const nlohmann::ordered_json& settings,
                                                         const std::vector<text::InputFile>& inputs);

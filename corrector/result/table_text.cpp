@@ -88,8 +88,8 @@ std::string summary_text(const SurveyCorrection& result) {
     const ModelScore& score = result.score;
     std::string text = "model " + result.model;
     if (result.options.model == "auto") {
-        text += result.model == "day" ? ", for there are records of the whole day"
-                                      : ", chosen by leave-one-station-out error";
+        text += result.model == "day" ? " (chosen because the whole day was recorded)"
+                                      : " (chosen by leave-one-station-out error)";
     }
     text += ": RMS " + cell(score.rms_mgal, 3) +
             " mGal (in sample, n = " + std::to_string(score.row_count) + ")";

@@ -8,21 +8,22 @@
 
 namespace a351::corrector {
 
-/// Reasons why a row is doubtful or not in the fit, joined by ';'.
+/// Returns the reasons why a row is doubtful or not in the fit, joined by ';'.
 [[nodiscard]] std::string flags_of(const CorrectedRow& row, const SurveyOptions& options);
 
-/// The reason as a flag.
+/// Returns the reason as a flag, with '-' for each space.
 [[nodiscard]] std::string flag_of(const LeftOut& occupation);
 
-/// Whether this score is that of the applied model on the rows of its fit.
+/// Returns true if this score is that of the applied model on the rows of its fit.
 [[nodiscard]] bool is_selected(const SurveyCorrection& result, const ScoredRowSet& set,
                                const ModelScore& score);
 
-/// Model, rows, n, p, RMS and s in sample, RMS of rows and of stations left out, AICc.
+/// Returns model, rows, n, p, degrees of freedom, RMS and s in sample, RMS of rows and of stations
+/// left out, AICc.
 [[nodiscard]] std::vector<std::string> score_cells(const ScoredRowSet& set,
                                                    const ModelScore& score);
 
-/// Aligned tables of occupations, stations and models.  Each root mean square says whether it is
+/// Returns aligned tables of occupations, stations and models.  Each root mean square is marked as
 /// in sample or cross-validated.
 [[nodiscard]] std::string survey_text(const SurveyCorrection& result);
 

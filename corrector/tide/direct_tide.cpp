@@ -17,43 +17,49 @@ constexpr double kDaysPerCentury = 36525.0;
 constexpr UtcTime kJ2000 =
     std::chrono::sys_days(std::chrono::year(2000) / 1 / 1) + std::chrono::hours(12);
 
-/// TT - UTC: 32.184 s + TAI - UTC, which was 30 to 37 s in 1996-2030 (IERS Bulletin C, rounded).
+/// TT - UTC, s: 32.184 s + TAI - UTC, with TAI - UTC of 30 to 37 s in 1996-2030, rounded.  Source:
+/// IERS Bulletin C.
 constexpr double kTtMinusUtc_s = 69.0;
 
-/// m3/s2.  Moon: JPL ephemeris DE430 (W. M. Folkner et al., IPN Progress Report 42-196, 2014);
-/// Sun: DE405 (E. M. Standish, JPL IOM 312.F-98-048, 1998).
+/// GM, m3/s2.  Sources: Moon JPL ephemeris DE430 (W. M. Folkner et al., IPN Progress Report 42-196,
+/// 2014); Sun DE405 (E. M. Standish, JPL IOM 312.F-98-048, 1998).
 constexpr double kGmMoon = 4.902800066e12;
 constexpr double kGmSun = 1.32712440018e20;
 
-constexpr double kAstronomicalUnit_m = 149597870.7e3;  // IAU 2012 resolution B2
+/// Astronomical unit, m.  Source: IAU 2012 resolution B2.
+constexpr double kAstronomicalUnit_m = 149597870.7e3;
 
-/// WGS84 (NIMA TR8350.2, table 3.1).
+/// Semi-major axis (m) and flattening of the WGS84 ellipsoid.  Source: NIMA TR8350.2, table 3.1.
 constexpr double kEquatorialRadius_m = 6378137.0;
 constexpr double kFlattening = 1.0 / 298.257223563;
 
 double sin_deg(double angle_deg) { return std::sin(angle_deg * kRadPerDeg); }
 double cos_deg(double angle_deg) { return std::cos(angle_deg * kRadPerDeg); }
 
+/// Geocentric position in ecliptic coordinates.
 struct Ecliptic {
     double longitude_deg = 0.0;
     double latitude_deg = 0.0;
     double distance_m = 0.0;
 };
 
-/// Meeus, ch. 47.  `t` in Julian centuries of TT from J2000.
+/// Returns the position of the Moon: Meeus, ch. 47, with the terms of lunar_terms.hpp.
+/// @param t  Julian centuries of TT from J2000.
 Ecliptic moon_position(double t) {
+    // L', D, M, M', F without terms from t^3 on: Meeus, eq. 47.1 to 47.5.
     const double mean_longitude = 218.3164477 + 481267.88123421 * t - 0.0015786 * t * t;
     const double d = 297.8501921 + 445267.1114034 * t - 0.0018819 * t * t;
     const double m = 357.5291092 + 35999.0502909 * t - 0.0001536 * t * t;
     const double m_prime = 134.9633964 + 477198.8675055 * t + 0.0087414 * t * t;
     const double f = 93.2720950 + 483202.0175233 * t - 0.0036539 * t * t;
-    const double e = 1.0 - 0.002516 * t - 0.0000074 * t * t;
+    const double e = 1.0 - 0.002516 * t - 0.0000074 * t * t;  // E: eq. 47.6
 
     const auto angle = [&](const LunarArgument& a) {
         return a.d * d + a.m * m + a.m_prime * m_prime + a.f * f;
     };
     const auto scale = [&](const LunarArgument& a) { return std::pow(e, std::abs(a.m)); };
 
+    // lambda = L' + sum l, distance = 385000.56 km + sum r, beta = sum b
     double longitude_udeg = 0.0;
     double distance_m = 385000.56e3;
     for (const LongitudeDistanceTerm& term : kLongitudeDistanceTerms) {
@@ -68,20 +74,24 @@ Ecliptic moon_position(double t) {
     return {mean_longitude + 1e-6 * longitude_udeg, 1e-6 * latitude_udeg, distance_m};
 }
 
-/// Meeus, ch. 25, low accuracy (0.01 degree).
+/// Returns the position of the Sun: Meeus, ch. 25, low accuracy (0.01 degree).
+/// @param t  Julian centuries of TT from J2000.
 Ecliptic sun_position(double t) {
-    const double mean_longitude = 280.46646 + 36000.76983 * t + 0.0003032 * t * t;
-    const double m = 357.52911 + 35999.05029 * t - 0.0001537 * t * t;
-    const double eccentricity = 0.016708634 - 0.000042037 * t;
+    const double mean_longitude = 280.46646 + 36000.76983 * t + 0.0003032 * t * t;  // eq. 25.2
+    const double m = 357.52911 + 35999.05029 * t - 0.0001537 * t * t;               // eq. 25.3
+    const double eccentricity = 0.016708634 - 0.000042037 * t;  // eq. 25.4 without t^2
+    // Equation of the centre, without the term in t^2 sin M.
     const double center = (1.914602 - 0.004817 * t) * sin_deg(m) +
                           (0.019993 - 0.000101 * t) * sin_deg(2.0 * m) +
                           0.000289 * sin_deg(3.0 * m);
+    // Eq. 25.5.
     const double distance_au = 1.000001018 * (1.0 - eccentricity * eccentricity) /
                                (1.0 + eccentricity * cos_deg(m + center));
     return {mean_longitude + center, 0.0, distance_au * kAstronomicalUnit_m};
 }
 
-/// Unit vector in the Earth-fixed frame: ecliptic -> equator by the obliquity -> about the pole.
+/// Returns the direction of a body as unit vector in the Earth-fixed frame: rotation from the
+/// ecliptic to the equator by the obliquity, then about the pole by the sidereal angle.
 Vector earth_fixed_direction(const Ecliptic& body, double obliquity_deg, double sidereal_deg) {
     const double x = cos_deg(body.latitude_deg) * cos_deg(body.longitude_deg);
     const double y = cos_deg(body.latitude_deg) * sin_deg(body.longitude_deg);
@@ -95,10 +105,11 @@ Vector earth_fixed_direction(const Ecliptic& body, double obliquity_deg, double 
     return {x * cos_s + y_equator * sin_s, y_equator * cos_s - x * sin_s, z_equator};
 }
 
+/// Position of a station in the Earth-fixed frame.
 struct StationFrame {
-    Vector direction;  ///< From the centre of the Earth, unit length.
-    Vector normal;     ///< Of the ellipsoid, outward.
-    double radius_m = 0.0;
+    Vector direction;       ///< e: from the Earth's centre, unit length.
+    Vector normal;          ///< n: outward normal of the ellipsoid, unit length.
+    double radius_m = 0.0;  ///< r: distance from the Earth's centre.
 };
 
 StationFrame station_frame(const TideStation& station) {
@@ -107,6 +118,7 @@ StationFrame station_frame(const TideStation& station) {
     const double sin_lon = sin_deg(station.longitude.value());
     const double cos_lon = cos_deg(station.longitude.value());
     const double e2 = kFlattening * (2.0 - kFlattening);
+    // N = a / sqrt(1 - e^2 sin^2 lat);  x, y, z from geodetic latitude, longitude and height
     const double n = kEquatorialRadius_m / std::sqrt(1.0 - e2 * sin_lat * sin_lat);
     const double h = station.height.value();
     const double x = (n + h) * cos_lat * cos_lon;
@@ -118,16 +130,18 @@ StationFrame station_frame(const TideStation& station) {
             radius};
 }
 
-/// Degrees 2 and 3 of the tidal acceleration along the outward normal, m/s2.
+/// Returns degrees 2 and 3 of the tidal acceleration along the outward normal, m/s2:
+/// A_k = GM/d^2 (r/d)^(k-1) [ (k P_k(c) - c P_k'(c)) (e.n) + P_k'(c) (u.n) ],   c = e.u
+/// @param gm, distance_m, u  GM, distance and direction of the body.
 double pull_mps2(double gm, double distance_m, const Vector& u, const StationFrame& at,
                  TideFactors factors) {
     const double c = dot(at.direction, u);
     const double e_n = dot(at.direction, at.normal);
     const double u_n = dot(u, at.normal);
-    const double p2 = 1.5 * c * c - 0.5;
-    const double dp2 = 3.0 * c;
-    const double p3 = (2.5 * c * c - 1.5) * c;
-    const double dp3 = 7.5 * c * c - 1.5;
+    const double p2 = 1.5 * c * c - 0.5;        // P_2
+    const double dp2 = 3.0 * c;                 // P_2'
+    const double p3 = (2.5 * c * c - 1.5) * c;  // P_3
+    const double dp3 = 7.5 * c * c - 1.5;       // P_3'
     const double ratio = at.radius_m / distance_m;
     const double a2 = ratio * ((2.0 * p2 - c * dp2) * e_n + dp2 * u_n);
     const double a3 = ratio * ratio * ((3.0 * p3 - c * dp3) * e_n + dp3 * u_n);
@@ -140,8 +154,10 @@ MilliGal direct_tide(UtcTime time, const TideStation& station, TideFactors facto
     const double utc_days = seconds_between(kJ2000, time) / kSecondsPerDay;
     const double t = (utc_days + kTtMinusUtc_s / kSecondsPerDay) / kDaysPerCentury;
     const double t_ut = utc_days / kDaysPerCentury;
+    // Mean obliquity: Meeus, eq. 22.2, linear part.
     const double obliquity_deg = 23.439291 - 0.0130042 * t;
-    // Meeus, eq. 12.4; UT1 - UTC (under 0.9 s) moves the tide by at most 0.00002 mGal.
+    // Mean sidereal time at Greenwich: Meeus, eq. 12.4 without t^3.  UT1 - UTC (below 0.9 s)
+    // changes the tide by at most 0.00002 mGal.
     const double sidereal_deg =
         280.46061837 + 360.98564736629 * utc_days + 0.000387933 * t_ut * t_ut;
 

@@ -1,55 +1,80 @@
 #pragma once
 /// @file
 /// The tide of the solid Earth at a point: the effect on gravity of the attraction of Moon and Sun.
-/// Positive means that gravity is larger and the reading goes up; to remove the tide, subtract it.
-/// Ocean loading, pole tide and air pressure are not included.
+///
+/// Sign: positive if gravity is larger, so that the reading is larger.  To remove the tide,
+/// subtract it.
+/// Not included: ocean loading, pole tide, air pressure (sizes: corrector/methods.md, "Tide").
 
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 
 namespace a351::corrector {
 
+/// A point on the Earth.
 struct TideStation {
-    Degrees latitude;   ///< Geodetic, WGS84, north positive.
-    Degrees longitude;  ///< East positive; any multiple of 360 degrees may be added.
-    Metres height;  ///< Above the ellipsoid; 100 m of geoid height change less than 0.00001 mGal.
+    Degrees latitude;   ///< Geodetic latitude, WGS84, -90 to 90, north positive.
+    Degrees longitude;  ///< Longitude, east positive; multiples of 360 degrees have no effect.
+    /// Height above the ellipsoid.  A geoid height of 100 m changes the tide by less than 0.00001
+    /// mGal.
+    Metres height;
 };
 
-/// Gravimetric factors: tide of the elastic Earth / tide of a rigid one, by degree of the potential.
+/// Gravimetric factors: tide of the elastic Earth divided by that of a rigid Earth, by degree of
+/// the potential.  The tide is linear in them (earth_tide_test.cpp).
+/// Source: V. Dehant, P. Defraigne and J. M. Wahr, J. Geophys. Res. 104, 1035-1058, 1999.
 struct TideFactors {
-    double delta2 = 1.16;  ///< Wahr-Dehant-Zschau model, rounded; 1.20 was customary in Japan.
-    double delta3 = 1.07;  ///< The same for degree 3.
+    double delta2 = 1.16;  ///< Wahr-Dehant-Zschau model, rounded; 1.20 was usual in Japan.
+    double delta3 = 1.07;  ///< Same for degree 3.
 };
 
+/// Factors of a rigid Earth, for comparison with catalogues.
 inline constexpr TideFactors kRigidEarth{1.0, 1.0};
 
-/// 1 + h - 1.5 k with h = 0.612, k = 0.303, usual in programs that follow Longman.
+/// Factors of programs that follow Longman: 1 + h - 1.5 k with h = 0.612, k = 0.303.
 inline constexpr TideFactors kLongmanFactors{1.1575, 1.1575};
 
-/// Tide from the positions of Moon and Sun: degrees 2 and 3 along the normal of the ellipsoid.
+/// Returns the tide from the positions of Moon and Sun: degrees 2 and 3 along the normal of the
+/// ellipsoid.
 ///
 ///     tide = - sum over Moon, Sun of ( delta2 A_2 + delta3 A_3 )
 ///     A_k  = GM/d^2 (r/d)^(k-1) [ (k P_k(c) - c P_k'(c)) (e.n) + P_k'(c) (u.n) ],   c = e.u
 ///
-/// d distance and u direction of the body, r and e those of the station, n the ellipsoid's normal.
-/// The permanent tide is included.
+/// d and u are distance and direction of the body, r and e those of the station from the Earth's
+/// centre, n the outward normal of the WGS84 ellipsoid, P_k the Legendre polynomials.  The
+/// permanent tide is included.
 ///
-/// Accuracy: 0.0001 mGal for a rigid Earth, 1995-2035 (tide_points_test.cpp: eight points against
-/// a harmonic catalogue); outside, TT - UTC drifts from the 69 s used here, 0.00001 mGal per 10 s.
-/// Source of the positions: lunar_terms.hpp; J. Meeus, Astronomical Algorithms, 2nd ed., ch. 25.
+/// Accuracy: 0.0001 mGal for a rigid Earth, 1995-2035 (tests/golden/tide/README.md).
+/// tests/golden/tide_points_test.cpp checks this against a harmonic catalogue at eight points
+/// between 2000 and 2029, and 1.16 times it within 0.0012 mGal against an elastic model.
+/// tide_publication_test.cpp: 1.20 times it is within 0.0007 mGal of the publication's column.
+/// Outside 1995-2035, TT - UTC drifts from the 69 s used here: 0.00001 mGal per 10 s.
+/// @param time     UTC.
+/// @param station  finite; NaN gives NaN.
+/// @param factors  gravimetric factors.
+/// Source of the positions: lunar_terms.hpp; J. Meeus, Astronomical Algorithms, 2nd ed.,
+/// Willmann-Bell 1998, ch. 12, 22, 25, 47.
 [[nodiscard]] MilliGal direct_tide(UtcTime time, const TideStation& station,
                                    TideFactors factors = {});
 
-/// Tide by the closed formulas of I. M. Longman, J. Geophys. Res. 64, 2351-2355, 1959, with the sign
-/// turned round: his is an upward pull.  Along the geocentric radius.
+/// Returns the tide by the closed formulas of I. M. Longman, J. Geophys. Res. 64, 2351-2355, 1959,
+/// along the geocentric radius.  The sign is inverted: Longman's is an upward pull.
 ///
-/// Accuracy: 0.0008 mGal rms, 0.0025 mGal at most against a catalogue, rigid Earth.
+/// Accuracy: 0.0008 mGal rms, up to 0.0025 mGal against a catalogue, rigid Earth.
+/// tests/golden/tide_points_test.cpp: within 0.0016 mGal of the catalogue at eight points, and
+/// within 0.00001 mGal of values computed from his formulas.  earth_tide_test.cpp: within 0.0025
+/// mGal of direct_tide() over a month.
+/// @param time     UTC.
+/// @param station  finite; NaN gives NaN.  The height is added to the radius of his ellipsoid.
+/// @param factors  gravimetric factors.
 [[nodiscard]] MilliGal longman_tide(UtcTime time, const TideStation& station,
                                     TideFactors factors = kLongmanFactors);
 
+/// Models of the tide that are computed.
 enum class TideModel { none, direct, longman };
 
-/// The tide by one of the models; zero for `none`.
+/// Returns the tide by one of the models; 0 for `none`.
+/// @param time, station, factors  as direct_tide().
 [[nodiscard]] MilliGal earth_tide(TideModel model, UtcTime time, const TideStation& station,
                                   TideFactors factors);
 

@@ -17,11 +17,11 @@ void set_series_tide(std::vector<SurveyRow>& rows, const std::filesystem::path& 
     for (SurveyRow& row : rows) {
         const auto tide = series.at(row.time);
         if (!tide) {
-            throw InputError(
-                file.string() + ": time = " + to_rfc3339(row.time) + ", of " + row.site +
-                ": outside the series, or in a gap of it; allowed: " + to_rfc3339(series.first()) +
-                " to " + to_rfc3339(series.last()) + " in steps of at most " +
-                std::to_string(kLongestTideStep.count()) + " s");
+            throw InputError(file.string() + ": time = " + to_rfc3339(row.time) + ", site " +
+                             row.site + ": outside the series, or in one of its gaps; allowed: " +
+                             to_rfc3339(series.first()) + " to " + to_rfc3339(series.last()) +
+                             " in steps of at most " + std::to_string(kLongestTideStep.count()) +
+                             " s");
         }
         row.tide = *tide;
     }
@@ -64,7 +64,7 @@ void set_tide_option(TideChoice& choice, const std::string& text) {
 }
 
 TideModel tide_model(const std::string& source) {
-    // The direct method stays within 0.0001 mGal of the full harmonic catalogue.
+    // One model for both names: direct is within 0.0001 mGal of the full harmonic catalogue.
     if (source == "direct" || source == "catalogue") return TideModel::direct;
     if (source == "longman") return TideModel::longman;
     if (source == "none") return TideModel::none;

@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// Choice of the tide of a survey, and its application to the rows.
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
@@ -11,46 +13,50 @@
 
 namespace a351::corrector {
 
-/// Where the tide of a survey comes from.
+/// The source of a survey's tide.
 struct TideChoice {
-    /// given (of the table), direct = catalogue, longman, none; or the name of `series`.
+    /// Name: given (column of the table), direct = catalogue, longman, none; or the file name of
+    /// `series`.
     std::string source = "direct";
-    TideFactors factors;           ///< Of direct and longman.
-    std::filesystem::path series;  ///< CSV for TideSeries::read; empty: one of the names.
+    TideFactors factors;  ///< Factors of direct and longman.
+    std::filesystem::path
+        series;  ///< CSV for TideSeries::read(); empty: `source` is one of the names.
 };
 
-/// What may stand for a tide, for messages and help.
+/// Allowed values of a tide, for messages and help.
 inline constexpr std::string_view kTideSources =
     "given, direct, catalogue, longman, none, or a CSV time,tide_mgal";
 
-/// Sets the source from its name, or from a file's, relative to `directory`.
-/// @return  whether `text` is either.
+/// Sets the source from its name, or from a file name relative to `directory`.
+/// @return false, and nothing is changed, if `text` is neither a name nor a regular file.
 [[nodiscard]] bool set_tide_source(TideChoice& choice, const std::string& text,
                                    const std::filesystem::path& directory);
 
-/// The same for an option.
-/// @throws InputError  `text` is neither.
+/// Sets the source from the text of the option --tide; files are relative to the current directory.
+/// @throws InputError  if `text` is neither a name nor a regular file.
 void set_tide_option(TideChoice& choice, const std::string& text);
 
-/// The computed model behind a source other than `given` or a series.
-/// @throws InputError  unknown source; names those allowed.
+/// Returns the model of a computed source: direct, catalogue, longman or none.
+/// @throws InputError  if the source is another one; names those allowed.
 [[nodiscard]] TideModel tide_model(const std::string& source);
 
-/// Sets the tide of each row at its time and site.
-/// @throws InputError  a row's site is not in `sites`.
+/// Sets the tide of each row by a model, at the time and site of the row.
+/// @throws InputError  if a row's site is not in `sites`.
 void set_tide(std::vector<SurveyRow>& rows, const std::vector<text::Site>& sites, TideModel model,
               TideFactors factors);
 
-/// Takes the tide from the table read.
-/// @throws InputError  a row has none.
+/// Sets the tide of each row to the tide given in its table.
+/// @throws InputError  if a row has none.
 void set_given_tide(std::vector<SurveyRow>& rows);
 
-/// Sets the tide of every row.
-/// @throws InputError  a row without a given tide, or one that the series does not cover.
+/// Sets the tide of every row from the chosen source.
+/// @throws InputError  as set_tide(), set_given_tide() or TideSeries::read(), or if the series does
+///                     not cover a row.
 void apply_tide(std::vector<SurveyRow>& rows, const std::vector<text::Site>& sites,
                 const TideChoice& choice);
 
-/// Adds source, model, factors (null where none apply) and sign to the settings of a result.
+/// Adds source, model, sign and factors of the tide to the settings of a result.  The factors are
+/// null if the tide is not computed.
 void describe_tide(nlohmann::ordered_json& settings, const TideChoice& choice);
 
 }  // namespace a351::corrector

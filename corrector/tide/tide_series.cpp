@@ -8,7 +8,7 @@
 namespace a351::corrector {
 namespace {
 
-constexpr std::size_t kPoints = 4;  // of a cubic
+constexpr std::size_t kPoints = 4;  // points that determine a cubic
 
 }  // namespace
 
@@ -22,7 +22,7 @@ TideSeries TideSeries::read(const std::filesystem::path& file) {
             table.refuse(row, "time", "not after the row before it", "ascending times");
         }
         series.times_.push_back(*time);
-        // No solid-Earth tide exceeds 0.3 mGal; 1 catches a wrong unit.
+        // No solid-Earth tide exceeds 0.3 mGal; the limit 1 finds a wrong unit.
         series.values_mgal_.push_back(table.number(row, "tide_mgal", -1.0, 1.0));
     }
     if (series.times_.size() < kPoints) {
@@ -51,7 +51,8 @@ bool TideSeries::has_gap(std::size_t first) const {
     return false;
 }
 
-/// Lagrange's form.
+/// Returns the cubic through four rows in Lagrange's form: sum_i y_i prod_(k != i) (t - t_k) / (t_i
+/// - t_k).
 MilliGal TideSeries::cubic(std::size_t first, UtcTime time) const {
     double sum = 0.0;
     for (std::size_t i = first; i < first + kPoints; ++i) {

@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// Tide as a series from a file.
 
 #include <filesystem>
 #include <optional>
@@ -9,27 +11,37 @@
 
 namespace a351::corrector {
 
-/// Longer steps are a gap; with these the interpolation still is off by less than 0.0002 mGal.
+/// Longest step between rows, s; a longer one is a gap.  Reason: with this step the interpolation
+/// error is below 0.0002 mGal (tide_series_test.cpp).
 inline constexpr std::chrono::seconds kLongestTideStep{3600};
 
-/// A tide, or any other correction series, from outside: its effect on gravity, the same at all
-/// sites.  Positive means that gravity is larger; to remove it from a reading, subtract it.
+/// A tide, or any other correction series, from another program: its effect on gravity, the same at
+/// all sites.  Positive if gravity is larger; to remove it from a reading, subtract it.
 ///
-/// Between the rows the cubic through the four nearest ones (two on either side; at an end or
-/// beside a gap four on one side).  Error against the model that was sampled, at Tsukuba, whole
-/// month (tide_series_test.cpp): 0.00000012 mGal for steps of 10 minutes, 0.00016 of an hour; linear
-/// interpolation of the former would have 0.0001.
+/// Between rows the value is the cubic through the four nearest rows: two on either side, or four
+/// on one side at an end or beside a gap.  A cubic is reproduced, also with unequal steps
+/// (tide_series_test.cpp).
+///
+/// Accuracy: difference from the model that was sampled, at Tsukuba over a month.  For steps of
+/// 10 minutes 0.00000012 mGal (tide_series_test.cpp: below 2e-7), for steps of an hour 0.00016 mGal
+/// (below 2e-4).  Linear interpolation of 10-minute steps would have 0.0001 mGal.
 class TideSeries {
 public:
-    /// Reads `time,tide_mgal`, time RFC 3339 with zone, ascending; steps need not be equal.
-    /// @throws InputError  fewer than four rows, a time that does not ascend, a tide beyond 1 mGal.
+    /// Reads the columns `time` (RFC 3339 with zone, ascending) and `tide_mgal` (-1 to 1) of a CSV.
+    /// Steps need not be equal.
+    /// @throws InputError  if there are fewer than four rows, a time is not valid or not after the
+    ///                     row before it, or a tide is no number or beyond 1 mGal; with line and
+    ///                     value.
     [[nodiscard]] static TideSeries read(const std::filesystem::path& file);
 
-    /// The value at an instant; std::nullopt outside the series, in a gap, or where the four rows
-    /// about it are not without a gap.
+    /// Returns the value at a time.  At the first and last row it is defined.
+    /// @return std::nullopt outside the series, in a gap, or if there are no four rows without a
+    ///         gap among which the time lies.
     [[nodiscard]] std::optional<MilliGal> at(UtcTime time) const;
 
+    /// Returns the time of the first row.
     [[nodiscard]] UtcTime first() const { return times_.front(); }
+    /// Returns the time of the last row.
     [[nodiscard]] UtcTime last() const { return times_.back(); }
 
 private:

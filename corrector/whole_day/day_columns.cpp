@@ -7,6 +7,8 @@ namespace a351::corrector {
 
 std::vector<double> lagged(const TimeSeries<DegC>& series, double tau_s) {
     const double step = 1.0 / (series.rate().value() * tau_s);
+    // Exact for straight lines between samples:
+    // y_i = k y_(i-1) + (1 - k) x_(i-1) + (1 - (1 - k) / h) (x_i - x_(i-1))
     const double keep = std::exp(-step);
     const double of_rise = 1.0 - (1.0 - keep) / step;
     const std::vector<double>& x = series.values();

@@ -12,16 +12,16 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// What is estimated, in the units of the terms.
+/// Estimates in the units of the terms.
 struct Estimates {
-    Eigen::VectorXd values, standard_errors;  ///< (estimated)
-    Eigen::VectorXd placement_mgal;           ///< (set-ups) expected, given all readings.
+    Eigen::VectorXd values, standard_errors;  ///< (estimated) Terms, then unknowns.
+    Eigen::VectorXd placement_mgal;           ///< (set-ups) Expectation, given all readings.
     DayPriors::Vector shift;
     DayPriors::Matrix shift_covariance;
 };
 
-/// Values by least squares at the point; errors with the lags as two more terms and the noise that is
-/// to be expected.
+/// Returns values by least squares at the point u, and errors with the lags as two more terms and
+/// with the expected noise.
 Estimates estimate(const DayProblem& problem, const DayRecord& record, std::size_t set_ups,
                    const DayProblem::Point& u) {
     const DayNoise noise = problem.noise(u);
@@ -29,6 +29,7 @@ Estimates estimate(const DayProblem& problem, const DayRecord& record, std::size
     Eigen::MatrixXd columns = problem.scaled(u);
     whiten(record.bins, noise, columns);
     const auto x = columns.rightCols(estimated);
+    // (X'X + 1)^-1 X'y: least squares with priors of variance 1
     const Eigen::VectorXd scaled = Cholesky(normal_matrix(x)).solve(x.transpose() * columns.col(0));
     const Eigen::VectorXd left = columns.col(0) - x * scaled;
 
@@ -44,11 +45,12 @@ Estimates estimate(const DayProblem& problem, const DayRecord& record, std::size
     result.standard_errors =
         (unscaling * covariance * unscaling.transpose()).diagonal().cwiseSqrt();
     result.shift << u[kFastLag], u[kSlowLag], scaled.head(kTerms);
-    // The lags stand last in `covariance` and first in the shift.
+    // The lags are last in `covariance` and first in the shift.
     result.shift_covariance << covariance.bottomRightCorner(kLags, kLags),
         covariance.bottomLeftCorner(kLags, kTerms), covariance.topRightCorner(kTerms, kLags),
         covariance.topLeftCorner(kTerms, kTerms);
 
+    // Expected placement: placement^2 M' C^-1 r, with residuals r and membership M of the set-ups.
     Eigen::MatrixXd members = Eigen::MatrixXd::Zero(x.rows(), static_cast<Index>(set_ups));
     for (std::size_t i = 0; i < record.bins.size(); ++i)
         members(static_cast<Index>(i), static_cast<Index>(record.bins[i].set_up)) = 1.0;
@@ -58,7 +60,7 @@ Estimates estimate(const DayProblem& problem, const DayRecord& record, std::size
     return result;
 }
 
-/// Means over the bins of every set-up, weighted by their samples.
+/// Returns means over the bins of every set-up, weighted by their samples.
 std::vector<DaySetUp> means_of_set_ups(const DayProblem& problem, const DayRecord& record,
                                        std::size_t set_ups, const DayProblem::Point& u,
                                        const Eigen::VectorXd& coefficients) {

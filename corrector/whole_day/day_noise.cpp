@@ -6,6 +6,7 @@
 namespace a351::corrector {
 namespace {
 
+/// Returns the correlation exp(-2 pi |dt| / period) of a process.
 double decay(double period_s, double lag_s) {
     return std::exp(-2.0 * std::numbers::pi * std::abs(lag_s) / period_s);
 }
@@ -14,7 +15,7 @@ double decay(double period_s, double lag_s) {
 
 double whiten(const std::vector<DayBin>& bins, const DayNoise& noise, Eigen::MatrixXd& columns) {
     constexpr auto kFlicker = static_cast<Eigen::Index>(kFlickerPeriods_s.size());
-    constexpr Eigen::Index kStates = kFlicker + 1;  // the last: placement
+    constexpr Eigen::Index kStates = kFlicker + 1;  // the last state is placement
     using State = Eigen::Matrix<double, kStates, 1>;
     const double flicker_part =
         noise.flicker_mgal * noise.flicker_mgal / static_cast<double>(kFlicker);
@@ -33,12 +34,14 @@ double whiten(const std::vector<DayBin>& bins, const DayNoise& noise, Eigen::Mat
                 keep(k) = decay(kFlickerPeriods_s.at(static_cast<std::size_t>(k)), lag_s);
         }
         if (i == 0 || bins[i].set_up != bins[i - 1].set_up) keep(kFlicker) = 0.0;
+        // Prediction: x = K x, P = K P K + Q.  A new set-up has a new placement.
         state = keep.asDiagonal() * state;
         covariance = keep.asDiagonal() * covariance * keep.asDiagonal();
         for (Eigen::Index k = 0; k < kFlicker; ++k)
             covariance(k, k) += flicker_part * (1.0 - keep(k) * keep(k));
         if (keep(kFlicker) == 0.0) covariance(kFlicker, kFlicker) = placement;
 
+        // Measurement: the reading is the sum of all states and white noise.
         const State gain = covariance.rowwise().sum();
         const double white = noise.white_mgal * noise.white_mgal *
                              static_cast<double>(kBinSamples) /
@@ -48,6 +51,7 @@ double whiten(const std::vector<DayBin>& bins, const DayNoise& noise, Eigen::Mat
         const Eigen::RowVectorXd innovation = columns.row(row) - state.colwise().sum();
         state += gain / variance * innovation;
         covariance -= gain * gain.transpose() / variance;
+        // Innovations divided by their standard deviation are white.
         columns.row(row) = innovation / std::sqrt(variance);
         log_determinant += std::log(variance);
     }

@@ -18,14 +18,14 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr double kReferenceTemperature_degc = 42.5;  // set point of the publication's oven
-constexpr double kWarmUp_h = 2.5;                    // of the publication's sensor, after power-on
-constexpr double kAnything_mgal = 1e4;               // of gravity: no prior
+constexpr double kReferenceTemperature_degc = 42.5;  // T0: set point of the publication's oven
+constexpr double kWarmUp_h = 2.5;  // warm-up time of the publication's sensor after power-on
+constexpr double kFreeDeviation_mgal = 1e4;  // deviation of gravity's prior: practically no prior
 
-// fit_day() documents them, methods.md where they come from.
+// fit_day() lists the priors; corrector/methods.md gives their origin.
 constexpr LogNormalPrior kPlacementPrior_mgal{1.2, 2.0}, kFlickerPrior_mgal{1.2, 2.0};
 constexpr double kWhiteFactor = 2.0;
-constexpr double kFarthest = 12.0;  // standard deviations of the priors: anything at all
+constexpr double kFarthest = 12.0;  // bound of the search, standard deviations of the priors
 
 std::size_t unknown_count(const std::vector<DayStation>& stations) {
     std::size_t count = 0;
@@ -34,7 +34,8 @@ std::size_t unknown_count(const std::vector<DayStation>& stations) {
     return count;
 }
 
-/// Of the difference of neighbouring bins, robustly; a bound for the white noise.
+/// Returns a robust scatter of the bins, mGal: 1.4826 median |difference of neighbours| / sqrt(2),
+/// at least 1e-3.  It is the median of the white noise's prior.
 double bin_scatter_mgal(const std::vector<DayBin>& bins) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < bins.size(); ++i)
@@ -135,7 +136,7 @@ Eigen::VectorXd DayProblem::unscaled(const Point& u, const Eigen::VectorXd& scal
 Eigen::MatrixXd DayProblem::unscaling() const {
     Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(estimated(), estimated() + kLags);
     derivative.topLeftCorner(kTerms, kTerms) = priors_.factor.bottomRightCorner<kTerms, kTerms>();
-    derivative.diagonal().tail(unknowns_).setConstant(kAnything_mgal);
+    derivative.diagonal().tail(unknowns_).setConstant(kFreeDeviation_mgal);
     derivative.topRightCorner(kTerms, kLags) = priors_.factor.bottomLeftCorner<kTerms, kLags>();
     return derivative;
 }
@@ -152,7 +153,8 @@ DayNoise DayProblem::expected_noise(const Point& u) const {
         more.at(place) += kStep;
         less.at(place) -= kStep;
         const double curvature = (cost(more) - 2.0 * cost(u) + cost(less)) / (kStep * kStep);
-        // Of a quantity whose logarithm has the variance v about the mode, the root of the mean square.
+        // If ln x is normal with the mean m and the variance v, the root of the mean square of x is
+        // exp(m + v).
         const double variance = std::pow(std::log(factor), 2) / std::max(curvature, 1.0);
         return std::exp(variance);
     };
@@ -181,7 +183,7 @@ Eigen::MatrixXd DayProblem::scaled(const Point& u) const {
     columns.col(0) = readings_mgal_ - x * unscaled(u, Eigen::VectorXd::Zero(estimated()));
     columns.middleCols(1, kTerms) =
         x.leftCols(kTerms) * priors_.factor.bottomRightCorner<kTerms, kTerms>();
-    columns.rightCols(unknowns_) = kAnything_mgal * x.rightCols(unknowns_);
+    columns.rightCols(unknowns_) = kFreeDeviation_mgal * x.rightCols(unknowns_);
     return columns;
 }
 
@@ -208,16 +210,17 @@ double DayProblem::cost(const Point& u) const {
     const auto y = columns.col(0);
     const auto x = columns.rightCols(estimated());
     const Cholesky factor(normal_matrix(x));
-    if (!factor.is_positive_definite())
-        return HUGE_VAL;  // Numbers that overflow, far from the priors.
+    if (!factor.is_positive_definite()) return HUGE_VAL;  // overflow, far from the priors
     const Eigen::VectorXd half = factor.half_solve(x.transpose() * y);
+    // 2 cost = ln det C + ln det(X'C^-1 X + 1) + y'C^-1 y - |L^-1 X'C^-1 y|^2 + |u|^2,
+    // with L L' = X'C^-1 X + 1
     double sum = log_determinant + factor.log_determinant() + y.squaredNorm() - half.squaredNorm();
     for (const double value : u) sum += value * value;
     return 0.5 * sum;
 }
 
-// From afar by subplexes, which no shape of the cost stops short; from nearby by parabolas, which need
-// a fifth of the time.
+// Without a start nearby: Subplex, which no shape of the cost stops too early.  With one: BOBYQA,
+// which needs a fifth of the time.
 DayProblem::Point DayProblem::most_likely(const std::optional<Point>& nearby) const {
     constexpr auto kCount = static_cast<unsigned>(std::tuple_size_v<Point>);
     const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> search(

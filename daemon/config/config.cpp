@@ -95,11 +95,13 @@ PortAddress read_address(TomlTable& table) {
     if (!usb.empty()) {
         address.usb = parse_usb_address(usb);
         if (!address.usb) {
-            table.refuse("usb", "not an adapter", "VID:PID:SERIAL as a351d --list-ports prints it");
+            table.refuse("usb", "not an adapter's address",
+                         "VID:PID:SERIAL as printed by a351d --list-ports");
         }
     }
     if (address.path.empty() == !address.usb) {
-        table.refuse("port", address.usb ? "given together with usb" : "missing, and so is usb",
+        table.refuse("port",
+                     address.usb ? "given together with usb" : "port and usb are both missing",
                      "exactly one of port and usb");
     }
     return address;
@@ -145,7 +147,7 @@ SensorConfig read_sensor(TomlTable table, record::StationCodes& codes) {
     return sensor;
 }
 
-/// Links are followed as far as they lead anywhere now.
+/// Compares two paths; existing links are followed.
 bool is_same_port(const std::filesystem::path& one, const std::filesystem::path& other) {
     const auto resolved = [](const std::filesystem::path& port) {
         std::error_code error;
@@ -155,9 +157,9 @@ bool is_same_port(const std::filesystem::path& one, const std::filesystem::path&
     return resolved(one) == resolved(other);
 }
 
-/// A table that is not enabled is checked all the same.
+/// Reads [oven].  The table is also checked if it is not enabled.
 std::optional<OvenLinkOptions> read_oven(TomlTable table, const PortAddress& sensor) {
-    // What libmodbus can set and a line of 500 m can carry; the controllers have some of them.
+    // Rates that libmodbus can set and a line of 500 m can carry; controllers support some of them.
     constexpr std::array<std::int64_t, 8> kBauds{1200,  2400,  4800,  9600,
                                                  19200, 38400, 57600, 115200};
     const bool is_enabled = table.boolean_or("enabled", false);
@@ -169,7 +171,7 @@ std::optional<OvenLinkOptions> read_oven(TomlTable table, const PortAddress& sen
                      joined(kBauds, [](std::int64_t baud) { return std::to_string(baud); }));
     }
     oven.line.parity = table.choice_or("parity", "E", {"E", "O", "N"}).front();
-    // H175-E1, section 1: 1 ... 99; 0 would address all.
+    // 1 ... 99 by H175-E1, section 1; 0 would address all units.
     oven.line.unit = static_cast<int>(table.integer_or("unit", 1, 1, 99));
     oven.line.is_rs485 = table.boolean_or("rs485", false);
     oven.poll_interval = from_seconds(table.number_or("poll_s", 1.0, 0.1, 3600.0));
@@ -178,7 +180,7 @@ std::optional<OvenLinkOptions> read_oven(TomlTable table, const PortAddress& sen
         table.refuse("port", "missing", "the controller's serial port");
     }
     if (is_enabled && !sensor.path.empty() && is_same_port(oven.line.port, sensor.path)) {
-        table.refuse("port", "the sensor's own", "another port than sensor.port");
+        table.refuse("port", "the sensor's port", "a port other than sensor.port");
     }
     table.require_all_read();
     return is_enabled ? std::optional(oven) : std::nullopt;
@@ -187,8 +189,9 @@ std::optional<OvenLinkOptions> read_oven(TomlTable table, const PortAddress& sen
 StorageConfig read_storage(TomlTable table, int output_rate_hz) {
     StorageConfig storage;
     storage.root = table.path_or_empty("root");
-    if (storage.root.empty()) table.refuse("root", "missing", "the directory of the record");
-    // A crystal further off than 1000 ppm is broken; a larger difference is a typing error.
+    if (storage.root.empty())
+        table.refuse("root", "missing", "the directory for the recorded data");
+    // A crystal that differs by more than 1000 ppm is broken, so a larger value is a typing error.
     storage.declared_rate_hz =
         table.number("declared_rate_hz", 0.999 * output_rate_hz, 1.001 * output_rate_hz);
     storage.journal_keep_days =
@@ -203,7 +206,7 @@ PageConfig read_page(TomlTable table) {
     const auto address = parse_listen(listen);
     if (!address) {
         table.refuse("listen", "not an address and a port",
-                     "\"127.0.0.1:8351\", \"[::1]:8351\" and the like");
+                     "ADDRESS:PORT, as \"127.0.0.1:8351\" or \"[::1]:8351\"");
     }
     page.listen = *address;
     page.hosts = table.strings("hosts");
@@ -217,8 +220,8 @@ PageConfig read_page(TomlTable table) {
                      "a directory with the page's files, or \"\"");
     }
     if (!page.listen.is_loopback && page.token.empty()) {
-        table.refuse("listen", "others can connect there",
-                     "an address of this host, or a token beside");
+        table.refuse("listen", "other hosts can connect and no token is set",
+                     "a loopback address, or set token as well");
     }
     table.require_all_read();
     return page;
@@ -228,14 +231,14 @@ SurveyConfig read_survey(TomlTable table) {
     SurveyConfig survey;
     if (const auto file = table.path_or_empty("sites"); !file.empty()) {
         if (!std::filesystem::exists(file)) {
-            table.refuse("sites", "no such file: " + file.string(), "a CSV of sites, or \"\"");
+            table.refuse("sites", "no such file: " + file.string(), "a CSV file of sites, or \"\"");
         }
         survey.sites = text::read_sites(file);
     }
     if (const auto file = table.path_or_empty("calibration"); !file.empty()) {
         if (!std::filesystem::exists(file)) {
             table.refuse("calibration", "no such file: " + file.string(),
-                         "a calibration of a351-correct, or \"\"");
+                         "a calibration file written by a351-correct, or \"\"");
         }
         survey.calibration = corrector::read_calibration(file);
     }

@@ -23,7 +23,7 @@ namespace a351::daemon {
 
 struct StationConfig {
     record::StationCodes codes;
-    Degrees latitude, longitude;  ///< Of the base station.
+    Degrees latitude, longitude;  ///< Position of the base station.
     Metres elevation;
 };
 
@@ -33,33 +33,33 @@ struct SensorConfig {
     int baud = 460800;
     wire::SensorSettings settings;
     std::string filter;         ///< Name of settings.filter_code.
-    std::string serial_number;  ///< The only one accepted; empty accepts any.
+    std::string serial_number;  ///< Only serial number accepted; empty accepts any.
 };
 
 struct StorageConfig {
     std::filesystem::path root;
-    std::optional<double> declared_rate_hz;  ///< Absent until commissioned.
-    int journal_keep_days = 30;              ///< 0: for ever.
+    std::optional<double> declared_rate_hz;  ///< Absent until it was measured and set.
+    int journal_keep_days = 30;              ///< 0: always.
 };
 
 struct PageConfig {
     ListenAddress listen;
     std::vector<std::string> hosts;
-    std::string token;             ///< Never empty where others than this host can connect.
-    std::filesystem::path assets;  ///< Of the page's files; empty: those compiled in.
+    std::string token;             ///< Not empty if other hosts can connect.
+    std::filesystem::path assets;  ///< Directory of the page's files; empty: the compiled ones.
 };
 
 struct SurveyConfig {
-    std::vector<text::Site> sites;  ///< Empty when no file is named.
+    std::vector<text::Site> sites;  ///< Empty if no file is given.
     std::optional<corrector::Calibration> calibration;
-    Nanoseconds planned = std::chrono::minutes(10);  ///< Length of an occupation.
+    Nanoseconds planned = std::chrono::minutes(10);  ///< Planned length of an occupation.
 };
 
 struct Config {
-    std::filesystem::path file;  ///< It was read from.
+    std::filesystem::path file;  ///< Path of the file.
     StationConfig station;
     SensorConfig sensor;
-    std::optional<OvenLinkOptions> oven;  ///< Absent unless enabled.
+    std::optional<OvenLinkOptions> oven;  ///< Absent if not enabled.
     StorageConfig storage;
     PageConfig page;
     SurveyConfig survey;
@@ -67,10 +67,11 @@ struct Config {
 };
 
 /// Reads the file; paths in it are relative to its directory.
-/// @throws InputError  naming file, line, key, value and what is allowed.
+/// @throws InputError  with file, line, key, value and the allowed values.
 [[nodiscard]] Config read_config(const std::filesystem::path& file);
 
-/// Reads `VID:PID:SERIAL` (two hexadecimal numbers of four digits; the serial may hold colons).
+/// Reads `VID:PID:SERIAL` (two hexadecimal numbers of four digits; the serial may contain colons).
+/// @return std::nullopt if the text has another form.
 [[nodiscard]] std::optional<UsbAddress> parse_usb_address(std::string_view text);
 
 }  // namespace a351::daemon

@@ -8,7 +8,7 @@
 namespace a351::daemon {
 namespace {
 
-constexpr std::size_t kShortestToken = 16;  // 96 bits in base 64: not to be guessed over a network.
+constexpr std::size_t kShortestToken = 16;  // 96 bits in base 64 cannot be guessed over a network.
 
 std::optional<std::uint16_t> port_of(std::string_view digits) {
     std::uint16_t port = 0;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What the record says of the settings it was made with.
+/// The settings that are stored with the recorded data.
 
 #include "daemon/config/config.hpp"
 #include "daemon/source/host_clock.hpp"
@@ -9,10 +9,10 @@
 
 namespace a351::daemon {
 
-/// Session and device are filled in by the link.
+/// Makes the header of the journal; session and device are filled in by the sensor's link.
 [[nodiscard]] record::JournalHeader journal_header(const Config& config, const HostClock& clock);
 
-/// Device and instants come with each session.
+/// Describes the station; device and times are added for each session.
 [[nodiscard]] record::StationDescription station_description(const Config& config);
 
 }  // namespace a351::daemon

@@ -7,7 +7,7 @@ namespace a351::daemon {
 VerdictOptions thresholds_for(const corrector::Calibration& unit) {
     VerdictOptions options;
     if (unit.thermal) {
-        const auto& values = unit.thermal->values;  // In the order of corrector::kThermalNames.
+        const auto& values = unit.thermal->values;  // Order: corrector::kThermalNames.
         options.static_mgal_per_degc = values[0];
         options.slow_mgal_per_degc = values[1];
         options.rate_mgal_h_per_degc = values[2];

@@ -5,8 +5,8 @@
 
 namespace a351::daemon {
 
-/// The defaults of [verdict] for a unit that was measured: its response to temperature instead of
-/// the published one's, and a warm-up that decays to the calibration's limit at its hour.
+/// Returns the defaults of [verdict] for a calibrated unit.  Its own response to temperature
+/// replaces the published one, and its warm-up decays to within_mgal at after_power_on_h.
 [[nodiscard]] VerdictOptions thresholds_for(const corrector::Calibration& unit);
 
 }  // namespace a351::daemon

@@ -3,7 +3,7 @@
 namespace a351::daemon {
 namespace {
 
-/// A key and what can be meant by it: beyond that it is a typing error.
+/// A key and its plausible range; a value outside is a typing error.
 struct Key {
     const char* name;
     double VerdictOptions::*value;

@@ -5,7 +5,7 @@
 
 namespace a351::daemon {
 
-/// [verdict]: every threshold under its own name; `defaults` has those that are absent.
+/// Reads [verdict]: each threshold under its own name; absent ones are taken from `defaults`.
 /// @throws InputError  a value out of its range, or an unknown key.
 [[nodiscard]] VerdictOptions read_verdict(text::TomlTable table, const VerdictOptions& defaults);
 

@@ -9,7 +9,7 @@
 namespace a351::daemon {
 namespace {
 
-// A little more than the daemon grants a request, so that its own words arrive first.
+// Time limit of a request.  It exceeds the daemon's own, whose message then arrives first.
 constexpr std::chrono::seconds kPatience{15};
 constexpr std::uint64_t kLargestAnswer = std::uint64_t{64} * 1024 * 1024;
 
@@ -26,8 +26,8 @@ asio::awaitable<void> exchange(const Url& url, const http::request<http::string_
     if (error) co_return;
     stream.socket().set_option(asio::ip::tcp::no_delay(true), error);
     co_await http::async_write(stream, request, into(error));
-    // A daemon that turns the request away may close before it has read all of it: its answer
-    // counts, not the broken pipe.
+    // A daemon that refuses the request may close before it has read all of it.  Its answer is
+    // used, not the error of the write.
     beast::flat_buffer buffer;
     co_await http::async_read(stream, buffer, answer, into(error));
 }
@@ -45,7 +45,8 @@ Reply ask(const Url& url, http::request<http::string_body> request) {
     asio::co_spawn(io, exchange(url, request, answer, error), asio::detached);
     io.run();
     if (error) {
-        throw NoDaemon("no daemon answers at http://" + url.authority() + ": " + error.message());
+        throw NoDaemon("no daemon answers at http://" + url.authority() + ": " + error.message() +
+                       "; check that a351d is running");
     }
     return {static_cast<int>(answer.get().result_int()), std::move(answer.get().body())};
 }

@@ -7,7 +7,7 @@
 
 namespace a351::daemon {
 
-/// Nobody answers at the address, or what answers is no daemon of ours.
+/// Thrown if nothing answers at the address, or the program that answers is not a351d.
 class NoDaemon : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -17,11 +17,11 @@ struct Url {
     std::string host;  ///< Without brackets.
     std::string port = "80";
 
-    [[nodiscard]] std::string authority() const;  ///< host:port, as the header Host wants it.
+    [[nodiscard]] std::string authority() const;  ///< Returns host:port for the header Host.
 };
 
 /// Reads http://HOST[:PORT][/].
-/// @throws InputError  anything else.
+/// @throws InputError  the text has another form.
 [[nodiscard]] Url parse_url(std::string_view text);
 
 struct Reply {
@@ -29,7 +29,7 @@ struct Reply {
     std::string body;
 };
 
-/// Asks the daemon and waits for the answer, 15 s at most.
+/// Sends requests to the daemon and waits for each answer, at most 15 s.
 class Client {
 public:
     explicit Client(Url url) : url_(std::move(url)) {}

@@ -22,7 +22,7 @@ using nlohmann::json;
 constexpr int kDone = 0;
 constexpr int kRefused = 1;
 constexpr int kUsage = 2;
-constexpr int kNoDaemon = 3;  // For `status` also: not asked correctly, as monitoring plugins do.
+constexpr int kNoDaemon = 3;  // Also bad usage of `status`, as for monitoring plugins.
 constexpr int kRefreshMs = 1000;
 
 volatile std::sig_atomic_t g_stop = 0;
@@ -47,18 +47,18 @@ void complain(const std::string& text) {
 
 json parsed(const Reply& reply) {
     auto body = json::parse(reply.body, nullptr, false);
-    if (!body.is_object()) throw NoDaemon("what answers there is no a351d");
+    if (!body.is_object()) throw NoDaemon("the program at this address is not a351d; check --url");
     return body;
 }
 
-/// The body of a good answer; std::nullopt after the complaint about another one.
+/// Returns the body of a good answer; otherwise prints the error and returns std::nullopt.
 std::optional<json> accepted(const Reply& reply) {
     auto body = parsed(reply);
     if (reply.status == 200) return body;
     const auto error = body.find("error");
     complain(error != body.end() && error->is_string()
                  ? error->get<std::string>()
-                 : "answered with status " + std::to_string(reply.status));
+                 : "the daemon answered with status " + std::to_string(reply.status));
     return std::nullopt;
 }
 
@@ -70,7 +70,7 @@ int show_status(const Client& client, const Arguments& arguments) {
     return plugin_status(*status);
 }
 
-/// On a terminal each screen overwrites the last one.
+/// Shows the screen once a second; on a terminal each screen overwrites the last one.
 int watch(const Client& client) {
     struct sigaction action {};
     action.sa_handler = [](int) { g_stop = 1; };
@@ -115,7 +115,7 @@ int change(const Client& client, const Arguments& arguments, const std::string& 
     return kDone;
 }
 
-/// The given ones of site, operator, note and at.
+/// Makes the body of a request from those of site, operator, note and at that were given.
 json order(const Arguments& arguments) {
     json body = json::object();
     const auto add = [&](const char* key, const std::string& text) {
@@ -150,48 +150,63 @@ void check(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     Arguments a;
-    CLI::App app("Operator's tool of the daemon a351d", "a351ctl");
+    CLI::App app("Shows the state of the daemon a351d and controls occupations", "a351ctl");
     app.set_version_flag("--version", std::string("a351ctl ") + A351_VERSION);
-    app.add_option("--url", a.url, "Address of the daemon")->capture_default_str();
+    app.add_option("--url", a.url, "Address of the daemon")
+        ->type_name("URL")
+        ->capture_default_str();
     app.add_option("--clock", a.clock,
-                   "Simulated time, as the other programs take it; instants are asked of the "
-                   "daemon, so it changes nothing here");
-    app.add_option("--token", a.token,
-                   "Token of a daemon that is reached over a network; better by the environment")
+                   "Simulated time; checked but has no effect here, because the daemon gives "
+                   "all times")
+        ->type_name("SCALE");
+    app.add_option(
+           "--token", a.token,
+           "Token of a daemon that is reached over a network; preferably set A351_TOKEN instead")
+        ->type_name("TOKEN")
         ->envname("A351_TOKEN");
     app.require_subcommand(1);
     app.fallthrough();
 
     const auto add_at = [&](CLI::App* command) {
-        command->add_option("--at", a.at, "Instant in the recorded past, RFC 3339");
+        command
+            ->add_option("--at", a.at,
+                         "Time in the recorded past (RFC 3339); default: the last sample")
+            ->type_name("UTC");
     };
     const auto add_remark = [&](CLI::App* command) {
-        command->add_option("--operator", a.operator_name, "Name of the operator");
-        command->add_option("--note", a.note, "Remark");
+        command->add_option("--operator", a.operator_name, "Name of the operator")
+            ->type_name("NAME");
+        command->add_option("--note", a.note, "Remark")->type_name("WORDS");
     };
     auto* status = app.add_subcommand("status",
-                                      "One screen: exit status 0 good, 1 warning, 2 "
-                                      "fault, 3 not running or not asked correctly");
-    status->add_flag("--json", a.json, "The answer of the daemon as it is");
-    auto* watching = app.add_subcommand("watch", "The same, refreshed until interrupted");
-    auto* start = app.add_subcommand("start", "Start an occupation");
-    start->add_option("SITE", a.site, "Benchmark")->required();
+                                      "Show the status on one screen; exit status 0 good, 1 "
+                                      "warning, 2 fault, 3 not running or bad usage");
+    status->add_flag("--json", a.json, "Print the daemon's answer unchanged (JSON)");
+    auto* watching = app.add_subcommand("watch", "Show the status every second until interrupted");
+    auto* start = app.add_subcommand("start", "Start an occupation at a benchmark");
+    start->add_option("SITE", a.site, "Benchmark")->type_name("")->required();
     add_at(start);
     add_remark(start);
     auto* stop = app.add_subcommand("stop", "Stop the running occupation");
     add_at(stop);
     add_remark(stop);
-    auto* setup = app.add_subcommand("setup", "The sensor was set down anew at the same site");
+    auto* setup = app.add_subcommand(
+        "setup", "Begin a further set-up: the sensor was lifted and set down again");
     add_at(setup);
     auto* discard =
-        app.add_subcommand("discard", "Discard the running or else the last occupation");
-    auto* rename = app.add_subcommand("rename", "Give the running or else the last one its site");
-    rename->add_option("NAME", a.site, "Benchmark")->required();
+        app.add_subcommand("discard", "Discard the running occupation, or else the last one");
+    auto* rename = app.add_subcommand(
+        "rename", "Correct the site of the running occupation, or else of the last");
+    rename->add_option("NAME", a.site, "Benchmark")->type_name("")->required();
     auto* note = app.add_subcommand("note", "Write a remark to the event log");
-    note->add_option("TEXT", a.note, "Remark")->required();
-    auto* target = app.add_subcommand("target", "Set what standard error is good enough");
-    target->add_option("MGAL", a.target_mgal, "mGal, 0.01 to 1000")->required();
-    auto* sites = app.add_subcommand("sites", "List the benchmarks, nearest first");
+    note->add_option("WORDS", a.note, "Remark")->type_name("")->required();
+    auto* target =
+        app.add_subcommand("target", "Set the standard error at which a reading is good enough");
+    target->add_option("MGAL", a.target_mgal, "Standard error, 0.01-1000 mGal")
+        ->type_name("")
+        ->required();
+    auto* sites =
+        app.add_subcommand("sites", "List the benchmarks, nearest to the last occupation first");
     auto* list = app.add_subcommand("list", "List the finished occupations");
 
     const auto usage_status = [&] { return *status ? kNoDaemon : kUsage; };

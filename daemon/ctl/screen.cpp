@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Counters that grow in health.
+/// Counters that also rise without trouble.
 constexpr std::string_view kNoTrouble[] = {"bytes",
                                            "frames",
                                            "sessions",
@@ -24,7 +24,7 @@ constexpr std::string_view kNoTrouble[] = {"bytes",
                                            "journal_segments_compressed",
                                            "journal_segments_removed"};
 
-/// The member at a path such as "device/port"; null when there is none.
+/// Returns the member at a path such as "device/port"; null if there is none.
 const json& at(const json& object, std::string_view path) {
     static const json kNull;
     const json* here = &object;
@@ -71,7 +71,7 @@ std::string coloured(const std::string& text, const std::string& level, bool is_
     return std::string("\x1b[1;") + code + "m" + text + "\x1b[0m";
 }
 
-/// How far `index` lags behind the last sample received.
+/// Returns the index and its distance from the last sample received.
 std::string lag(const json& status, const char* index) {
     const json& received = at(status, "received");
     const json& here = at(status, index);
@@ -95,7 +95,7 @@ std::string axes(const json& status) {
            number_of(values[2], "%.3f") + " mg";
 }
 
-/// Every counter of trouble that is not zero, with its own name.
+/// Returns each counter of trouble that is not zero, with its name.
 std::string troubles(const json& status) {
     std::string text;
     const json& counters = at(status, "counters");
@@ -130,7 +130,7 @@ std::string verdict(const json& status) {
            (why.empty() ? "" : ": " + joined(why));
 }
 
-/// Of the running set-up, and what the operator has to know about it.
+/// Returns the reading of the running set-up, with advice and warnings for the operator.
 std::string reading(const json& status) {
     const json& reading = at(status, "occupation/reading");
     std::string text = number_of(at(reading, "value_mgal"), "%.2f") + " +- " +
@@ -141,7 +141,7 @@ std::string reading(const json& status) {
     else if (at(reading, "needed_s").is_number())
         text += number_of(at(reading, "needed_s"), ": %.0f s more");
     if (at(status, "occupation/propose_set_up") == true)
-        text += "; half time: set the box down anew";
+        text += "; half time: lift the box, set it down again, then run a351ctl setup";
     for (const json& warning : at(status, "occupation/warnings")) text += "; " + text_of(warning);
     return text;
 }
@@ -149,7 +149,7 @@ std::string reading(const json& status) {
 std::string tilt(const json& status) {
     const json& advice = at(status, "tilt/advice");
     return "x " + number_of(at(status, "tilt/x_arcmin"), "%+.1f'") + "   y " +
-           number_of(at(status, "tilt/y_arcmin"), "%+.1f'") + " against " +
+           number_of(at(status, "tilt/y_arcmin"), "%+.1f'") + " compared with " +
            text_of(at(status, "tilt/reference/site")) +
            (advice.empty() ? "" : ": " + joined(advice));
 }
@@ -185,7 +185,7 @@ std::string rate(const json& status) {
            text_of(at(status, "device/profile")) + (is_verified ? "" : " (not verified)");
 }
 
-/// Columns as wide as their widest cell.
+/// Formats rows as a table; each column is as wide as its widest cell.
 std::string table(const std::vector<std::vector<std::string>>& rows) {
     std::vector<std::size_t> widths(rows.front().size(), 0);
     for (const auto& row : rows) {

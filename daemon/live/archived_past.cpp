@@ -10,10 +10,10 @@
 namespace a351::daemon {
 namespace {
 
-constexpr Nanoseconds kPast = std::chrono::hours(24);  ///< At 50 Hz and below, ...
-constexpr int kRateOfPast_hz = 50;                     ///< ... at more as many samples.
-constexpr int kPieces = 4;                             ///< Of 17 MB.
-constexpr double kDegcPerCount = 0.001;                ///< Of the oven's channels.
+constexpr Nanoseconds kPast = std::chrono::hours(24);  ///< Time loaded at 50 Hz and below.
+constexpr int kRateOfPast_hz = 50;       ///< Above this rate the same number of samples is loaded.
+constexpr int kPieces = 4;               ///< Number of pieces, 17 MB each.
+constexpr double kDegcPerCount = 0.001;  ///< Scale of the oven's channels.
 
 /// Goes through a channel sample by sample.
 class Cursor {
@@ -39,8 +39,8 @@ public:
         }
     }
 
-    /// To the first sample that is not earlier than `time` by more than `tolerance`.
-    /// @return whether it is not later either.
+    /// Moves to the first sample that is not earlier than `time` by more than `tolerance`.
+    /// @return true if this sample is not later by more than `tolerance` either.
     bool find(UtcTime time, Nanoseconds tolerance) {
         while (!is_at_end() && this->time() < time - tolerance) next();
         return !is_at_end() && this->time() <= time + tolerance;
@@ -94,7 +94,7 @@ void take_archived_past(const std::filesystem::path& archive, const record::Stat
         kPast * kRateOfPast_hz / std::max(record.rate_hz(), kRateOfPast_hz) / kPieces;
     for (int left = kPieces; left > 0; --left)
         take_samples(archive, codes, now - left * piece, now - (left - 1) * piece, record);
-    record.past_is_told();
+    record.end_of_history();
     take_oven(archive, codes, now - kPast, now, record);
 }
 

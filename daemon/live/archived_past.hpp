@@ -8,10 +8,10 @@
 
 namespace a351::daemon {
 
-/// Gives `record` the 24 h before `now` (at more than 50 Hz as many samples) as the archive holds
-/// them, so that after a restart history,
-/// verdict and running occupation are where they were.  Damage is passed over.
-/// @throws std::system_error  a file cannot be read; what came before it was taken.
+/// Loads the 24 h before `now` from the archive into `record` (above 50 Hz the same number of
+/// samples), so that history, verdict and running occupation are the same after a restart.  Damaged
+/// data are skipped.
+/// @throws std::system_error  a file cannot be read; data before it were loaded.
 void take_archived_past(const std::filesystem::path& archive, const record::StationCodes& codes,
                         UtcTime now, LiveRecord& record);
 

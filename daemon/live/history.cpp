@@ -18,7 +18,7 @@ UtcTime begin_of(std::int64_t bin) { return UtcTime(kBin * bin); }
 
 void History::take(UtcTime time, const std::array<float, kLiveChannelCount>& values) {
     const std::int64_t number = bin_of(time);
-    // Time that is set back begins the history anew from there.
+    // If time is set back, later bins are removed.
     while (!bins_.empty() && bins_.back().number > number) bins_.pop_back();
     if (bins_.empty() || bins_.back().number != number) {
         bins_.push_back({number, values, values});
@@ -39,7 +39,7 @@ std::vector<LiveEnvelope> History::envelopes(LiveChannel channel, UtcTime from, 
     const std::int64_t first = std::max(bin_of(from), bins_.front().number);
     const std::int64_t last = std::min(bin_of(to - Nanoseconds(1)), bins_.back().number);
     if (last < first) return found;
-    // Groups lie at multiples of their length, so that they stay as they are while time goes on.
+    // Groups begin at multiples of their length, so that they stay the same as time continues.
     const auto wanted = static_cast<std::int64_t>(points);
     std::int64_t group = (last - first) / wanted + 1;
     while (last / group - first / group + 1 > wanted) ++group;

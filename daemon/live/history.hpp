@@ -11,13 +11,14 @@
 
 namespace a351::daemon {
 
-/// Least and largest value within [time, time + interval).
+/// Smallest and largest value within [time, time + interval).
 struct LiveEnvelope {
     UtcTime time;
     double interval_s = 0.0;
     float low = 0.0F, high = 0.0F;
 };
 
+/// Length of the history.
 inline constexpr Nanoseconds kHistoryKept = std::chrono::hours(24);
 
 /// The last day as envelopes of 2 s, in the channels' units.
@@ -25,14 +26,14 @@ class History {
 public:
     void take(UtcTime time, const std::array<float, kLiveChannelCount>& values);
 
-    /// Those that touch [from, to), neighbours joined so that no more than `points` (>= 1) remain.
-    /// Where nothing was recorded there is none.
+    /// Returns the envelopes that touch [from, to).  Neighbours are joined so that at most `points`
+    /// (>= 1) remain.  There is none where nothing was recorded.
     [[nodiscard]] std::vector<LiveEnvelope> envelopes(LiveChannel channel, UtcTime from, UtcTime to,
                                                       std::size_t points) const;
 
 private:
     struct Bin {
-        std::int64_t number = 0;  ///< Of 2 s since 1970.
+        std::int64_t number = 0;  ///< Number of 2 s intervals since 1970.
         std::array<float, kLiveChannelCount> low{}, high{};
     };
     std::deque<Bin> bins_;  ///< Ascending.

@@ -9,20 +9,21 @@
 
 namespace a351::daemon {
 
-/// How the box stands against the day's first set-up.  Equal readings of the horizontal axes, not
-/// level ones, keep what the axes' biases do to the norm the same everywhere.
+/// The tilt of the box relative to the day's first set-up.  If the horizontal axes read the same at
+/// each set-up, level or not, the effect of their biases on the norm is the same everywhere.
 struct Level {
-    /// Of x and y, positive: its end stands higher than it did.
+    /// Tilt of x and y; positive if the + end is higher than at the first set-up.
     std::array<double, 2> tilt_arcmin{};
-    bool is_within = false;           ///< Of kMostTiltArcmin on both.
-    std::vector<std::string> advice;  ///< "lower the +x side by 2.4'"; empty when within.
+    bool is_within = false;           ///< Both are within kMostTiltArcmin.
+    std::vector<std::string> advice;  ///< "lower the +x side by 2.4'"; empty if within.
 };
 
-/// 0.02 deg: with 10 mg of bias of a horizontal axis 3.4 mGal in the norm.
+/// Limit of the tilt in arc minutes, 0.02 deg.  With 10 mg bias of a horizontal axis it changes the
+/// norm by 3.4 mGal.
 inline constexpr double kMostTiltArcmin = 1.2;
 
-/// An axis at rest reads +1 g when it points up, so the sine of its elevation in g:
-/// tilt = asin(a) - asin(reference).  A sensor of the other sign would turn the advice round.
+/// Computes the tilt: asin(a) - asin(reference).  An axis at rest that points up reads +1 g, so its
+/// reading in g is the sine of its elevation.  For a sensor of opposite sign the advice reverses.
 /// @param horizontal, reference  x and y; finite.
 [[nodiscard]] Level level(const std::array<StandardGravity, 2>& horizontal,
                           const std::array<StandardGravity, 2>& reference);

@@ -11,9 +11,10 @@ namespace a351::daemon {
 namespace {
 
 constexpr int kRecentSeconds = 90;  // The page shows 60.
-// A quarter of a second of the fastest simulated time, of which the page asks every tenth.
+// Least number of samples: a quarter of a second at the fastest simulated time.  The page reads
+// them every tenth of a second.
 constexpr int kLeastRecent = 50'000 / 4;
-constexpr std::size_t kLevelSeconds = 2;  // Traffic is 20 mGal: 0.1' and less.
+constexpr std::size_t kLevelSeconds = 2;  // Traffic of 20 mGal changes the tilt by 0.1' or less.
 constexpr Nanoseconds kOvenStep = std::chrono::seconds(2);
 
 template <class Point>
@@ -41,13 +42,12 @@ LiveRecord::LiveRecord(const wire::DeviceProfile& profile, int rate_hz,
 
 void LiveRecord::take(const PlacedSample& sample) {
     const std::lock_guard lock(mutex_);
-    if (told_until_) {
-        if (sample.time < *told_until_ + from_seconds(0.5 / rate_hz_)) return;
-        told_until_.reset();
+    if (history_end_) {
+        if (sample.time < *history_end_ + from_seconds(0.5 / rate_hz_)) return;
+        history_end_.reset();
     }
     if (last_ && sample.time <= *last_) forget_from(sample.time);
-    if (!last_)
-        judge_.at(sample.time);  // There is no data from here on, until the filters are full.
+    if (!last_) judge_.at(sample.time);  // "no data" from here on, until the filters are full.
     last_ = sample.time;
     recent_.take(sample);
     std::array<float, kLiveChannelCount> values{};
@@ -65,19 +65,19 @@ void LiveRecord::take(const PlacedSample& sample) {
     }
 }
 
-void LiveRecord::past_is_told() {
+void LiveRecord::end_of_history() {
     const std::lock_guard lock(mutex_);
-    told_until_ = last_;
+    history_end_ = last_;
 }
 
-/// What was judged at times that are to come again knows nothing of them.
+/// Removes the series from `time` on, and judges the rest again.
 void LiveRecord::forget_from(UtcTime time) {
     if (thinned_.empty() || thinned_.back().time < time) return;
     while (!thinned_.empty() && thinned_.back().time >= time) thinned_.pop_back();
-    judge_anew();
+    judge_again();
 }
 
-void LiveRecord::judge_anew() {
+void LiveRecord::judge_again() {
     judge_ = VerdictJudge(options_);
     for (const LiveSample& sample : thinned_) judge_.take(sample);
 }
@@ -121,12 +121,12 @@ std::vector<OvenPoint> LiveRecord::oven_history(UtcTime from, UtcTime to,
 void LiveRecord::judge_by(const VerdictOptions& options) {
     const std::lock_guard lock(mutex_);
     options_ = options;
-    judge_anew();
+    judge_again();
 }
 
 Verdict LiveRecord::verdict(UtcTime now) const {
     const std::lock_guard lock(mutex_);
-    VerdictJudge asked = judge_;  // Who asks in the midst of the past must not end what it finds.
+    VerdictJudge asked = judge_;  // A copy, because asking must not change the stored state.
     return asked.at(now);
 }
 
@@ -145,7 +145,7 @@ std::optional<Level> LiveRecord::level_against(UtcTime from, UtcTime to) const {
     const std::lock_guard lock(mutex_);
     std::array<std::vector<double>, 2> stood_mgal;
     for (const LiveSample& sample : thinned_) {
-        // Nothing of how the box was carried there may enter.
+        // Data from before the set-up must not reach in through the filters.
         if (seconds_between(from, sample.time) < kReachSeconds) continue;
         if (seconds_between(sample.time, to) < kReachSeconds) break;
         const double x = sample.axes[0].value(), y = sample.axes[1].value();

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// The last day as the page draws it and the verdict judges it.  Written by the archive thread,
-/// read by the page's.
+/// The last day of data for the charts of the page and for the verdict.  The archive thread
+/// writes it, the page's thread reads it.
 
 #include <array>
 #include <cstddef>
@@ -22,33 +22,33 @@
 
 namespace a351::daemon {
 
-/// What the oven's controller said.
+/// One answer of the oven's controller.
 struct OvenPoint {
     UtcTime time;
     std::optional<DegC> process_value;
     DegC set_point;
 };
 
-/// std::nullopt unless the poll was answered.
+/// Converts a poll of the oven; std::nullopt unless it was answered.
 [[nodiscard]] std::optional<OvenPoint> oven_point(const record::OvenChunk& poll, UtcTime time);
 
-/// Thread-safe.  Memory: 24 h of envelopes and of the 2 s series, 90 s and more at full rate; 7 MB at
-/// 50 Hz.
+/// Keeps 24 h of envelopes and of the 2 s series, and at least 90 s at full rate; 7 MB at 50 Hz.
+/// Thread-safe.
 class LiveRecord {
 public:
     /// `profile` must outlive this.
     LiveRecord(const wire::DeviceProfile& profile, int rate_hz, const VerdictOptions& options);
 
-    /// Samples in the order of their time.  One that is earlier than the last was placed by a clock
-    /// that was set back: what was remembered from there on is forgotten.
+    /// Takes a sample; samples come in the order of their times.  A sample earlier than the last
+    /// one means that the clock was set back; later data are then removed.
     void take(const PlacedSample& sample);
     void take(const OvenPoint& point);
 
-    /// What came so far is the archive's past: the samples with which a replay tells it again are
-    /// passed over, up to the first new one.
-    void past_is_told();
+    /// Declares that everything taken so far was loaded from the archive.  Samples that a replay
+    /// delivers again are ignored, up to the first new one.
+    void end_of_history();
 
-    /// @name Of RecentSamples and History.
+    /// @name See RecentSamples and History.
     /// @{
     [[nodiscard]] std::uint64_t end() const;
     [[nodiscard]] std::optional<LiveBlock> block_from(std::uint64_t& cursor,
@@ -56,21 +56,22 @@ public:
     [[nodiscard]] std::vector<LiveEnvelope> history(LiveChannel channel, UtcTime from, UtcTime to,
                                                     std::size_t points) const;
     /// @}
-    /// Every n-th, so that at most `points` (>= 1) remain.
+    /// Returns every n-th oven value in [from, to), so that at most `points` (>= 1) remain.
     [[nodiscard]] std::vector<OvenPoint> oven_history(UtcTime from, UtcTime to,
                                                       std::size_t points) const;
 
-    /// By other thresholds from now on, what is remembered judged anew.
+    /// Uses these thresholds from now on, and judges the stored series again.
     void judge_by(const VerdictOptions& options);
 
-    /// What is to be told now, be there samples or not.
+    /// Returns the verdict at `now`, also if there are no samples.
     [[nodiscard]] Verdict verdict(UtcTime now) const;
 
-    /// Of the set-up from `from` to `to`, as far as it is remembered; nothing from outside enters.
+    /// Returns the reading of the set-up from `from` to `to`, as far as it is in memory.  Data
+    /// outside do not affect it.
     [[nodiscard]] RunningReading reading(UtcTime from, UtcTime to, MilliGal target) const;
 
-    /// The box as it stood in the last 2 s, against the median of a set-up, to which also belongs
-    /// how the box was lifted at its end; std::nullopt where one of the two is not known.
+    /// Returns the tilt of the last 2 s relative to the median of a set-up; std::nullopt if one of
+    /// the two is not known.  The set-up includes the lifting of the box at its end.
     [[nodiscard]] std::optional<Level> level_against(UtcTime from, UtcTime to) const;
 
     [[nodiscard]] const wire::DeviceProfile& profile() const noexcept { return profile_; }
@@ -78,7 +79,7 @@ public:
 
 private:
     void forget_from(UtcTime time);
-    void judge_anew();
+    void judge_again();
 
     const wire::DeviceProfile& profile_;
     int rate_hz_;
@@ -92,7 +93,7 @@ private:
     std::deque<LiveSample> thinned_;
     std::deque<OvenPoint> oven_;
     std::optional<UtcTime> last_;
-    std::optional<UtcTime> told_until_;  ///< Set while a replay may tell the past again.
+    std::optional<UtcTime> history_end_;  ///< Set while a replay may deliver old samples again.
 };
 
 }  // namespace a351::daemon

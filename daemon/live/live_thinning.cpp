@@ -80,7 +80,7 @@ void LiveThinning::push_block(std::vector<LiveSample>& output) {
     for (auto& values : thinned_) values.clear();
 }
 
-/// Half the largest peak to peak; missing samples left out.
+/// Returns half the largest peak-to-peak value of the axes, without missing samples.
 MilliGal LiveThinning::shake_of_block() const {
     double shake_mgal = 0.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -13,15 +13,15 @@
 
 namespace a351::daemon {
 
-/// Samples -> the live series of one value in 2 s, by the decimation of the evening: to 5 Hz, then
-/// by ten.  What is missing for up to a minute costs the values that touch it; after more, or where
-/// time is set back, the series begins anew.
+/// Samples -> the live series of one value in 2 s, with the decimation of a351-correct: to 5 Hz,
+/// then by ten.  Values whose filters touch missing samples are NaN.  After a gap of more than
+/// a minute, or if time is set back, the series begins again.
 class LiveThinning {
 public:
     /// @param rate_hz  a multiple of 10, >= 10: all output rates of the profiles are.
     LiveThinning(const wire::DeviceProfile& profile, int rate_hz);
 
-    /// Appends to `output` what is complete with this sample.
+    /// Takes a sample, and appends to `output` the values that are complete with it.
     void take(const PlacedSample& sample, std::vector<LiveSample>& output);
 
 private:
@@ -36,9 +36,9 @@ private:
     double interval_s_;
     std::size_t block_size_;  ///< Samples in 2 s.
     corrector::DecimationFilter to_5_hz_, by_ten_;
-    std::vector<corrector::Decimator> first_, second_;  ///< By channel.
+    std::vector<corrector::Decimator> first_, second_;  ///< Filters by channel.
     std::array<std::vector<double>, kLiveChannelCount> block_, at_5_hz_, thinned_;
-    std::deque<UtcTime> begins_;  ///< Of the blocks whose value is not complete.
+    std::deque<UtcTime> begins_;  ///< Begin of each block whose value is not complete.
     std::optional<UtcTime> last_;
 };
 

@@ -14,7 +14,7 @@ void RecentSamples::take(const PlacedSample& sample) {
     ++end_;
 }
 
-/// By index and by time: a session that begins anew may happen upon the next index.
+/// Checks index and time, because a new session may begin with the next index by chance.
 bool RecentSamples::follows(std::size_t i) const {
     const PlacedSample& before = samples_[i - 1];
     const PlacedSample& sample = samples_[i];

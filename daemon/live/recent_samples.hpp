@@ -14,9 +14,9 @@ namespace a351::daemon {
 inline constexpr std::size_t kLiveChannelCount = 4;
 enum class LiveChannel : std::size_t { x, y, z, temperature };
 
-/// A sample as the archive has it.
+/// A sample with its index and time.
 struct PlacedSample {
-    std::int64_t index = 0;  ///< Of the session; of the archive's past, which knows none, any.
+    std::int64_t index = 0;  ///< Index in its session; arbitrary if loaded from the archive.
     UtcTime time;
     std::array<std::int32_t, kLiveChannelCount> counts{};  ///< In the order of LiveChannel.
 };
@@ -29,29 +29,30 @@ struct LiveBlock {
     std::array<std::vector<std::int32_t>, kLiveChannelCount> counts;
 };
 
-/// The last samples at full rate, for viewers that each read on from where they were.
+/// The last samples at full rate, for viewers that each continue reading at their own position.
 class RecentSamples {
 public:
-    /// @param capacity  > 0, samples.
+    /// @param capacity  number of samples, > 0.
     RecentSamples(std::size_t capacity, double interval_s);
 
     void take(const PlacedSample& sample);
 
-    /// Samples taken so far: the cursor of a viewer that has seen all.
+    /// Returns the number of samples taken so far: the cursor of a viewer that has seen all.
     [[nodiscard]] std::uint64_t end() const noexcept { return end_; }
 
-    /// Up to `most` samples from `cursor` on, which moves behind them.  A cursor older than what is
-    /// kept begins with the oldest.  std::nullopt: nothing new.
+    /// Returns up to `most` samples from `cursor` on, without a gap, moving `cursor` past them.
+    /// A cursor older than the stored samples begins with the oldest.  std::nullopt: nothing new.
     [[nodiscard]] std::optional<LiveBlock> block_from(std::uint64_t& cursor,
                                                       std::size_t most) const;
 
-    /// Mean counts of the last `count` samples; std::nullopt while there are fewer, or a gap is
-    /// among them.
+    /// Returns the mean counts of the last `count` samples; std::nullopt if there are fewer, or a
+    /// gap is among them.
     [[nodiscard]] std::optional<std::array<double, kLiveChannelCount>> mean_of_last(
         std::size_t count) const;
 
 private:
-    [[nodiscard]] bool follows(std::size_t i) const;  ///< samples_[i] the one before it.
+    /// Returns true if samples_[i] follows the one before it without a gap.
+    [[nodiscard]] bool follows(std::size_t i) const;
 
     std::size_t capacity_;
     double interval_s_;

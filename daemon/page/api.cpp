@@ -35,7 +35,8 @@ bool contains(std::span<const std::string_view> list, std::string_view path) {
     return std::find(list.begin(), list.end(), path) != list.end();
 }
 
-/// Texts from files and devices need not be UTF-8; a reader gets U+FFFD for what is not.
+/// Makes an answer of this body.  Texts from files and devices may be invalid UTF-8; invalid parts
+/// become U+FFFD.
 Response ok(const json& body) {
     return {.body = body.dump(-1, ' ', false, json::error_handler_t::replace) + "\n"};
 }
@@ -62,7 +63,7 @@ Response Api::answer(const Request& request) noexcept {
         return refusal(500, error.what());
     } catch (...) {
         ++use_.failures;
-        return refusal(500, "the daemon failed");
+        return refusal(500, "internal error of the daemon");
     }
 }
 
@@ -136,13 +137,14 @@ Response Api::read(std::string_view path, std::string_view query) {
     if (path == "/api/sites") return sites_around();
     if (path == "/api/occupations") return occupations_so_far();
     if (path == "/api/token") {
-        if (token_.empty()) return refusal(403, "the token is the one in [page] token");
+        if (token_.empty())
+            return refusal(403, "the token is not given out here; use that of [page] token");
         return ok({{"token", token_}});
     }
     return assets_.answer(path);
 }
 
-/// Around the last occupation's site, or else the base.
+/// Lists the sites by their distance from the last occupation's site, or else from the base.
 Response Api::sites_around() const {
     Degrees latitude = sources_.latitude, longitude = sources_.longitude;
     const auto list = sources_.occupations.list();
@@ -180,7 +182,7 @@ Response Api::events_since(std::string_view query) {
     }
     auto events = sources_.events();
     if (since) std::erase_if(events, [&](const auto& event) { return event.utc < *since; });
-    // The newest ones are what a reader without a place to go on from wants to see.
+    // Without `since` the newest events are returned.
     const auto count = std::min(events.size(), kEventsPerAnswer);
     const auto first = since ? 0 : events.size() - count;
     json list = json::array();
@@ -212,7 +214,7 @@ Response Api::change(std::string_view path, const std::string& body) {
     } else if (path == "/api/occupation/rename") {
         const auto order = parse_order(body, {"site", "operator", "note", "at"});
         if (order.site.empty()) throw InputError("body: key site is missing");
-        if (order.at) throw InputError("body: key at: a rename speaks of no instant");
+        if (order.at) throw InputError("body: key at: not allowed, because a rename has no time");
         outcome = occupations.rename(order.site, order.remark);
     } else if (path == "/api/target") {
         outcome = occupations.set_target(parse_target(body));

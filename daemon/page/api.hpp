@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The HTTP interface as a function from request to response.  No sockets, no threads.
+/// The HTTP interface: turns a request into a response.  No sockets, no threads.
 ///
 /// GET  / and the other files of the page
 /// GET  /api/status /api/events?since=UTC /api/sites /api/occupations /api/token
@@ -9,7 +9,8 @@
 ///      as body
 ///
 /// An answer under /api is JSON; a refusal is {"error": one line}: 400 malformed, 403 and 421
-/// security, 404, 405, 409 against a rule of the survey, 500 not on disk.  GET changes nothing.
+/// security, 404 and 405 unknown path or method, 409 not allowed now, 500 not on disk or an
+/// internal error.  GET changes nothing.
 
 #include <cstdint>
 #include <filesystem>
@@ -32,37 +33,37 @@
 
 namespace a351::daemon {
 
-/// Where the answers come from.
+/// The sources of the answers.
 struct ApiSources {
     std::function<Status()> status;
     Occupations& occupations;
     LiveRecord& live;
-    Degrees latitude = {}, longitude = {};               ///< Of the base, where a day begins.
+    Degrees latitude = {}, longitude = {};  ///< Position of the base, where a day begins.
     std::function<std::vector<record::Event>()> events;  ///< The whole event log, in file order.
-    std::filesystem::path assets = {};  ///< The page's files; empty: those compiled in.
+    std::filesystem::path assets = {};  ///< The page's files; empty: the compiled ones.
 
-    /// Instrument time without a sample after which the verdict is "no data".  On scaled time let
-    /// it be no shorter than 0.5 s of real time.
+    /// Instrument time without a sample after which the verdict is "no data".  On scaled time it
+    /// must be at least 0.5 s of real time.
     Nanoseconds stale_after = std::chrono::seconds(3);
 };
 
 class Api {
 public:
-    /// @param token  handed out by GET /api/token unless empty.
+    /// @param token  returned by GET /api/token unless empty.
     Api(ApiSources sources, std::string token);
 
-    /// For a request that has passed the Guard.  Never throws: an exception of a source is a 500.
+    /// Answers a request that has passed the Guard.  An exception of a source becomes a 500.
     [[nodiscard]] Response answer(const Request& request) noexcept;
 
-    /// The body of GET /api/status; std::nullopt when a source failed.
+    /// Returns the body of GET /api/status; std::nullopt if a source failed.
     [[nodiscard]] std::optional<nlohmann::json> status() noexcept;
 
-    /// What of the status a viewer must be told at once, in a form that changes with it: level,
-    /// verdict, link and occupation; std::nullopt when a source failed.  Ten times a second it may
-    /// be asked for, as the whole, which looks through the day, may not.
+    /// Returns a text that changes when viewers must get the status at once: with level, verdict,
+    /// link and occupation.  std::nullopt if a source failed.  It is cheap enough for ten calls a
+    /// second, unlike status(), which goes through the data of the day.
     [[nodiscard]] std::optional<std::string> urgent_status() noexcept;
 
-    /// What the server counts, and /metrics tells.
+    /// Returns the server's counters, which /metrics shows.
     [[nodiscard]] PageUse& use() noexcept { return use_; }
 
 private:

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Boost.Asio and Beast as the page and a351ctl use them.
+/// Headers and names of Boost.Asio and Beast for the page and a351ctl.
 
 // Boost 1.74 with g++ 12: the coroutine header uses std::exchange without including it.
 #include <utility>
@@ -26,7 +26,7 @@ namespace http = boost::beast::http;
 using asio::ip::tcp;
 using boost::system::error_code;
 
-/// `co_await async_...(into(error))`: what fails is a value.
+/// Stores an error instead of throwing it: `co_await async_...(into(error))`.
 inline auto into(error_code& error) { return asio::redirect_error(asio::use_awaitable, error); }
 
 }  // namespace a351::daemon

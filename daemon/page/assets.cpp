@@ -28,7 +28,7 @@ std::string content_type(std::string_view name) {
     return "application/octet-stream";
 }
 
-/// A configured token may hold any visible character.
+/// Escapes a text for HTML: a configured token may contain any visible character.
 std::string as_html(std::string_view text) {
     std::string html;
     for (const char c : text) {

@@ -9,7 +9,7 @@
 
 namespace a351::daemon {
 
-/// A file of the page, compiled in; the list is that of CMakeLists.txt.
+/// A compiled file of the page; CMakeLists.txt has the list.
 struct Asset {
     std::string_view name;
     std::string_view bytes;
@@ -19,9 +19,9 @@ struct Asset {
 /// The files of the page: index.html at /, the others at /NAME.
 class Assets {
 public:
-    /// @param directory  where they are read anew for each request; empty: those compiled in, as is
-    ///                   one that is not there.  Other names than the compiled ones are not served.
-    /// @param token      put in place of @TOKEN@ in index.html.
+    /// @param directory  the files are read from here for each request; if empty, or if a file does
+    ///                   not exist, the compiled one is served.  Other names are not served.
+    /// @param token      replaces @TOKEN@ in index.html.
     Assets(std::filesystem::path directory, std::string_view token);
 
     [[nodiscard]] bool contains(std::string_view path) const noexcept;
@@ -29,7 +29,7 @@ public:
 
 private:
     std::filesystem::path directory_;
-    std::string token_;  ///< As HTML.
+    std::string token_;  ///< Token, escaped for HTML.
 };
 
 }  // namespace a351::daemon

@@ -7,7 +7,7 @@ foreach(file IN LISTS ASSETS)
   file(READ ${file} bytes HEX)
   string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
   cmake_path(GET file FILENAME name)
-  # The last byte, which is not served, keeps an empty file from being an empty array.
+  # The last byte is not served; it avoids an empty array for an empty file.
   string(APPEND source "\nconstexpr unsigned char kAsset${number}[] = {${bytes}0};\n")
   string(APPEND table "    {\"${name}\", text(kAsset${number}, sizeof kAsset${number} - 1)},\n")
   math(EXPR number "${number} + 1")

@@ -19,6 +19,7 @@ json to_json(const Verdict& verdict, UtcTime now) {
                           {"value", reason.value},
                           {"error", reason.error > 0.0 ? json(reason.error) : json()},
                           {"unit", reason.unit},
+                          {"ending", reason.ending},
                           {"limit", reason.limit},
                           {"is_least", reason.is_least},
                           {"is_met", reason.is_met}});

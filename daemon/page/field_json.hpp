@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What the operator at a benchmark is told, as JSON.  A number that is not known is null.
+/// The information for the operator at a benchmark, as JSON.  A number that is not known is null.
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -12,10 +12,10 @@ namespace a351::daemon {
 [[nodiscard]] nlohmann::json to_json(const OccupationReading& reading);
 [[nodiscard]] nlohmann::json to_json(const RunningReading& reading, MilliGal target);
 
-/// Tilt against the day's first set-up; null unless there was one.
+/// Returns the tilt relative to the day's first set-up; null if there was none.
 [[nodiscard]] nlohmann::json tilt_of(const FieldStatus& field);
 
-/// The scale of each channel of the live stream: value = offset + scale x counts.
+/// Returns the scale of each channel of the live stream: value = offset + scale x counts.
 [[nodiscard]] nlohmann::json channels_of(const LiveRecord& live);
 
 }  // namespace a351::daemon

@@ -23,7 +23,7 @@ bool has_port(std::string_view host) {
     return colon != std::string_view::npos && host.find(']', colon) == std::string_view::npos;
 }
 
-/// application/json, with or without parameters.
+/// Returns true for application/json, with or without parameters.
 bool is_json(std::string_view content_type) {
     const std::string type = lower(content_type.substr(0, content_type.find(';')));
     const auto end = type.find_last_not_of(" \t");
@@ -53,7 +53,7 @@ std::optional<Response> Guard::refuse(const Request& request) const {
     };
     const auto host = request.values("Host");
     if (host.size() != 1 || !is_listed(host.front())) {
-        return refusal(421, "Host is not a name of this daemon; see [page] hosts");
+        return refusal(421, "Host is not a name of this daemon; add it to [page] hosts");
     }
     const bool is_read = request.method == "GET" || request.method == "HEAD";
     const bool is_stream = asks_for_stream(request);
@@ -73,7 +73,7 @@ std::optional<Response> Guard::refuse(const Request& request) const {
     }
     const auto token = request.values("X-A351-Token");
     if (token.size() != 1 || !is_same_secret(token.front(), token_)) {
-        return refusal(403, "X-A351-Token is missing or wrong");
+        return refusal(403, "the token (header X-A351-Token) is missing or wrong");
     }
     return std::nullopt;
 }

@@ -47,7 +47,7 @@ std::size_t point_count(const Keys& keys) {
     return count;
 }
 
-/// `[t_ms, first, second]` in the fewest digits that bring the float back; NaN is null.
+/// Appends `[t_ms, first, second]` with the fewest digits that reproduce the float; NaN is null.
 void append_point(std::string& text, UtcTime time, std::array<float, 2> values) {
     text += text.ends_with('[') ? "[" : ",[";
     text += std::to_string(

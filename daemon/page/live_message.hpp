@@ -10,23 +10,23 @@
 
 namespace a351::daemon {
 
-/// A message of the live stream, encoded once for all who get it.
+/// A message of the live stream, encoded once for all viewers.
 struct LiveMessage {
     bool is_text = false;
     std::string bytes;
 };
 
-/// A block in the binary form of the live stream, little endian:
+/// Encodes a block in the binary form of the live stream, little endian:
 ///
 ///     offset 0   u8   version, 1
 ///            1   u8   kind, 1: samples
 ///            2   u16  mask of the channels: bit 0 x, 1 y, 2 z, 3 temperature
 ///            4   u32  count of samples
-///            8   i64  index of the first sample in its session, or in what a restarted daemon
-///                     recalled of the archive
-///           16   f64  its Unix time, ms
-///           24   f64  interval, ms
-///           32   i32  of each channel in the mask, lowest bit first, `count` values in counts
+///            8   i64  index of the first sample in its session, or in the data that a restarted
+///                     daemon loaded from the archive
+///           16   f64  Unix time of the first sample, ms
+///           24   f64  sample interval, ms
+///           32   i32  `count` values in counts for each channel in the mask, lowest bit first
 [[nodiscard]] std::string encoded(const LiveBlock& block);
 
 inline constexpr std::size_t kLiveHeaderSize = 32;
@@ -34,17 +34,17 @@ inline constexpr std::size_t kLargestLiveMessage = std::size_t{64} * 1024;
 inline constexpr std::size_t kMostSamplesPerMessage =
     (kLargestLiveMessage - kLiveHeaderSize) / (kLiveChannelCount * sizeof(std::int32_t));
 
-/// The newest messages, for viewers that each read on from where they were.  Memory is bounded
-/// however slowly they read: who falls behind misses some, and holds up nobody.
+/// The newest messages, for viewers that each continue reading at their own position.  Memory is
+/// limited: a viewer that reads too slowly misses messages and delays nobody.
 class LiveMessages {
 public:
     void push(LiveMessage message);
 
-    /// Messages pushed so far: the position of a viewer that wants only what is to come.
+    /// Returns the number of messages so far: the position of a viewer that wants only new ones.
     [[nodiscard]] std::uint64_t end() const noexcept { return end_; }
 
-    /// The message at `position`, which moves behind it, or the oldest that is left; adds to
-    /// `missed` how many were not.  Null: nothing new.
+    /// Returns the message at `position`, or the oldest stored one, and moves `position` past it.
+    /// Adds the number of missed messages to `missed`.  Null: nothing new.
     [[nodiscard]] std::shared_ptr<const LiveMessage> next(std::uint64_t& position,
                                                           std::uint64_t& missed) const;
 
@@ -54,7 +54,7 @@ private:
     std::uint64_t end_ = 0;
 };
 
-/// Six seconds at 50 Hz, one and a half at 50 000 samples/s.
+/// Most messages kept: six seconds at 50 Hz, one and a half at 50 000 samples/s.
 inline constexpr std::size_t kMostMessagesKept = 64;
 inline constexpr std::size_t kMostBytesKept = std::size_t{1024} * 1024;
 

@@ -16,7 +16,7 @@ constexpr std::chrono::seconds kStatusStep{1};
 constexpr std::chrono::seconds kLinger{1};
 constexpr std::uint64_t kPastSeconds = 60;
 constexpr std::size_t kLargestFromClient = std::size_t{4} * 1024;
-/// Left to itself the kernel takes megabytes for a viewer that does not read.
+/// Send buffer in bytes.  By default the kernel stores megabytes for a viewer that does not read.
 constexpr int kSendBuffer = 128 * 1024;
 
 LiveMessage status_message(const nlohmann::json& status) {
@@ -36,8 +36,7 @@ public:
         error_code ignored;
         beast::get_lowest_layer(socket_).socket().set_option(
             asio::socket_base::send_buffer_size(kSendBuffer), ignored);
-        beast::get_lowest_layer(socket_)
-            .expires_never();  // From here on the WebSocket has its own.
+        beast::get_lowest_layer(socket_).expires_never();  // The WebSocket has its own time-outs.
         socket_.set_option(websocket::stream_base::timeout{
             .handshake_timeout = patience, .idle_timeout = patience, .keep_alive_pings = true});
         socket_.set_option(websocket::stream_base::decorator([](websocket::response_type& reply) {
@@ -47,7 +46,7 @@ public:
         socket_.auto_fragment(false);
     }
 
-    /// Leaves the connection at once if that time passes before the next call.
+    /// Closes the connection if this time passes before the next call.
     static void give(const std::shared_ptr<Viewer>& viewer, std::chrono::milliseconds time) {
         viewer->deadline_.expires_after(time);
         viewer->deadline_.async_wait([viewer](error_code error) {
@@ -118,7 +117,7 @@ asio::awaitable<void> LiveStream::serve(beast::tcp_stream stream, HttpRequest re
 }
 
 asio::awaitable<void> LiveStream::write_all(std::shared_ptr<Viewer> viewer) {
-    // What came since the last step goes to the viewers there are; this one has it from the past.
+    // New samples go to the viewers that exist already; this one gets them with its past.
     take_samples();
     std::uint64_t position = messages_.end();
     const std::uint64_t present = cursor_;
@@ -141,7 +140,7 @@ asio::awaitable<void> LiveStream::write_all(std::shared_ptr<Viewer> viewer) {
         if (past < present) {
             const auto block = live_.block_from(
                 past, std::min<std::uint64_t>(kMostSamplesPerMessage, present - past));
-            // A viewer so slow that its past is gone has it from the messages, as far as it can.
+            // If the viewer was so slow that its past is gone, it continues with the messages.
             if (block && past <= present) {
                 message =
                     std::make_shared<const LiveMessage>(LiveMessage{.bytes = encoded(*block)});
@@ -153,7 +152,7 @@ asio::awaitable<void> LiveStream::write_all(std::shared_ptr<Viewer> viewer) {
         message = messages_.next(position, api_.use().messages_dropped);
         if (!message) co_await news_.async_wait(into(error));
     }
-    // The reader ends by the same error, or by the close that follows a client's offence.
+    // The reader ends with the same error, or when the connection is closed.
     if (!viewer->is_over_) Viewer::give(viewer, kLinger);
 }
 

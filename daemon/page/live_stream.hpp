@@ -1,11 +1,10 @@
 #pragma once
 /// @file
-/// WebSocket /live.  First a text message {"status": <as GET /api/status>} and the last 60 s of
-/// samples; then samples as they come, every 100 ms, and the status once a second and whenever what
-/// the operator has to know at once has changed.  Of what a viewer sends nothing is needed.
+/// WebSocket /live.  It sends a text message {"status": <as GET /api/status>} and the last
+/// 60 s of samples first, then new samples every 100 ms.  The status is sent once a second, and at
+/// once when level, verdict, link or occupation change.  Messages from a viewer are ignored.
 ///
-/// All on the thread of the page: viewers wait for messages that are there already, and nobody for
-/// a viewer.
+/// All runs on the thread of the page.  Viewers wait for messages; nothing waits for a viewer.
 
 #include <chrono>
 #include <cstdint>
@@ -21,18 +20,20 @@ namespace a351::daemon {
 
 using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
 
+/// Returns true for a request to upgrade to WebSocket.
 [[nodiscard]] bool asks_for_websocket(const HttpRequest& request);
 
 class LiveStream {
 public:
-    /// @param patience  real time after which a viewer that takes or answers nothing is left.
+    /// @param patience  real time after which a viewer that accepts or answers nothing is
+    ///                  disconnected.
     LiveStream(boost::asio::io_context& io, const LiveRecord& live, Api& api,
                std::chrono::milliseconds patience);
 
-    /// Makes messages as long as there are viewers; does not end.
+    /// Makes messages while there are viewers; does not end.
     boost::asio::awaitable<void> feed();
 
-    /// One viewer, from its request, which has passed the Guard, to its end.
+    /// Serves one viewer until it disconnects.  Its request has passed the Guard.
     boost::asio::awaitable<void> serve(boost::beast::tcp_stream stream, HttpRequest request, Seat);
 
 private:
@@ -46,9 +47,9 @@ private:
     Api& api_;
     const std::chrono::milliseconds patience_;
     LiveMessages messages_;
-    boost::asio::steady_timer news_;  ///< Cancelled when there are messages.
-    std::uint64_t cursor_ = 0;        ///< Of live_.
-    std::string told_;                ///< Api::urgent_status() of the last one.
+    boost::asio::steady_timer news_;  ///< Timer that is cancelled when there are new messages.
+    std::uint64_t cursor_ = 0;        ///< Position in live_.
+    std::string told_;                ///< Api::urgent_status() of the last status sent.
     std::chrono::steady_clock::time_point next_status_{};
 };
 

@@ -6,14 +6,14 @@
 
 namespace a351::daemon {
 
-/// A complete HTTP request, as the pure part of the page sees it.
+/// A complete HTTP request, independent of the network library.
 struct Request {
     std::string method;
     std::string target;                                        ///< Path with query.
-    std::vector<std::pair<std::string, std::string>> headers;  ///< As received, in order.
+    std::vector<std::pair<std::string, std::string>> headers;  ///< Headers as received, in order.
     std::string body;
 
-    /// All values of the header `name`, which is compared without regard to case.
+    /// Returns all values of the header `name`; upper and lower case are equal.
     [[nodiscard]] std::vector<std::string> values(std::string_view name) const;
 };
 
@@ -24,10 +24,10 @@ struct Response {
     std::vector<std::pair<std::string, std::string>> headers = {};
 };
 
-/// `{"error": trouble}` with that status.
+/// Returns `{"error": trouble}` with this status.
 [[nodiscard]] Response refusal(int status, std::string_view trouble);
 
-/// Keys as a refusal lists them: "at, note", or "none".
+/// Joins keys for a refusal: "at, note", or "none".
 [[nodiscard]] std::string joined(const std::vector<std::string>& keys);
 
 }  // namespace a351::daemon

@@ -18,7 +18,7 @@ constexpr VerdictState kStates[] = {VerdictState::no_data, VerdictState::warming
                                     VerdictState::disturbed};
 constexpr Status::Level kLevels[] = {Status::Level::good, Status::Level::warning,
                                      Status::Level::fault};
-/// The one among the counters that also falls.
+/// Name of the only counter that can also decrease.
 constexpr std::string_view kWaiting = "archive_records_waiting";
 
 class Text {
@@ -32,7 +32,7 @@ public:
         text_ += type;
         text_ += '\n';
     }
-    /// A value that is no number is none.
+    /// Adds a sample of the metric; nothing if the value is not a number.
     void sample(const json& value, Labels labels = {}, double scale = 1.0) {
         if (!value.is_number()) return;
         text_ += name_;
@@ -72,14 +72,15 @@ json at(const json& status, const char* pointer) {
 }
 
 void tell_state(Text& text, const json& status) {
-    text.metric("a351_up", "gauge", "1 as long as the daemon answers.");
+    text.metric("a351_up", "gauge", "1 while the daemon answers.");
     text.sample(1, {{"version", at(status, "/version").get<std::string>()}});
-    text.metric("a351_level", "gauge", "1 for the level that a351ctl status exits with.");
+    text.metric("a351_level", "gauge",
+                "1 for the present level, which is the exit status of a351ctl status.");
     for (const auto level : kLevels) {
         const std::string name(to_text(level));
         text.sample(at(status, "/level") == name ? 1 : 0, {{"level", name}});
     }
-    text.metric("a351_verdict", "gauge", "1 for the verdict that holds.");
+    text.metric("a351_verdict", "gauge", "1 for the present verdict.");
     for (const auto state : kStates) {
         const std::string name(to_text(state));
         text.sample(at(status, "/verdict/state") == name ? 1 : 0, {{"state", name}});
@@ -90,19 +91,19 @@ void tell_state(Text& text, const json& status) {
 
 void tell_record(Text& text, const json& status) {
     text.metric("a351_index", "gauge",
-                "Index of the last sample of the session, by how safe it is.");
+                "Index of the last sample of the session that was received, journaled, archived.");
     for (const char* stage : {"received", "journaled", "archived"}) {
         text.sample(status.value(stage, json()), {{"stage", stage}});
     }
     text.gauge("a351_sample_age_seconds", "Age of the last sample, instrument time.",
                at(status, "/sample/age_s"));
-    text.gauge("a351_timing_uncertainty_seconds", "Of the time of the last sample.",
+    text.gauge("a351_timing_uncertainty_seconds",
+               "Uncertainty (95 %) of the time of the last sample.",
                at(status, "/timing/uncertainty_ms"), 1e-3);
-    text.gauge("a351_measured_rate_hertz", "Of the sensor.",
+    text.gauge("a351_measured_rate_hertz", "Measured sample rate of the sensor.",
                at(status, "/timing/rate/measured_hz"));
 
-    text.metric("a351_counter_total", "counter",
-                "What the daemon counts since its start, by kind.");
+    text.metric("a351_counter_total", "counter", "Counters since the daemon's start, by kind.");
     for (const auto& [kind, count] : status.at("counters").items()) {
         if (kind != kWaiting) text.sample(count, {{"kind", kind}});
     }
@@ -111,32 +112,32 @@ void tell_record(Text& text, const json& status) {
 }
 
 void tell_surroundings(Text& text, const json& status) {
-    text.metric("a351_temperature_celsius", "gauge", "By where it is measured, or asked for.");
+    text.metric("a351_temperature_celsius", "gauge",
+                "Temperature of sensor and oven, and the oven's set point.");
     text.sample(at(status, "/sample/temperature_degc"), {{"at", "sensor"}});
     text.sample(at(status, "/oven/process_value_degc"), {{"at", "oven"}});
     text.sample(at(status, "/oven/set_point_degc"), {{"at", "set_point"}});
-    text.gauge("a351_oven_heating_ratio", "Part of the heater's power.",
+    text.gauge("a351_oven_heating_ratio", "Heating power, as a part of full power.",
                at(status, "/oven/heating_percent"), 1e-2);
-    text.metric("a351_oven_polls_total", "counter",
-                "Questions to the oven's controller, by outcome.");
+    text.metric("a351_oven_polls_total", "counter", "Polls of the oven's controller, by outcome.");
     const auto polls = at(status, "/oven/polls");
     for (const auto& [outcome, count] : polls.items()) {
         text.sample(count, {{"outcome", outcome}});
     }
-    text.gauge("a351_disk_free_bytes", "What may still be written.",
+    text.gauge("a351_disk_free_bytes", "Free disk space for the recorded data.",
                at(status, "/disk/free_bytes"));
     text.gauge("a351_longest_sync_seconds", "Longest time the journal waited for the disk.",
                at(status, "/disk/longest_sync_ms"), 1e-3);
 }
 
 void tell_use(Text& text, const PageUse& use) {
-    text.gauge("a351_page_connections", "Open to the page, live streams among them.",
+    text.gauge("a351_page_connections", "Open connections to the page, including live streams.",
                use.connections);
     text.gauge("a351_page_streams", "Open live streams.", use.streams);
     text.metric("a351_page_messages_dropped_total", "counter",
-                "Not sent to a viewer that read too slowly.");
+                "Messages not sent to viewers that read too slowly.");
     text.sample(use.messages_dropped);
-    text.metric("a351_page_failures_total", "counter", "Answers that failed within the daemon.");
+    text.metric("a351_page_failures_total", "counter", "Answers that failed by an internal error.");
     text.sample(use.failures);
 }
 

@@ -7,12 +7,12 @@
 
 namespace a351::daemon {
 
-/// Of the answer of GET /metrics.
+/// Content type of the answer of GET /metrics.
 inline constexpr const char* kMetricsType = "text/plain; version=0.0.4; charset=utf-8";
 
-/// What a monitor may watch, in Prometheus' text format 0.0.4
+/// Returns the status for monitoring programs, in Prometheus' text format 0.0.4
 /// (https://prometheus.io/docs/instrumenting/exposition_formats/).
-/// @param status  the body of GET /api/status; what is null there is left out.
+/// @param status  the body of GET /api/status; values that are null are left out.
 [[nodiscard]] std::string metrics_of(const nlohmann::json& status, const PageUse& use);
 
 }  // namespace a351::daemon

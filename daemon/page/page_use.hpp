@@ -6,15 +6,15 @@
 
 namespace a351::daemon {
 
-/// What the page's thread counts of itself.
+/// Counters of the page's thread.
 struct PageUse {
-    std::size_t connections = 0;         ///< Open now, live streams among them.
-    std::size_t streams = 0;             ///< Live ones.
-    std::uint64_t messages_dropped = 0;  ///< Not sent to a viewer that read too slowly.
+    std::size_t connections = 0;         ///< Connections open now, including live streams.
+    std::size_t streams = 0;             ///< Live streams open now.
+    std::uint64_t messages_dropped = 0;  ///< Messages not sent to viewers that read too slowly.
     std::uint64_t failures = 0;          ///< Exceptions of a source.
 };
 
-/// Counts while it lives.
+/// Counts one connection or stream as open as long as the object exists.
 class Seat {
 public:
     explicit Seat(std::size_t& taken) noexcept : taken_(&taken) { ++taken; }

@@ -7,7 +7,7 @@
 
 namespace a351::daemon {
 
-/// The part of a target behind its question mark: key=value joined by &, values percent-encoded.
+/// Reads the part of a target after the question mark: key=value joined by &, percent-encoded.
 /// @param allowed  keys that may be given.
 /// @throws InputError  a key that is not allowed or given twice, or a broken encoding; names it.
 [[nodiscard]] std::map<std::string, std::string> parse_query(

@@ -43,10 +43,10 @@ http::response<http::string_body> packed(Response response, unsigned version, bo
     return message;
 }
 
-/// What a request that could not be read is told; std::nullopt: nothing, the client is gone.
+/// Returns the answer to a request that could not be read; std::nullopt if the client is gone.
 std::optional<Response> complaint(error_code error) {
-    if (error == http::error::header_limit) return refusal(431, "the header exceeds 8 KiB");
-    if (error == http::error::body_limit) return refusal(413, "the body exceeds 16 KiB");
+    if (error == http::error::header_limit) return refusal(431, "the header is larger than 8 KiB");
+    if (error == http::error::body_limit) return refusal(413, "the body is larger than 16 KiB");
     if (error == beast::error::timeout || error == http::error::end_of_stream ||
         error == http::error::partial_message ||
         error.category() != make_error_code(http::error::bad_method).category()) {
@@ -103,8 +103,8 @@ private:
         if (listen_.ip == "::1") other = asio::ip::address_v4::loopback();
         if (other.is_unspecified()) return;
         error = listen_on({other, port_});
-        // A host without that family; any other trouble (somebody else listens where the browser
-        // may look for this daemon) is one.
+        // A host without this address family is accepted.  Any other error is thrown, because
+        // another program may listen where the browser looks for this daemon.
         if (error && error != asio::error::address_family_not_supported &&
             error != boost::system::errc::address_not_available) {
             throw std::system_error(error, "[page] listen, " + other.to_string());
@@ -139,14 +139,14 @@ private:
                 welcome(std::move(socket));
                 continue;
             }
-            // Out of descriptors, mostly: the pause leaves time for some to come back.
+            // Usually there are no free descriptors; the pause lets some become free.
             asio::steady_timer pause(io_, kAcceptPause);
             co_await pause.async_wait(into(error));
         }
     }
 
     void welcome(tcp::socket socket) {
-        // Those who are told to come back later hold a socket for a moment, too.
+        // Connections that are refused also need a socket for a moment.
         auto& taken = api_->use().connections;
         if (taken + turned_away_ >= 2 * options_.connection_limit) return;
         error_code ignored;
@@ -160,7 +160,7 @@ private:
 
     asio::awaitable<void> turn_away(tcp::socket socket, Seat) {
         beast::tcp_stream stream(std::move(socket));
-        co_await refuse(stream, refusal(503, "too many connections"));
+        co_await refuse(stream, refusal(503, "too many connections; try again later"));
     }
 
     asio::awaitable<void> serve(tcp::socket socket, Seat) {
@@ -200,16 +200,16 @@ private:
 
     [[nodiscard]] std::optional<Response> refuse_stream(const HttpRequest& message) {
         if (!asks_for_websocket(message)) {
-            auto response = refusal(426, "this is a WebSocket");
+            auto response = refusal(426, "this path is a WebSocket");
             response.headers.emplace_back("Upgrade", "websocket");
             return response;
         }
         if (api_->use().streams < options_.stream_limit) return std::nullopt;
-        return refusal(503, "too many live streams");
+        return refusal(503, "too many live streams; try again later");
     }
 
-    /// Answers and closes.  What the client still sends is read and dropped for a moment, for
-    /// closing over unread bytes resets the connection and may take the answer with it.
+    /// Answers and closes.  Further bytes of the client are read and dropped for a moment, because
+    /// closing with unread bytes resets the connection and may lose the answer.
     static asio::awaitable<void> refuse(beast::tcp_stream& stream, Response response) {
         error_code error;
         const auto reply = packed(std::move(response), 11, false, false);
@@ -224,7 +224,7 @@ private:
     const ServerOptions options_;
     const ListenAddress listen_;
     std::optional<Guard> guard_;
-    // Coroutines end with io_, and free their seats in these.
+    // Coroutines end with io_ and then free their seats in these members.
     std::optional<Api> api_;
     std::size_t turned_away_ = 0;
     asio::io_context io_{1};

@@ -10,7 +10,7 @@
 ///     ...
 ///     server.stop();
 ///
-/// The functions and `occupations` are used on the server's thread only, from start() to stop().
+/// Functions and `occupations` are used on the server's thread only, from start() to stop().
 
 #include <chrono>
 #include <cstddef>
@@ -27,26 +27,26 @@ namespace a351::daemon {
 
 struct ServerOptions {
     ListenAddress listen = {};
-    std::vector<std::string> hosts = {};  ///< Further names (name or name:port) it answers to.
-    std::string token = {};               ///< Empty: a random one per start.
+    std::vector<std::string> hosts = {};  ///< Further accepted names (name or name:port).
+    std::string token = {};               ///< Token; empty: a random one per start.
 
     std::size_t connection_limit = 32;
     std::chrono::milliseconds request_limit{10'000};  ///< Real time to complete a request.
-    std::size_t stream_limit = 20;                    ///< Live ones, of the connections.
-    /// Real time after which a live viewer that takes or answers nothing is left.
+    std::size_t stream_limit = 20;  ///< Most live streams, part of the connections.
+    /// Real time after which a live viewer that accepts or answers nothing is disconnected.
     std::chrono::milliseconds stream_patience{10'000};
 };
 
 class Server {
 public:
-    /// Binds and listens, so that a port in use is known at once.  A loopback address of one
-    /// family also brings that of the other, where the host has it.
+    /// Binds and listens, so that a port in use is reported at once.  With 127.0.0.1 it also
+    /// listens on ::1, and the other way round, if the host supports it.
     /// @throws std::system_error  the address cannot be bound.
     Server(const ServerOptions& options, ApiSources sources);
     ~Server();
 
     void start();
-    /// Has the server's thread do it, between two requests: that owns the occupations.
+    /// Runs a task between two requests on the server's thread, which owns the occupations.
     void post(std::function<void()> task);
 
     void stop() noexcept;  ///< Ends after the request at hand; open connections are closed.
@@ -54,7 +54,7 @@ public:
     [[nodiscard]] std::uint16_t port() const noexcept;
     [[nodiscard]] const std::vector<std::string>& addresses() const noexcept;
 
-    /// True when others than this host can connect: worth a loud line in the log.
+    /// Returns true if other hosts can connect; the daemon then logs a warning.
     [[nodiscard]] bool is_exposed() const noexcept;
 
 private:

@@ -36,7 +36,7 @@ json verdict_of(const Status& status, Nanoseconds stale_after) {
         verdict["reasons"].push_back(reason);
         return verdict;
     };
-    if (!status.last_sample) return no_data("no sample has come yet", std::nullopt);
+    if (!status.last_sample) return no_data("no sample has been received yet", std::nullopt);
     if (status.now - *status.last_sample <= stale_after) return to_json(status.verdict, status.now);
     char reason[64];
     std::snprintf(reason, sizeof reason, "last sample %.1f s ago",

@@ -11,18 +11,18 @@
 
 namespace a351::daemon {
 
-/// Version of the whole interface, published as `api`; raised when a field changes its meaning.
+/// Version of the interface, published as `api`; increased when a field changes its meaning.
 inline constexpr int kApiVersion = 1;
 
 [[nodiscard]] std::string_view to_text(Status::Level level) noexcept;
 
-/// The body of GET /api/status.  A number that is not known, or not finite, is null.
-/// @param stale_after  the verdict is "no data" when the last sample is older than that.
+/// Returns the body of GET /api/status.  A number that is not known or not finite is null.
+/// @param stale_after  the verdict is "no data" if the last sample is older than this.
 [[nodiscard]] nlohmann::json to_json(const Status& status, const Occupations& occupations,
                                      const FieldStatus& field, const LiveRecord& live,
                                      Nanoseconds stale_after);
 
-/// `now` adds the running time.
+/// Converts the running occupation; `now` gives its running time.
 [[nodiscard]] nlohmann::json to_json(const RunningOccupation& running, UtcTime now);
 [[nodiscard]] nlohmann::json to_json(const record::Occupation& occupation);
 [[nodiscard]] nlohmann::json to_json(const SiteDistance& one);

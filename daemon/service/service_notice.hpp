@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// What the service manager is told: ready, alive, how it is, stopping.  The protocol is one
-/// datagram of lines NAME=VALUE to the socket that NOTIFY_SOCKET names: sd_notify(3), systemd 252.
+/// Notices to the service manager: ready, alive, status text, stopping.  Each notice is one
+/// datagram of lines NAME=VALUE to the socket in NOTIFY_SOCKET: sd_notify(3), systemd 252.
 
 #include <string>
 #include <string_view>
@@ -10,27 +10,28 @@ namespace a351::daemon {
 
 class ServiceNotice {
 public:
-    /// @param socket  path of a datagram socket; "@" first: an abstract name; empty: nobody listens.
+    /// @param socket  path of a datagram socket, "@" and an abstract name, or empty: send nothing.
     explicit ServiceNotice(std::string socket) : socket_(std::move(socket)) {}
 
-    /// By NOTIFY_SOCKET; to be called before there are threads.
+    /// Reads NOTIFY_SOCKET.  Must be called before threads are started.
     [[nodiscard]] static ServiceNotice from_environment();
 
     void ready() { send("READY=1"); }
     void stopping() { send("STOPPING=1"); }
 
-    /// To be called more often than the manager's watchdog bites.
-    /// @param is_alive  false: the watchdog is left to bite.
-    /// @param text  shown by `systemctl status`, told when it changes; its lines are joined.
+    /// Sends the watchdog signal and the status text.  Must be called more often than the manager's
+    /// watchdog time.
+    /// @param is_alive  false: send no watchdog signal, so that the manager restarts the service.
+    /// @param text  shown by `systemctl status`; sent when it changes; its lines are joined.
     void beat(bool is_alive, std::string_view text);
 
 private:
-    /// Never waits: a manager that does not listen must not hold up the acquisition.
-    /// @return false when nobody took it.
+    /// Sends without waiting, so that a manager that does not listen cannot delay the acquisition.
+    /// @return false if it could not be sent.
     bool send(std::string_view lines) const;
 
     std::string socket_;
-    std::string text_;  ///< Last told.
+    std::string text_;  ///< Status text sent last.
 };
 
 }  // namespace a351::daemon

@@ -15,13 +15,14 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr int kFramesInStep = 10;
-// Real time; a host that is busy pauses this long.  Several adapters' and frames' periods.
+// Longest silence, real time.  A busy host pauses this long; adapters and frames have shorter
+// periods.
 constexpr milliseconds kLongestSilence{500};
 constexpr int kSilentFrames = 20;
-// Of instrument time: bytes without frames are another baud rate, or layout.
+// Longest time of bytes without frames, instrument time: beyond it baud rate or layout differ.
 constexpr std::chrono::seconds kLongestBabble{3};
 
-/// Whether frames go on from a known one, each in step with the one before.
+/// Checks that frames continue a known stream, each one counter step after the one before.
 class Continuation {
 public:
     Continuation(const record::StreamEnd& known, std::uint16_t count_step)
@@ -36,7 +37,8 @@ public:
     }
     [[nodiscard]] bool is_certain() const { return frames_in_step_ >= kFramesInStep; }
 
-    /// The first of them where the port kept them for us, the last where it came at its time.
+    /// Checks the first frame, which continues the known counter if the port stored the frames, and
+    /// the last frame, whose counter agrees with the elapsed time if it was received without delay.
     [[nodiscard]] bool fits() const { return fits(first_) || fits(last_); }
 
 private:
@@ -55,7 +57,7 @@ private:
     const record::StreamEnd& known_;
     std::uint16_t count_step_;
     int frames_in_step_ = 0;
-    Frame first_, last_;  ///< In step.
+    Frame first_, last_;  ///< First and last frame of the run that is in step.
 };
 
 }  // namespace
@@ -95,7 +97,7 @@ Listening listen_for(const record::StreamEnd& known, Port& port, const HostClock
             if (const auto* frame = std::get_if<wire::BurstFrame>(&*event))
                 continuation.take(frame->values().count, time);
         if (!continuation.is_certain()) continue;
-        if (continuation.fits()) listening.outcome = Listening::Outcome::goes_on;
+        if (continuation.fits()) listening.outcome = Listening::Outcome::continues;
         break;
     }
     return listening;

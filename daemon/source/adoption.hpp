@@ -10,28 +10,29 @@
 
 namespace a351::daemon {
 
-/// One read of the port.
-struct Heard {
+/// The result of one read of the port.
+struct Read {
     RawTime time;
     std::vector<std::byte> bytes;
 };
 
 struct Listening {
     enum class Outcome {
-        goes_on,    ///< The stream that was known: not to be touched.
-        not_known,  ///< Silence, or anything else: to be stopped and configured.
+        continues,  ///< The known stream continues: the sensor must not be touched.
+        not_known,  ///< Silence or any other bytes: the sensor is stopped and configured.
         port_gone,
     };
     Outcome outcome = Outcome::not_known;
-    std::vector<Heard> reads;  ///< All that came.
+    std::vector<Read> reads;  ///< Everything received, in order.
 };
 
-/// Listens on a port just opened, at most half a second into silence.  The stream is the one that
-/// was known when ten frames in a row keep the step of its rate, and their counter stands where
-/// `known` lets expect it by the rule of timing::SampleIndex: a device that restarted meanwhile
-/// passes for it in one of 20 cases, when its new counter happens to be within a second of what it
-/// would be now, or goes on from the old one.
-/// @param stop  when it becomes true, listening ends.
+/// Listens on a port that was just opened.  Gives up after a silence of half a second or 20 frame
+/// periods, whichever is longer, or after some seconds of bytes without a known stream.
+/// The stream counts as known when ten consecutive frames keep the counter step of its rate, and
+/// their counter has the value that timing::SampleIndex expects from `known`.
+/// A device that restarted meanwhile is mistaken for the known stream in one of 20 cases: when its
+/// new counter happens to be within a second of the expected one, or continues the old one.
+/// @param stop  listening ends when it becomes true.
 [[nodiscard]] Listening listen_for(const record::StreamEnd& known, Port& port,
                                    const HostClock& clock, const std::atomic<bool>& stop);
 

@@ -15,7 +15,7 @@ milliseconds time_left(steady_clock::time_point end) {
     return std::max(milliseconds(0), ceil<milliseconds>(end - steady_clock::now()));
 }
 
-/// @return false when the port is gone.
+/// Reads one answer, or as much of it as arrives in time.  @return false if the port is gone.
 bool receive(Port& port, const wire::Receive& step, std::vector<std::byte>& answer) {
     const auto end = steady_clock::now() + step.timeout;
     answer.resize(step.byte_count);
@@ -60,7 +60,7 @@ HandshakeRun run_handshake(wire::Handshake& handshake, Port& port, const HostClo
         } else if (const auto* wanted = std::get_if<wire::Receive>(&step)) {
             is_there = receive(port, *wanted, answer);
         } else if (const auto* silence = std::get_if<wire::DrainUntilSilent>(&step)) {
-            is_there = drain(port, *silence, run.bytes_passed_over);
+            is_there = drain(port, *silence, run.bytes_skipped);
         } else if (auto* sampling = std::get_if<wire::Sampling>(&step)) {
             run.outcome = std::move(sampling->identity);
             return run;

@@ -16,12 +16,12 @@ struct PortGone {};
 
 struct HandshakeRun {
     std::variant<wire::DeviceIdentity, wire::HandshakeFailure, PortGone> outcome;
-    std::vector<record::TxChunk> sent;  ///< In order, for the journal.
-    std::size_t bytes_passed_over = 0;  ///< That came, but were no answer.
+    std::vector<record::TxChunk> sent;  ///< Commands in order, for the journal.
+    std::size_t bytes_skipped = 0;      ///< Bytes received that were no answer.
 };
 
-/// Does on the port what the handshake says until it ends, one way or another.
-/// @param stop  when it becomes true the run ends with a failure.
+/// Carries out the steps of the handshake on the port until it succeeds or fails.
+/// @param stop  the run ends with a failure when it becomes true.
 [[nodiscard]] HandshakeRun run_handshake(wire::Handshake& handshake, Port& port,
                                          const HostClock& clock, const std::atomic<bool>& stop);
 

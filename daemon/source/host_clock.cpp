@@ -44,7 +44,7 @@ timing::ClockReading HostClock::read() const {
         reading.is_synchronised = true;
         return reading;
     }
-    // First: a reading across the midnight of a leap second then still announces it.
+    // Read first, so that a reading across the midnight of a leap second still announces it.
     timex kernel{};
     const int state = adjtimex(&kernel);
     constexpr int kBrackets = 5;

@@ -1,7 +1,8 @@
 #pragma once
 /// @file
-/// The only place of the daemon that reads the time of the instrument.  With a scale it is
-/// simulated: then raw time and boot time are the simulated UTC since its epoch, and synchronised.
+/// The only place in the daemon that reads the time of the instrument.  With a scale the time is
+/// simulated: raw time and boot time are then the simulated UTC since its epoch, and the clock is
+/// always synchronised.
 
 #include <optional>
 #include <string>
@@ -19,26 +20,27 @@ public:
     [[nodiscard]] RawTime raw() const;
     [[nodiscard]] UtcTime now() const;
 
-    /// Boot time less raw time: grows by what the host sleeps.
+    /// Returns boot time minus raw time, which grows by the time that the host sleeps.
     [[nodiscard]] Nanoseconds slept() const;
 
-    /// All clocks; they belong to `raw` within half of the narrowest of five brackets.
+    /// Reads all clocks.  They are read five times between two readings of the raw clock; the
+    /// narrowest pair is used, so they belong to `raw` within half its width.
     [[nodiscard]] timing::ClockReading read() const;
 
-    /// How long a span of instrument time lasts in reality.
+    /// Converts a span of instrument time to real time.
     [[nodiscard]] Nanoseconds real_span(Nanoseconds instrument_span) const;
 
-    /// The inverse of real_span().
+    /// Converts a span of real time to instrument time.
     [[nodiscard]] Nanoseconds instrument_span(Nanoseconds real_span) const;
 
-    /// Names the zero of raw(): the kernel's boot identifier, or "simulated".
+    /// Identifies the zero of raw(): the kernel's boot identifier, or "simulated".
     [[nodiscard]] std::string boot_id() const;
 
 private:
     std::optional<ClockScale> scale_;
 };
 
-/// The host's realtime clock, unscaled: what --clock is anchored to.
+/// Reads the host's realtime clock, unscaled.  --clock is anchored to it.
 [[nodiscard]] UtcTime host_realtime();
 
 }  // namespace a351::daemon

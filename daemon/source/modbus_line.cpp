@@ -21,24 +21,25 @@ using record::OvenOutcome;
 
 constexpr std::uint8_t kReadRegisters = 0x03;
 constexpr std::uint8_t kException = 0x80;
-// Unit, function, number of bytes in front; CRC behind.  An exception has as many.
+// Bytes besides the values: unit, function, byte count and CRC.  An exception frame has as many.
 constexpr std::size_t kFrameOverhead = 5;
 
 using Frame = std::array<std::uint8_t, MODBUS_RTU_MAX_ADU_LENGTH>;
 
-/// CRC of Modbus over Serial Line V1.02, section 2.5.1.2; over a frame and its own it is 0.
+/// Checks the CRC of Modbus over Serial Line V1.02, section 2.5.1.2.  Computed over a frame with
+/// its own CRC it is 0.
 bool is_sealed(const Frame& frame, std::size_t size) {
     boost::crc_optimal<16, 0x8005, 0xFFFF, 0, true, true> crc;
     crc.process_bytes(frame.data(), size);
     return crc.checksum() == 0;
 }
 
-// libmodbus looks at the CRC only if the unit is right: of noise it says that another unit
-// answered.
+// libmodbus checks the CRC only if the unit is right, and would report noise as the answer of
+// another unit.
 ModbusLine::Answer answer_of_others(const Frame& frame) {
     const std::size_t size = kFrameOverhead + (frame[1] == kReadRegisters ? frame[2] : 0U);
     if (size > frame.size() || !is_sealed(frame, size)) {
-        return {OvenOutcome::bad_crc, {}, "bytes that are no frame"};
+        return {OvenOutcome::bad_crc, {}, "bytes that are not a frame"};
     }
     return {OvenOutcome::other_unit, {}, "unit " + std::to_string(frame[0]) + " answered"};
 }
@@ -48,7 +49,7 @@ ModbusLine::Answer answer_in(const Frame& frame, std::size_t size, std::size_t c
         return {OvenOutcome::exception, {}, "exception " + std::to_string(frame[2]), frame[2]};
     }
     if (frame[1] != kReadRegisters || size != kFrameOverhead + 2 * count || frame[2] != 2 * count) {
-        return {OvenOutcome::malformed, {}, "the answer does not fit the question"};
+        return {OvenOutcome::malformed, {}, "the answer does not match the request"};
     }
     ModbusLine::Answer answer{OvenOutcome::answered, {}, {}};
     for (std::size_t i = 0; i < count; ++i) {
@@ -68,8 +69,8 @@ ModbusLine::Answer failure(int error) {
             return {OvenOutcome::timed_out, {}, "no answer in time"};
         case EMBBADCRC:
             return {OvenOutcome::bad_crc, {}, "wrong CRC"};
-        case EMBBADDATA:  // Its length says more than a frame may hold.
-            return {OvenOutcome::bad_crc, {}, "bytes that are no frame"};
+        case EMBBADDATA:  // The stated length exceeds that of the longest frame.
+            return {OvenOutcome::bad_crc, {}, "bytes that are not a frame"};
         default:
             return {OvenOutcome::no_port, {}, std::generic_category().message(error)};
     }
@@ -100,8 +101,8 @@ ModbusLine::ModbusLine(const Settings& settings)
     if (error) {
         throw PortError(PortError::Kind::absent, settings.port.string() + ": " + error.message());
     }
-    // Manuals give two stop bits without parity; who sends two is understood by who expects one,
-    // and a receiver looks at the first only.
+    // Manuals specify two stop bits without parity.  A controller set to one stop bit understands
+    // two as well, because a receiver checks only the first.
     const int stop_bits = settings.parity == 'N' ? 2 : 1;
     description_ = device.string() + ", " + std::to_string(settings.baud) + " baud 8" +
                    settings.parity + std::to_string(stop_bits);
@@ -113,12 +114,12 @@ ModbusLine::ModbusLine(const Settings& settings)
                         device.string() + ": " + std::generic_category().message(errno));
     }
     if (isatty(connection_->lock) == 0) {
-        throw PortError(PortError::Kind::settings, device.string() + ": not a port");
+        throw PortError(PortError::Kind::settings, device.string() + ": not a serial port");
     }
     if (flock(connection_->lock, LOCK_EX | LOCK_NB) != 0) {
-        throw PortError(PortError::Kind::locked, device.string() + ": somebody else holds it");
+        throw PortError(PortError::Kind::locked, device.string() + ": in use by another process");
     }
-    // libmodbus leaves the settings as it found them: a port that echoes would talk to the
+    // libmodbus restores the settings that it found.  A port with echo on would send data to the
     // controller while nobody reads.
     termios raw{};
     if (tcgetattr(connection_->lock, &raw) == 0) {
@@ -134,18 +135,21 @@ ModbusLine::ModbusLine(const Settings& settings)
     termios kept{};
     if (tcgetattr(connection_->lock, &kept) != 0 ||
         (kept.c_cflag & (PARENB | PARODD)) != parity_bits(settings.parity)) {
-        throw PortError(PortError::Kind::settings, description_ + ": does not keep this parity");
+        throw PortError(
+            PortError::Kind::settings,
+            description_ + ": the port does not keep this parity; use another parity or port");
     }
     if (settings.is_rs485 &&
         modbus_rtu_set_serial_mode(connection_->context, MODBUS_RTU_RS485) != 0) {
-        throw PortError(PortError::Kind::settings,
-                        description_ + ": its driver does not switch an RS-485 line");
+        throw PortError(
+            PortError::Kind::settings,
+            description_ + ": the port's driver cannot switch an RS-485 line; set rs485 = false");
     }
     modbus_set_slave(connection_->context, settings.unit);
     using std::chrono::microseconds;
     modbus_set_response_timeout(connection_->context, 0,
                                 static_cast<std::uint32_t>(microseconds(kResponseTimeout).count()));
-    // Without one of its own for each byte the time-out holds for the answer as a whole.
+    // Without a time-out per byte, the response time-out applies to the whole answer.
     modbus_set_byte_timeout(connection_->context, 0, 0);
 }
 

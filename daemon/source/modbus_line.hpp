@@ -11,37 +11,37 @@
 
 namespace a351::daemon {
 
-/// Reads registers of one unit over Modbus RTU, by libmodbus, on a port that it holds locked.
-/// There is no function to write any.
+/// Reads registers of one unit over Modbus RTU with libmodbus, on a port that it keeps locked.
+/// It has no function that writes a register.
 class ModbusLine {
 public:
     struct Settings {
         std::filesystem::path port = {};  ///< Device, pseudo-terminal, or a link to one.
-        int baud = 9600;                  ///< One that libmodbus knows; others it takes for 9600.
+        int baud = 9600;                  ///< A rate that libmodbus knows; any other becomes 9600.
         char parity = 'E';                ///< E, O or N.
         int unit = 1;                     ///< 1 ... 99.
-        bool is_rs485 = false;  ///< The kernel's driver turns the line round (TIOCSRS485).
+        bool is_rs485 = false;  ///< The kernel's driver switches the direction (TIOCSRS485).
     };
     struct Answer {
         record::OvenOutcome outcome = record::OvenOutcome::no_port;
-        std::vector<std::uint16_t> words;  ///< As many as were asked for if answered, else none.
-        std::string trouble;               ///< Why it is not answered, in words.
-        std::uint8_t exception = 0;        ///< Its code, if that is the outcome.
+        std::vector<std::uint16_t> words;  ///< Values, as many as requested; none if not answered.
+        std::string trouble;               ///< Reason why there is no answer, in words.
+        std::uint8_t exception = 0;        ///< Code of the exception, if that is the outcome.
     };
 
-    /// No read takes longer.
+    /// Longest time of one read.
     static constexpr std::chrono::milliseconds kResponseTimeout{300};
 
-    /// Resolves links, locks the port, opens and sets it up.
+    /// Resolves links, then locks, opens and sets up the port.
     /// @throws PortError
     explicit ModbusLine(const Settings& settings);
     ~ModbusLine();
 
-    /// Reads `count` registers (1 ... 125) from `address` on, by function 03.  What came unasked
-    /// before is thrown away.
+    /// Reads `count` registers (1 ... 125) from `address` on with function 03.  Bytes received
+    /// before the request are discarded.
     [[nodiscard]] Answer read(std::uint16_t address, std::size_t count);
 
-    /// Path and line settings.
+    /// Returns path and line settings in one line.
     [[nodiscard]] const std::string& description() const noexcept { return description_; }
 
 private:

@@ -13,15 +13,15 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using std::chrono::steady_clock;
 
-// At 9600 baud an answer takes some 60 ms.
+// Shortest poll interval, real time.  An answer at 9600 baud takes about 60 ms.
 constexpr milliseconds kShortestRealInterval{100};
-// H175-E1, section 2: 2 ms at least between an answer and the next request.
+// Pause between an answer and the next request: at least 2 ms by H175-E1, section 2.
 constexpr milliseconds kPause{10};
 // Modbus Application Protocol V1.1b3, section 7.
 constexpr std::uint8_t kIllegalDataAddress = 2;
 constexpr int kPollsUntilStale = 3;
 constexpr int kDecimalTries = 3;
-// Of instrument time.
+// Pauses after failed polls, instrument time.
 constexpr std::array kBackOff{seconds(1), seconds(2), seconds(5), seconds(10), seconds(30)};
 constexpr milliseconds kShortestRealBackOff{50};
 
@@ -91,7 +91,7 @@ OvenLink::OvenLink(OvenLinkOptions options, const HostClock& clock, Hook hook)
       hook_(std::move(hook)),
       real_interval_(
           std::max<Nanoseconds>(kShortestRealInterval, clock.real_span(options_.poll_interval))),
-      // A poll can last until its time-out, which is of real time.
+      // A poll can last until its time-out, which is in real time.
       stale_after_(
           kPollsUntilStale *
           std::max(options_.poll_interval,
@@ -127,7 +127,7 @@ bool OvenLink::is_stale(RawTime now) const {
 }
 
 void OvenLink::run() noexcept {
-    auto due = steady_clock::now();  // One poll's delay is not the next one's.
+    auto due = steady_clock::now();  // A late poll does not delay the next one.
     while (!stop_) {
         bool is_answered = false;
         try {
@@ -185,7 +185,7 @@ ModbusLine::Answer OvenLink::read_monitors() {
     }
 }
 
-// The low words of four-byte mode are what two-byte mode shows.
+// In four-byte mode the low words hold the values of two-byte mode.
 ModbusLine::Answer OvenLink::read_variables(oven::Address first, std::size_t count) {
     if (!is_four_byte_) return line_->read(first.two_byte, count);
     ModbusLine::Answer answer = line_->read(first.four_byte, 2 * count);
@@ -195,8 +195,8 @@ ModbusLine::Answer OvenLink::read_variables(oven::Address first, std::size_t cou
     return answer;
 }
 
-// Only a controller that answers is asked, so that a silent one costs one time-out; what it does
-// not tell costs none of its other values.
+// Only a controller that answers is asked, so that a silent one costs one time-out only.  If it
+// does not report its decimals, its other values are still used.
 void OvenLink::ask_decimals() {
     if (decimal_tries_left_ == 0) return;
     --decimal_tries_left_;
@@ -222,7 +222,7 @@ void OvenLink::note(const record::OvenChunk& poll, const std::string& trouble) {
         status_.decimals = poll.decimals;
         status_.values = oven::controller_values(poll.registers, poll.decimals);
     } else if (poll.outcome != OvenOutcome::no_port && !is_stale(poll.time)) {
-        return;  // One lost answer is no change of state.
+        return;  // One lost answer does not change the state.
     }
     status_.state = state_after(poll.outcome);
 }

@@ -1,8 +1,8 @@
 #pragma once
 /// @file
-/// The oven's thread: asks the temperature controller for its values at regular intervals, hands
-/// each poll on, and begins anew with the port when one fails.  It only ever reads, and shares
-/// nothing with the sensor's reader.
+/// The oven's thread: polls the temperature controller at regular intervals, passes each poll to a
+/// hook, and opens the port again after a poll that fails.  It only reads, and shares nothing with
+/// the sensor's reader.
 
 #include <array>
 #include <atomic>
@@ -26,30 +26,30 @@ namespace a351::daemon {
 
 struct OvenLinkOptions {
     ModbusLine::Settings line = {};
-    /// From poll to poll, of instrument time; but at least 100 ms of real time.
+    /// Instrument time from poll to poll; at least 100 ms of real time.
     Nanoseconds poll_interval = std::chrono::seconds(1);
-    int decimals = 1;  ///< Of a controller that does not tell, 0 ... 3.
+    int decimals = 1;  ///< Used if the controller does not report them, 0 ... 3.
 };
 
-/// Whole seconds of instrument time that no two polls in a row exceed.
+/// Returns the archive's interval: the poll interval, instrument time, rounded up to whole seconds.
 [[nodiscard]] std::chrono::seconds archived_interval(const OvenLinkOptions& options,
                                                      const HostClock& clock);
 
 struct OvenLinkStatus {
     enum class State {
-        searching,  ///< The port is not there or cannot be had.
-        silent,     ///< No answer.
-        disturbed,  ///< Something comes, but no answer.
-        answering   ///< Until the last answer is stale.
+        searching,  ///< The port does not exist or cannot be opened.
+        silent,     ///< Nothing is received.
+        disturbed,  ///< Something is received, but no valid answer.
+        answering   ///< The last answer is not stale.
     };
     State state = State::searching;
-    std::string trouble = "not asked yet";         ///< Of the last poll; empty if answered.
-    std::string port;                              ///< Its description while there is one.
-    std::optional<oven::ControllerValues> values;  ///< Of the last answer.
-    int decimals = 1;                              ///< Of process value and set point.
-    std::optional<Nanoseconds> age;                ///< Of the last answer, instrument time.
-    bool is_stale = true;                          ///< Older than three polls, or none.
-    std::array<std::uint64_t, record::kOvenOutcomeCount> polls{};  ///< By outcome.
+    std::string trouble = "not asked yet";         ///< Trouble of the last poll; empty if answered.
+    std::string port;                              ///< Description of the port while it is open.
+    std::optional<oven::ControllerValues> values;  ///< Values of the last answer.
+    int decimals = 1;                              ///< Decimals of process value and set point.
+    std::optional<Nanoseconds> age;                ///< Age of the last answer, instrument time.
+    bool is_stale = true;                          ///< Last answer older than three polls, or none.
+    std::array<std::uint64_t, record::kOvenOutcomeCount> polls{};  ///< Number of polls by outcome.
 };
 
 [[nodiscard]] const char* to_text(OvenLinkStatus::State state) noexcept;
@@ -60,13 +60,13 @@ public:
     using Hook = std::function<void(record::OvenChunk)>;
 
     /// `clock` must outlive this.
-    /// @param hook  takes each poll, in the oven's thread.
+    /// @param hook  receives each poll, in the oven's thread.
     OvenLink(OvenLinkOptions options, const HostClock& clock, Hook hook);
     ~OvenLink();
 
     void start();
 
-    /// Ends the thread, within ModbusLine::kResponseTimeout.
+    /// Ends the thread within ModbusLine::kResponseTimeout.
     void stop();
 
     [[nodiscard]] OvenLinkStatus status() const;
@@ -85,15 +85,15 @@ private:
     const HostClock& clock_;
     Hook hook_;
     Nanoseconds real_interval_;
-    Nanoseconds stale_after_;  ///< Of instrument time.
+    Nanoseconds stale_after_;  ///< Instrument time.
     std::unique_ptr<ModbusLine> line_;
-    bool is_four_byte_ = false;  ///< The mode, in this connection.
+    bool is_four_byte_ = false;  ///< Mode found in this connection.
     int decimals_;
-    int decimal_tries_left_ = 0;  ///< In this connection; 0 once it is answered or refused.
+    int decimal_tries_left_ = 0;  ///< Tries left in this connection; 0 once answered or refused.
     std::size_t failures_in_a_row_ = 0;
 
     std::atomic<bool> stop_{false};
-    mutable std::mutex mutex_;  ///< Of all below; never held while the port is read.
+    mutable std::mutex mutex_;  ///< Protects all below; never locked while the port is read.
     std::condition_variable woken_;
     OvenLinkStatus status_;
     std::optional<RawTime> answered_at_;

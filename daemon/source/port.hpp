@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A raw serial line: 8N1, no flow control, every byte value passes both ways.
+/// A raw serial line: 8N1, no flow control, every byte value passes in both directions.
 
 #include <chrono>
 #include <cstddef>
@@ -13,7 +13,8 @@
 
 namespace a351::daemon {
 
-/// A USB adapter by what its maker burnt into it: survives another socket and another tty name.
+/// A USB adapter by the identifiers that its maker stored in it.  They stay the same in another USB
+/// socket and under another tty name.
 struct UsbAddress {
     int vendor = 0;
     int product = 0;
@@ -23,7 +24,7 @@ struct UsbAddress {
     [[nodiscard]] std::string to_text() const;  ///< VID:PID:SERIAL, hexadecimal.
 };
 
-/// Where the sensor is: exactly one of the two.
+/// Address of the sensor's port: exactly one of the two is set.
 struct PortAddress {
     std::filesystem::path path;  ///< Device, pseudo-terminal, or a link to one.
     std::optional<UsbAddress> usb;
@@ -35,26 +36,26 @@ class Port {
 public:
     virtual ~Port() = default;
 
-    /// Waits until bytes are there, at most `timeout`.
-    /// @return how many came, 0 after the time-out; std::nullopt: the port is gone for good
-    ///         (end of stream, EIO, ENODEV and a hang-up alike).
+    /// Waits for bytes, at most `timeout`.
+    /// @return number of bytes read, 0 after the time-out; std::nullopt if the port is gone (end of
+    ///         stream, EIO, ENODEV or a hang-up).
     [[nodiscard]] virtual std::optional<std::size_t> read(std::span<std::byte> into,
                                                           std::chrono::milliseconds timeout) = 0;
 
-    /// Hands over all bytes; false when the port is gone, or took nothing for a second.
+    /// Writes all bytes.  @return false if the port is gone, or accepted nothing for a second.
     [[nodiscard]] virtual bool write(std::span<const std::byte> bytes) = 0;
 
-    /// Path, speed, and what is known of its latency, in one line.
+    /// Returns path, speed and latency settings, as far as known, in one line.
     [[nodiscard]] virtual const std::string& description() const noexcept = 0;
 };
 
-/// Why a port could not be opened.
+/// The reason why a port could not be opened.
 class PortError : public std::runtime_error {
 public:
     enum class Kind {
-        absent,   ///< Nothing there, or nothing that answers: try again later.
+        absent,   ///< The port does not exist or cannot be opened now: try again later.
         locked,   ///< Another process holds it.
-        settings  ///< It does not accept, or does not keep, the settings that we need.
+        settings  ///< The port does not accept or does not keep the required settings.
     };
     PortError(Kind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
     [[nodiscard]] Kind kind() const noexcept { return kind_; }
@@ -63,7 +64,7 @@ private:
     Kind kind_;
 };
 
-/// Locks, opens and sets up a port.  Links are resolved anew on every call.
+/// Locks, opens and sets up a port.  Links are resolved again on every call.
 /// @throws PortError
 [[nodiscard]] std::unique_ptr<Port> open_port(const PortAddress& address, int baud);
 

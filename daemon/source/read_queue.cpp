@@ -6,8 +6,8 @@
 
 namespace a351::daemon {
 
-// An entry and its bytes are contiguous; where they do not fit before the end of the ring, an
-// entry of kind kWrap fills the rest.  Everything is a multiple of the size of an entry.
+// An entry and its bytes are contiguous.  If they do not fit before the end of the ring, an entry
+// of kind kWrap fills the rest.  All sizes are multiples of the size of an entry.
 
 ReadQueue::ReadQueue(std::size_t capacity) : capacity_(capacity), ring_(new std::byte[capacity]) {
     assert((capacity & (capacity - 1)) == 0 && capacity > 2 * kLargestItem);

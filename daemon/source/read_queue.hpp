@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// From the reader thread to the journal thread: one producer, one consumer, no lock and no
-/// allocation for bytes, fixed capacity.
+/// A queue from the reader thread to the journal thread: one producer, one consumer, fixed
+/// capacity, no lock and no allocation for bytes.
 
 #include <atomic>
 #include <cstddef>
@@ -20,10 +20,10 @@ namespace a351::daemon {
 class ReadQueue {
 public:
     enum class Kind : std::uint32_t {
-        rx,       ///< What one read() returned.
-        tx,       ///< What was sent.
-        session,  ///< What follows belongs to a new session: take_session().
-        woken,    ///< The host slept before what follows: push_woken().
+        rx,       ///< Bytes that one read() returned.
+        tx,       ///< Bytes that were sent.
+        session,  ///< Everything after it belongs to a new session: take_session().
+        woken,    ///< The host slept before the items that follow: push_woken().
     };
     struct Item {
         Kind kind = Kind::rx;
@@ -31,33 +31,34 @@ public:
         std::span<const std::byte> bytes;  ///< Valid until pop().
     };
 
-    /// One hour at 50 Hz is 180 000 reads of 24 bytes, 48 with their stamp: 8.7 MB, doubled to
-    /// the next power of two.  Memory that was never filled is not resident.
+    /// Capacity in bytes.  One hour at 50 Hz is 180 000 reads of 24 bytes, 48 with their stamp:
+    /// 8.7 MB, rounded up to the next power of two.  Memory that was never filled is not resident.
     static constexpr std::size_t kCapacity = std::size_t{16} << 20;
     static constexpr std::size_t kLargestItem = 4096;
 
-    /// @param capacity  a power of two, > 2 kLargestItem.
+    /// @param capacity  bytes, a power of two, > 2 kLargestItem.
     explicit ReadQueue(std::size_t capacity = kCapacity);
 
     // Producer.
-    /// @param bytes  at most kLargestItem.  @return false when there is no room.
+    /// Appends an item.  @param bytes  at most kLargestItem.  @return false if there is no room.
     [[nodiscard]] bool push(Kind kind, RawTime time, std::span<const std::byte> bytes) noexcept;
-    /// Allocates; sessions are rare.
+    /// Appends a session header.  This allocates; sessions are rare.
     [[nodiscard]] bool push_session(record::JournalHeader header, RawTime time);
-    /// @param reading  no later than what follows.
+    /// Appends a clock reading after a sleep of the host.
+    /// @param reading  taken no later than the items that follow.
     [[nodiscard]] bool push_woken(const timing::ClockReading& reading) noexcept;
 
     // Consumer.
     [[nodiscard]] std::optional<Item> front() noexcept;
     void pop() noexcept;
-    /// The header of the `session` item at the front.
+    /// Returns the header of the `session` item at the front, and removes it from its list.
     [[nodiscard]] record::JournalHeader take_session();
-    /// The reading of the `woken` item at the front, which stays.
+    /// Returns the reading of the `woken` item at the front, which stays there.
     [[nodiscard]] timing::ClockReading woken() noexcept;
 
     [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
 
-    /// Bytes in use, stamps included.
+    /// Returns the number of bytes in use, stamps included.
     [[nodiscard]] std::size_t fill() const noexcept;
 
 private:
@@ -73,8 +74,8 @@ private:
 
     std::size_t capacity_;
     std::unique_ptr<std::byte[]> ring_;
-    std::atomic<std::uint64_t> head_{0};  ///< Next to take; positions never wrap.
-    std::atomic<std::uint64_t> tail_{0};  ///< Next to fill.
+    std::atomic<std::uint64_t> head_{0};  ///< Position of the next item to take; never wraps.
+    std::atomic<std::uint64_t> tail_{0};  ///< Position of the next item to write.
     std::mutex sessions_mutex_;
     std::deque<record::JournalHeader> sessions_;
 };

@@ -15,12 +15,12 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr milliseconds kShortestRealWait{50};
-// Of instrument time.
+// Waiting times, instrument time.
 constexpr seconds kPortRetry{1};
 constexpr std::array kHandshakeBackOff{seconds(1), seconds(2), seconds(5), seconds(10),
                                        seconds(30)};
 
-/// The configured rate, then the others that carry the frames.
+/// Returns the configured rate, then the other rates that are fast enough for the frames.
 std::vector<int> bauds_of(const LinkOptions& options) {
     std::vector<int> bauds{options.baud};
     const auto frame_bits = static_cast<int>(10 * options.settings.layout.frame_size());  // 8N1
@@ -94,7 +94,7 @@ LinkStatus SensorLink::status() const {
     const std::lock_guard lock(mutex_);
     LinkStatus status = status_;
     status.queue_full = queue_full_;
-    status.is_held_up = is_held_up_;
+    status.waits_for_journal = waits_for_journal_;
     return status;
 }
 
@@ -138,8 +138,8 @@ bool SensorLink::find_port() {
     return true;
 }
 
-// A stream that goes on after an outage, of the port or of this program, is not touched: its
-// counter tells what the outage cost.
+// A stream that continues after an outage of the port or of this program is not touched: its
+// counter shows how many samples the outage cost.
 bool SensorLink::adopt() {
     if (!std::exchange(is_port_new_, false) || !known_) return false;
     record::JournalHeader expected = options_.header;
@@ -149,15 +149,15 @@ bool SensorLink::adopt() {
                                     options_.expected_serial_number == last.serial_number;
     if (!is_same_stream(last, expected) || last.port != expected.port || !is_expected_device)
         return false;
-    set_state(LinkStatus::State::handshake, "listening for a stream that goes on");
+    set_state(LinkStatus::State::handshake, "checking whether the sensor is still sampling");
     const Listening listening = listen_for(*known_, *port_, clock_, stop_);
     if (listening.outcome == Listening::Outcome::port_gone) lose_port();
-    if (listening.outcome != Listening::Outcome::goes_on) return false;
+    if (listening.outcome != Listening::Outcome::continues) return false;
     continue_session(listening.reads);
     return true;
 }
 
-void SensorLink::continue_session(const std::vector<Heard>& reads) {
+void SensorLink::continue_session(const std::vector<Read>& reads) {
     begun_ = Begun{options_.header, {}};
     record::JournalHeader& header = begun_->header;
     const record::JournalHeader& last = known_->header;
@@ -179,7 +179,7 @@ void SensorLink::continue_session(const std::vector<Heard>& reads) {
         ++status_.adoptions;
     }
     begin_session();
-    for (const Heard& read : reads) push(ReadQueue::Kind::rx, read.time, read.bytes);
+    for (const Read& read : reads) push(ReadQueue::Kind::rx, read.time, read.bytes);
 }
 
 bool SensorLink::begin_sampling() {
@@ -195,7 +195,7 @@ bool SensorLink::begin_sampling() {
     }
     if (const auto* const device = std::get_if<wire::DeviceIdentity>(&run.outcome)) {
         bauds_tried_ = 0;
-        take_up(*device, std::move(run.sent));
+        start_session(*device, std::move(run.sent));
         return true;
     }
     const auto& failure = std::get<wire::HandshakeFailure>(run.outcome);
@@ -203,26 +203,27 @@ bool SensorLink::begin_sampling() {
         const std::lock_guard lock(mutex_);
         ++status_.handshake_failures;
     }
-    // A sensor that was just switched on is silent for a second: it is asked again first.
+    // A sensor that was just switched on is silent for a second, so it is first asked again.
     const bool may_be_baud =
-        failure.is_unanswered && (run.bytes_passed_over > 0 || failures_in_a_row_ > 0);
+        failure.is_unanswered && (run.bytes_skipped > 0 || failures_in_a_row_ > 0);
     if (may_be_baud && try_next_baud()) return false;
     bauds_tried_ = 0;
     std::string trouble = failure.reason;
-    if (failure.is_unanswered && run.bytes_passed_over > 0)
-        trouble += "; bytes come, but nothing that can be understood at any baud rate";
+    if (failure.is_unanswered && run.bytes_skipped > 0)
+        trouble += "; bytes arrive, but none can be understood at any baud rate";
     back_off(trouble);
     return false;
 }
 
-/// @return false when every one has been tried; then the first one is in force again.
+/// Selects the next baud rate.  @return false when all have been tried; the first is then in use.
 bool SensorLink::try_next_baud() {
     std::rotate(bauds_.begin(), bauds_.begin() + 1, bauds_.end());
-    port_.reset();  // Opened anew by find_port().
+    port_.reset();  // find_port() opens it again.
     return ++bauds_tried_ < bauds_.size();
 }
 
-void SensorLink::take_up(const wire::DeviceIdentity& device, std::vector<record::TxChunk> sent) {
+void SensorLink::start_session(const wire::DeviceIdentity& device,
+                               std::vector<record::TxChunk> sent) {
     begun_ = Begun{options_.header, std::move(sent)};
     record::JournalHeader& header = begun_->header;
     header.session = random_session();
@@ -248,8 +249,9 @@ void SensorLink::begin_session() {
     const bool is_new = !known_ || known_->header.session != begun_->header.session;
     // The counter of a device that was just configured starts at 0.
     if (is_new) known_ = record::StreamEnd{begun_->header, 0, begun_->header.clock.raw};
-    while (!queue_.push_session(begun_->header, begun_->header.clock.raw) && !stop_) hold_up();
-    is_held_up_ = false;
+    while (!queue_.push_session(begun_->header, begun_->header.clock.raw) && !stop_)
+        wait_for_journal();
+    waits_for_journal_ = false;
     for (const record::TxChunk& chunk : begun_->sent) {
         push(ReadQueue::Kind::tx, chunk.time, chunk.bytes);
     }
@@ -261,12 +263,12 @@ void SensorLink::begin_session() {
     if (is_new) ++status_.sessions;
 }
 
-// A sensor that worked is configured again at once; one that answers but sends nothing of use
-// would otherwise begin session after session.
+// A sensor that sent frames is configured again at once.  One that answers but sends no frames is
+// configured after a pause, because it would otherwise begin one session after another.
 void SensorLink::note_stall(End end) {
     const std::string trouble = end == End::stalled    ? "no bytes from the sensor"
-                                : end == End::unframed ? "bytes but no frames"
-                                                       : "the sensor's rate was changed";
+                                : end == End::unframed ? "bytes arrive, but no valid frames"
+                                                       : "the sensor's output rate has changed";
     {
         const std::lock_guard lock(mutex_);
         ++status_.stalls;
@@ -277,7 +279,8 @@ void SensorLink::note_stall(End end) {
 
 void SensorLink::lose_port() {
     port_.reset();
-    set_state(LinkStatus::State::searching, options_.address.to_text() + ": the port is gone");
+    set_state(LinkStatus::State::searching,
+              options_.address.to_text() + ": the port has disappeared; check cable and adapter");
     {
         const std::lock_guard lock(mutex_);
         status_.port.clear();

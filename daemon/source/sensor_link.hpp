@@ -1,9 +1,9 @@
 #pragma once
 /// @file
-/// The reader thread: finds the port, adopts the stream that goes on there or brings the sensor
-/// into sampling, reads and stamps what comes, and starts again when the port goes, the sensor
-/// falls silent, its bytes are no frames or its counter tells of another rate.
-/// While sampling it allocates nothing, logs nothing and touches no disk.
+/// The reader thread.  It finds the port, adopts a known stream that continues there or else starts
+/// the sensor's sampling, and reads and time-stamps the bytes.  It starts again when the port
+/// disappears, the sensor is silent, its bytes are not frames or its counter shows another rate.
+/// While sampling it allocates no memory, logs nothing and does not access the disk.
 
 #include <array>
 #include <atomic>
@@ -32,29 +32,29 @@ struct LinkOptions {
     int baud = 460800;
     const wire::DeviceProfile* profile = nullptr;  ///< Not null.
     wire::SensorSettings settings = {};
-    std::string expected_serial_number = {};  ///< Empty: any.
-    /// What each session's header says, save for session, device and clock.
+    std::string expected_serial_number = {};  ///< Empty accepts any.
+    /// Header of each session; session, device and clock are filled in later.
     record::JournalHeader header = {};
-    /// Where the stream stood that the journal knows: it is adopted if it goes on.
+    /// End of the stream that the journal contains.  The stream is adopted if it continues.
     std::optional<record::StreamEnd> known = {};
 };
 
 struct LinkStatus {
     enum class State { searching, handshake, sampling, waiting, stopped };
     State state = State::searching;
-    std::string trouble;  ///< Why it is not sampling; empty when it is.
-    std::string port;     ///< Its description while open.
-    int baud = 0;         ///< In force.
+    std::string trouble;  ///< Reason why it is not sampling; empty while sampling.
+    std::string port;     ///< Description of the port while open.
+    int baud = 0;         ///< Rate in use.
     int configured_baud = 0;
-    std::optional<wire::DeviceIdentity> device;  ///< The last one that answered, or
-    bool is_device_assumed = false;              ///< that of the stream that was adopted.
-    std::uint64_t sessions = 0;                  ///< Begun; those adopted do not count.
+    std::optional<wire::DeviceIdentity> device;  ///< Last one that answered.
+    bool is_device_assumed = false;  ///< `device` is that of an adopted stream; it was not asked.
+    std::uint64_t sessions = 0;      ///< Sessions begun, without adopted ones.
     std::uint64_t adoptions = 0;
     std::uint64_t stalls = 0;
     std::uint64_t ports_lost = 0;
     std::uint64_t handshake_failures = 0;
-    std::uint64_t queue_full = 0;  ///< Times the reader had to wait for the journal.
-    bool is_held_up = false;       ///< It waits now.
+    std::uint64_t queue_full = 0;    ///< Number of times the reader had to wait for the journal.
+    bool waits_for_journal = false;  ///< The reader is waiting for the journal now.
 };
 
 [[nodiscard]] const char* to_text(LinkStatus::State state) noexcept;
@@ -65,11 +65,11 @@ public:
     SensorLink(LinkOptions options, const HostClock& clock, ReadQueue& queue);
     ~SensorLink();
 
-    /// Tries the port once, then goes on in its own thread.
-    /// @throws PortError  of kind `locked` only; other troubles are waited out.
+    /// Tries the port once, then continues in its own thread.
+    /// @throws PortError  of kind `locked` only; after other errors the thread tries again.
     void start();
 
-    /// Tells the sensor to stop sampling, if it is there, and ends the thread.
+    /// Stops the sensor's sampling if the port is open, and ends the thread.
     void stop();
 
     [[nodiscard]] LinkStatus status() const;
@@ -81,15 +81,15 @@ private:
     void open();
     [[nodiscard]] bool find_port();
     [[nodiscard]] bool adopt();
-    void continue_session(const std::vector<Heard>& reads);
+    void continue_session(const std::vector<Read>& reads);
     [[nodiscard]] bool begin_sampling();
     [[nodiscard]] bool try_next_baud();
     [[nodiscard]] End read_stream();
     void note_stall(End end);
-    void take_up(const wire::DeviceIdentity& device, std::vector<record::TxChunk> sent);
+    void start_session(const wire::DeviceIdentity& device, std::vector<record::TxChunk> sent);
     void begin_session();
     void back_off(const std::string& trouble);
-    void hold_up();
+    void wait_for_journal();
     void push(ReadQueue::Kind kind, RawTime time, std::span<const std::byte> bytes);
     [[nodiscard]] RawTime push_woken();
     void stop_sensor();
@@ -101,13 +101,13 @@ private:
     const HostClock& clock_;
     ReadQueue& queue_;
     std::unique_ptr<Port> port_;
-    bool is_port_new_ = false;  ///< Opened, and not listened to.
-    std::vector<int> bauds_;    ///< To be tried, the first is in force.
+    bool is_port_new_ = false;  ///< The port was opened and not listened to yet.
+    std::vector<int> bauds_;    ///< Rates to try; the first is in use.
     std::size_t bauds_tried_ = 0;
     std::size_t failures_in_a_row_ = 0;
-    bool has_frames_ = false;  ///< Since sampling began.
-    Nanoseconds slept_{0};     ///< HostClock::slept() when the last bytes came.
-    /// A session that was commanded; it begins with its first byte.
+    bool has_frames_ = false;  ///< Frames were received since sampling began.
+    Nanoseconds slept_{0};     ///< HostClock::slept() when the last bytes were received.
+    /// A session whose sampling was started; it begins with its first byte.
     struct Begun {
         record::JournalHeader header;
         std::vector<record::TxChunk> sent;
@@ -117,8 +117,8 @@ private:
 
     std::atomic<bool> stop_{false};
     std::atomic<std::uint64_t> queue_full_{0};
-    std::atomic<bool> is_held_up_{false};
-    mutable std::mutex mutex_;  ///< Of status_ and for woken_; never held while bytes flow.
+    std::atomic<bool> waits_for_journal_{false};
+    mutable std::mutex mutex_;  ///< Mutex of status_ and woken_; never locked while bytes flow.
     std::condition_variable woken_;
     LinkStatus status_;
     std::thread thread_;

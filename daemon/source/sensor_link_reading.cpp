@@ -1,5 +1,5 @@
 /// @file
-/// The sensor's link while the stream runs: what is read goes into the queue.
+/// The sensor's link while the stream runs: bytes read from the port go into the queue.
 
 #include <algorithm>
 #include <array>
@@ -20,12 +20,12 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using std::chrono::steady_clock;
 
-// A busy host pauses this long without anything being wrong.
+// Shortest stall, real time: a busy host pauses this long without a fault.
 constexpr milliseconds kShortestRealStall{1000};
-// Of instrument time.
+// Instrument time after which silence, or bytes without frames, are a stall.
 constexpr seconds kSilenceIsStall{2};
 constexpr seconds kBabbleIsStall{3};
-// Of real time.
+// Waiting times, real time.
 constexpr milliseconds kStopCheck{200};
 constexpr milliseconds kQueueRetry{10};
 constexpr milliseconds kSilence{50};
@@ -42,7 +42,7 @@ SensorLink::End SensorLink::read_stream() {
     const auto babble = at_least_real(kBabbleIsStall);
 
     std::array<std::byte, ReadQueue::kLargestItem> bytes{};
-    // Only to see that frames come, and at what rate; the archive has its own decoder.
+    // This decoder only checks that frames arrive, and at which rate; the archive has its own.
     const auto count_step = options_.profile->count_step(options_.settings.output_rate_hz);
     wire::BurstDecoder decoder(options_.settings.layout, count_step);
     StepWatch watch(count_step);
@@ -79,28 +79,30 @@ SensorLink::End SensorLink::read_stream() {
     return End::stopped;
 }
 
-// A full queue holds the reader up: what the kernel cannot keep meanwhile is lost on a real port,
-// seen as a gap and counted here; the writer of a pseudo-terminal is held up in turn.
+// A full queue makes the reader wait.  On a real port, bytes that the kernel cannot store meanwhile
+// are lost; this shows as a gap and the waits are counted.  On a pseudo-terminal the writer
+// waits too.
 void SensorLink::push(ReadQueue::Kind kind, RawTime time, std::span<const std::byte> bytes) {
     while (!queue_.push(kind, time, bytes)) {
         if (stop_) return;
-        hold_up();
+        wait_for_journal();
     }
-    is_held_up_ = false;
+    waits_for_journal_ = false;
 }
 
-/// After a sleep of the host, before the first bytes that follow it.  @return  when they came, by
-/// a clock that tells of the sleep: the journal may be written much later, after another sleep.
+/// Queues a clock reading after a sleep of the host, before the first bytes that follow it.  It is
+/// taken here because the journal may be written much later, after another sleep.
+/// @return  the arrival time of these bytes.
 RawTime SensorLink::push_woken() {
     const timing::ClockReading reading = clock_.read();
-    while (!queue_.push_woken(reading) && !stop_) hold_up();
-    is_held_up_ = false;
+    while (!queue_.push_woken(reading) && !stop_) wait_for_journal();
+    waits_for_journal_ = false;
     return reading.raw;
 }
 
-void SensorLink::hold_up() {
+void SensorLink::wait_for_journal() {
     ++queue_full_;
-    is_held_up_ = true;
+    waits_for_journal_ = true;
     std::this_thread::sleep_for(kQueueRetry);
 }
 
@@ -115,7 +117,7 @@ void SensorLink::stop_sensor() {
     }
     if (!is_recorded) return;
 
-    // Frames that are on their way belong to the session.
+    // Frames that are still on the line belong to the session.
     std::array<std::byte, ReadQueue::kLargestItem> bytes{};
     const auto end = steady_clock::now() + kLongestDrain;
     while (steady_clock::now() < end) {

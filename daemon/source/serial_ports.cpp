@@ -85,9 +85,9 @@ void configure_serial_port(const std::filesystem::path& device, int baud) {
     require(sp_get_config(port.get(), config.get()), device, "reading the settings back");
     sp_get_config_baudrate(config.get(), &kept_baud);
     if (kept_baud != baud) {
-        throw PortError(PortError::Kind::settings, device.string() + ": runs at " +
-                                                       std::to_string(kept_baud) + " baud, not " +
-                                                       std::to_string(baud));
+        throw PortError(PortError::Kind::settings, device.string() + ": the port runs at " +
+                                                       std::to_string(kept_baud) +
+                                                       " baud instead of " + std::to_string(baud));
     }
 }
 

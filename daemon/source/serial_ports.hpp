@@ -1,7 +1,8 @@
 #pragma once
 /// @file
-/// Real serial ports, by libserialport.  It knows neither pseudo-terminals nor links, leaves
-/// XON/XOFF on, takes no lock and leaks descriptors to children: tty_port.cpp does all that.
+/// Real serial ports with libserialport.  The library does not support pseudo-terminals or
+/// links, leaves XON/XOFF on, takes no lock and passes descriptors to children.  tty_port.cpp
+/// handles all of these.
 
 #include <filesystem>
 #include <optional>
@@ -14,17 +15,18 @@ namespace a351::daemon {
 
 struct SerialPortEntry {
     std::filesystem::path path;
-    std::filesystem::path by_id;  ///< Stable name below /dev/serial/by-id; empty when none.
+    std::filesystem::path by_id;  ///< Stable name below /dev/serial/by-id; empty if none.
     std::optional<UsbAddress> usb;
 };
 
-/// Ports that the kernel lists now, by path.
+/// Lists the ports that the kernel knows now, sorted by path.
 [[nodiscard]] std::vector<SerialPortEntry> list_serial_ports();
 
+/// Returns the path of the port with this address; std::nullopt if it is not plugged in.
 [[nodiscard]] std::optional<std::filesystem::path> find_usb_port(const UsbAddress& address);
 
 /// Sets 8N1 at `baud` without flow control and verifies that the port keeps it.
-/// @param device  a name in /dev, no link.
+/// @param device  a name in /dev, not a link.
 /// @throws PortError
 void configure_serial_port(const std::filesystem::path& device, int baud);
 

@@ -17,7 +17,7 @@
 namespace a351::daemon {
 namespace {
 
-// The kernel's own termios: it gives the speed in force as a number.
+// The kernel's own termios, because it holds the speed in use as a number.
 constexpr unsigned kInputOff =
     IGNBRK | BRKINT | PARMRK | INPCK | ISTRIP | INLCR | IGNCR | ICRNL | IXON | IXOFF | IXANY;
 constexpr unsigned kLocalOff = ISIG | ICANON | ECHO | ECHOE | ECHOK | ECHONL | IEXTEN;
@@ -38,8 +38,9 @@ unsigned speed_code(int baud, const std::filesystem::path& device) {
         case 115200:
             return B115200;
         default:
-            throw PortError(PortError::Kind::settings,
-                            device.string() + ": no speed of " + std::to_string(baud) + " baud");
+            throw PortError(
+                PortError::Kind::settings,
+                device.string() + ": " + std::to_string(baud) + " baud is not supported");
     }
 }
 
@@ -54,7 +55,8 @@ bool is_raw(const termios2& settings) {
            (settings.c_cflag & (kControlOff | kControlOn)) == kControlOn;
 }
 
-/// Asks for the driver's low-latency mode; many drivers have none, or need rights for it.
+/// Requests the driver's low-latency mode.  Many drivers have none, or need rights for it.
+/// @return  the settings in use, as text.
 std::string ask_for_low_latency(int descriptor, const std::filesystem::path& device) {
     serial_struct serial{};
     bool is_low = false;
@@ -64,7 +66,7 @@ std::string ask_for_low_latency(int descriptor, const std::filesystem::path& dev
         is_low = ioctl(descriptor, TIOCGSERIAL, &serial) == 0 && (serial.flags & kLowLatency) != 0;
     }
     std::string text = is_low ? ", low latency" : ", low latency not available";
-    // FTDI's driver; only root may write it, or config/60-a351.rules does.
+    // Only FTDI's driver has this file.  Only root may write it; config/60-a351.rules does.
     const auto timer = "/sys/class/tty" / device.filename() / "device/latency_timer";
     if (std::filesystem::exists(timer)) std::ofstream(timer) << 1;
     std::string timer_ms;
@@ -78,7 +80,7 @@ std::string ask_for_low_latency(int descriptor, const std::filesystem::path& dev
 TtyPort::TtyPort(const std::filesystem::path& device, int baud) {
     descriptor_ = open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (descriptor_ < 0) {
-        // EBUSY: somebody set the exclusive flag.
+        // EBUSY: another process set the exclusive flag.
         throw failure(errno == EBUSY ? PortError::Kind::locked : PortError::Kind::absent, device,
                       "cannot open");
     }
@@ -94,10 +96,11 @@ TtyPort::TtyPort(const std::filesystem::path& device, int baud) {
 TtyPort::~TtyPort() { close(descriptor_); }
 
 void TtyPort::lock(const std::filesystem::path& device) {
-    if (isatty(descriptor_) == 0) throw failure(PortError::Kind::settings, device, "not a port");
-    // Before anything is changed, for the holder would feel it.
+    if (isatty(descriptor_) == 0)
+        throw failure(PortError::Kind::settings, device, "not a serial port");
+    // The lock comes before any change, because a change would disturb its holder.
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-        throw PortError(PortError::Kind::locked, device.string() + ": another process holds it");
+        throw PortError(PortError::Kind::locked, device.string() + ": in use by another process");
     }
 }
 
@@ -105,8 +108,8 @@ void TtyPort::configure(const std::filesystem::path& device, int baud) {
     const bool is_real = is_in_tty_class(device);
     if (is_real) {
         configure_serial_port(device, baud);
-        // Root ignores this flag, the lock above is what counts.  Not on a pseudo-terminal: there
-        // it outlives us as long as the other side holds the terminal open.
+        // Root ignores this flag; the lock above protects the port.  The flag is not set on a
+        // pseudo-terminal, where it would outlive this process until the other side closes.
         ioctl(descriptor_, TIOCEXCL);
     }
     termios2 settings{};
@@ -117,7 +120,7 @@ void TtyPort::configure(const std::filesystem::path& device, int baud) {
     settings.c_oflag &= ~static_cast<unsigned>(OPOST);
     settings.c_lflag &= ~kLocalOff;
     settings.c_cflag = (settings.c_cflag & ~kControlOff) | kControlOn;
-    settings.c_cc[VMIN] = 1;  // A read of 0 bytes then means the end, never "nothing yet".
+    settings.c_cc[VMIN] = 1;  // A read of 0 bytes then means the end, never "no data yet".
     settings.c_cc[VTIME] = 0;
     if (!is_real) {
         settings.c_cflag =
@@ -128,9 +131,9 @@ void TtyPort::configure(const std::filesystem::path& device, int baud) {
         throw failure(PortError::Kind::settings, device, "cannot set 8N1 raw");
     }
     if (!is_raw(kept) || kept.c_ospeed != static_cast<unsigned>(baud)) {
-        throw PortError(
-            PortError::Kind::settings,
-            device.string() + ": does not keep 8N1 raw without flow control at that speed");
+        throw PortError(PortError::Kind::settings,
+                        device.string() +
+                            ": the port does not keep 8N1 raw without flow control at that speed");
     }
     description_ = device.string() + ", " + std::to_string(kept.c_ospeed) + " baud" +
                    ask_for_low_latency(descriptor_, device);

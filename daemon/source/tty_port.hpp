@@ -4,11 +4,11 @@
 
 namespace a351::daemon {
 
-/// A tty by its descriptor.  A port that the kernel lists in its tty class is set up by
-/// libserialport; a pseudo-terminal, or whatever else is not there, by termios alone.
+/// A tty by its descriptor.  A port in the kernel's tty class is set up with libserialport;
+/// anything else, such as a pseudo-terminal, with termios alone.
 class TtyPort : public Port {
 public:
-    /// @param device  no link.
+    /// @param device  not a link.
     /// @throws PortError
     TtyPort(const std::filesystem::path& device, int baud);
     ~TtyPort() override;

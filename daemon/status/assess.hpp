@@ -11,14 +11,14 @@ namespace a351::daemon {
 /// Adds a reason and raises the level to at least `level`.
 void complain(Status& status, Status::Level level, std::string reason);
 
-/// Fills in what the link knows.
+/// Copies the state of the sensor's link into the status, and adds its reasons.
 void fill(Status& status, const LinkStatus& link);
 
-/// Fills in what the oven's link knows: the oven is part of the status then.
+/// Copies the state of the oven's link into the status.  The status then includes the oven.
 void fill(Status& status, const OvenLinkStatus& link);
 
-/// Completes level and reasons of a status that is filled in: no data, no time, no space, no
-/// oven.
+/// Adds the level and reasons of a completely filled status: sample rate, oven, calibration, sample
+/// times and disk space.
 void assess(Status& status);
 
 }  // namespace a351::daemon

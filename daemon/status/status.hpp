@@ -17,38 +17,38 @@
 
 namespace a351::daemon {
 
-/// The oven's controller as last seen.
+/// The last known state of the oven's controller.
 struct OvenStatus {
     std::string state;  ///< searching, silent, disturbed, answering.
     std::string trouble, port;
-    std::optional<oven::ControllerValues> values;  ///< Of the last answer, however old.
-    int decimals = 1;                              ///< Of process value and set point.
-    std::optional<Nanoseconds> age;                ///< Of the last answer, instrument time.
-    bool is_stale = true;                          ///< Older than three polls, or none.
-    std::map<std::string, std::uint64_t> polls;    ///< By outcome.
+    std::optional<oven::ControllerValues> values;  ///< Values of the last answer, at any age.
+    int decimals = 1;                              ///< Decimals of process value and set point.
+    std::optional<Nanoseconds> age;                ///< Age of the last answer, instrument time.
+    bool is_stale = true;                          ///< Last answer older than three polls, or none.
+    std::map<std::string, std::uint64_t> polls;    ///< Number of polls by outcome.
 };
 
-/// A snapshot of everything the operator may ask, as `/api/status` publishes it.
+/// A snapshot of the daemon's state as `/api/status` publishes it.
 struct Status {
     enum class Level { good, warning, fault };
 
     std::string version;
     Level level = Level::good;
-    std::vector<std::string> reasons;  ///< Why the level is not good; empty when it is.
+    std::vector<std::string> reasons;  ///< Reasons why the level is not good; empty if it is.
 
-    std::string session;  ///< Hexadecimal; empty before the first.
+    std::string session;  ///< Hexadecimal; empty before the first session.
     UtcTime now;          ///< Instrument time of the snapshot.
-    // Index of the last sample of the session that was parsed, that survives a power cut, that is
-    // in a synced record.
+    // Index of the last sample of the session that was parsed (received), survives a power cut
+    // (journaled), is in a synced record (archived).
     std::optional<std::int64_t> received, journaled, archived;
     std::optional<UtcTime> last_sample;
 
     timing::TimingState timing_state = timing::TimingState::unlocked;
     std::optional<Nanoseconds> timing_uncertainty;       ///< 95 %; absent before the first sample.
-    timing::LeapSecond leap = timing::LeapSecond::none;  ///< Announced by the host.
+    timing::LeapSecond leap = timing::LeapSecond::none;  ///< Leap second announced by the host.
     std::optional<timing::MeasuredRate> measured_rate;
-    std::optional<double> declared_rate_hz;  ///< Of the configuration.
-    std::string rate_advice;                 ///< What to do about the declared one; or empty.
+    std::optional<double> declared_rate_hz;  ///< Rate set in the configuration.
+    std::string rate_advice;                 ///< Advice about declared_rate_hz, or empty.
 
     std::string port;
     std::string link_state;  ///< searching, handshake, sampling, waiting, stopped.
@@ -56,21 +56,21 @@ struct Status {
     std::string profile, product_id, serial_number, filter;
     int output_rate_hz = 0;
     bool is_profile_verified = false;
-    std::string calibrated_serial_number;  ///< Of the calibration in use; empty: there is none.
-    bool is_device_assumed = false;        ///< Its stream was adopted: it could not be asked.
+    std::string calibrated_serial_number;  ///< Unit of the calibration in use; empty if none.
+    bool is_device_assumed = false;        ///< The stream was adopted; the device was not asked.
 
     std::array<StandardGravity, 3> acceleration{};
     DegC temperature;
     Verdict verdict;
-    std::optional<OvenStatus> oven;  ///< Absent: not enabled.
+    std::optional<OvenStatus> oven;  ///< Absent if not enabled.
 
     record::ArchiverCounters counters;
-    std::map<std::string, std::uint64_t> more_counters;  ///< Of link and store, by name.
+    std::map<std::string, std::uint64_t> more_counters;  ///< Counters of link and store, by name.
 
-    std::optional<std::uint64_t> disk_free_bytes;  ///< Absent: it cannot be told.
+    std::optional<std::uint64_t> disk_free_bytes;  ///< Absent if it cannot be determined.
     std::string disk_reserve;                      ///< present, given_up, unavailable.
-    std::string disk_reserve_trouble;              ///< Why it is unavailable.
-    std::chrono::milliseconds longest_sync{0};     ///< Of the journal, or write.
+    std::string disk_reserve_trouble;              ///< Reason why it is unavailable.
+    std::chrono::milliseconds longest_sync{0};     ///< Longest sync or write of the journal.
 };
 
 }  // namespace a351::daemon

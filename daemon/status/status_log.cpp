@@ -74,7 +74,7 @@ void StatusLog::note_reasons(const Status& status, Instant now) {
     std::erase_if(troubles_, [&](const auto& entry) {
         const auto& reasons = status.reasons;
         if (std::find(reasons.begin(), reasons.end(), entry.first) != reasons.end()) return false;
-        log_->info("over: {}", entry.first);
+        log_->info("resolved: {}", entry.first);
         return true;
     });
 }
@@ -83,7 +83,7 @@ void StatusLog::note_counter(const std::string& name, std::uint64_t value, Insta
     Counter& counter = counters_[name];
     if (value <= counter.said_value) return;
     if (counter.said_value > 0 && now - counter.said < kReminder) return;
-    log_->warn("{}: {} more, {} in all", name, value - counter.said_value, value);
+    log_->warn("{}: {} more, {} in total", name, value - counter.said_value, value);
     counter = {value, now};
 }
 

@@ -14,8 +14,8 @@ class logger;
 
 namespace a351::daemon {
 
-/// Turns successive snapshots into log lines: changes of state, and each trouble at its start, once
-/// a minute with its count, and at its end.
+/// Turns successive snapshots into log lines: changes of state, and each trouble when it begins,
+/// once a minute with its count, and when it ends.
 class StatusLog {
 public:
     using Instant = std::chrono::steady_clock::time_point;
@@ -27,7 +27,7 @@ public:
 private:
     struct Trouble {
         Instant said;
-        std::uint64_t times = 0;  ///< Snapshots that showed it.
+        std::uint64_t times = 0;  ///< Number of snapshots that showed it.
     };
     void note_reasons(const Status& status, Instant now);
     void note_counter(const std::string& name, std::uint64_t value, Instant now);

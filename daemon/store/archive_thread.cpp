@@ -13,11 +13,11 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr seconds kArchiveSyncInterval{30};
-constexpr seconds kSpaceInterval{1};   // A disk can fill up within a minute.
-constexpr seconds kModelInterval{10};  // Of instrument time, and
-constexpr milliseconds kShortestModelInterval{100};
+constexpr seconds kSpaceInterval{1};                 // A disk can fill up within a minute.
+constexpr seconds kModelInterval{10};                // Instrument time, and
+constexpr milliseconds kShortestModelInterval{100};  // real time.
 constexpr std::size_t kMostWaitingBytes = std::size_t{64} << 20;
-constexpr std::size_t kSessionsRemembered = 8;  // Each with 24 h of times, up to 3.5 MB.
+constexpr std::size_t kSessionsRemembered = 8;  // Each has 24 h of times, up to 3.5 MB.
 
 }  // namespace
 
@@ -47,7 +47,7 @@ ArchiveThread::ArchiveThread(record::FileLayer& files, std::filesystem::path arc
 ArchiveThread::~ArchiveThread() {
     if (!thread_.joinable()) return;
     chunks_.close();
-    hurry();
+    skip_waits();
     join();
 }
 
@@ -55,7 +55,7 @@ void ArchiveThread::start() {
     thread_ = std::thread([this] { run(); });
 }
 
-void ArchiveThread::hurry() {
+void ArchiveThread::skip_waits() {
     const std::lock_guard lock(mutex_);
     is_hurried_ = true;
     hurried_.notify_all();
@@ -79,19 +79,22 @@ void ArchiveThread::run() noexcept {
             is_over = hurried_.wait_for(lock, time_.retry_interval, [this] { return is_hurried_; });
         }
         if (!is_over && !chunks_.is_half_full()) continue;
-        if (!is_over) note_fault("given up until the next start, for the journal must not wait");
-        while (chunks_.pop()) {  // The next start finds them in the journal, which must not wait.
+        if (!is_over)
+            note_fault(
+                "adding the last run's data was given up until the next start, so that the "
+                "journal need not wait");
+        while (chunks_.pop()) {  // Dropped here; the next start finds them in the journal.
         }
         return;
     }
     while (const auto numbered = chunks_.pop()) handle(*numbered);
     {
         const std::lock_guard lock(mutex_);
-        // What this run recorded may be adopted by the next, whose replay gives such times anew.
+        // The next run may adopt this session; its replay then computes times not fixed yet.
         if (!has_recorded_ || archiver_->are_times_fixed()) archiver_->close_records();
     }
-    // The journal is written: whatever space is left is for the archive.
-    if (!put_away(true)) put_away(true);
+    // The journal is written, so the archive may use all remaining space.
+    if (!store_records(true)) store_records(true);
 }
 
 void ArchiveThread::step() {
@@ -105,11 +108,11 @@ void ArchiveThread::handle(const NumberedChunk& numbered) noexcept {
         post_model();
     } catch (const std::exception& error) {
         note_fault(error.what());
-        are_marks_true_ = false;  // No mark may say that it is archived.
+        are_marks_true_ = false;  // No mark may claim that it is archived.
         const std::lock_guard lock(mutex_);
         ++status_.chunks_lost;
     }
-    if (may_write()) put_away(false);
+    if (may_write()) store_records(false);
 }
 
 void ArchiveThread::take(const NumberedChunk& numbered) {
@@ -126,9 +129,9 @@ void ArchiveThread::take(const NumberedChunk& numbered) {
     }
 }
 
-/// A segment's header: of the running session again, or of a new one.
+/// Handles a segment's header, of the running session or of a new one.
 void ArchiveThread::begin_session(const record::JournalHeader& header) {
-    // The first header of a session tells when it began.
+    // The first header of a session has the time of its begin.
     if (undescribed_.empty() || undescribed_.back().session != header.session)
         undescribed_.push_back(header);
     if (session_ != header.session) outbox_.last_sample.reset();
@@ -144,8 +147,8 @@ void ArchiveThread::note_session(const record::SessionId& session) {
     if (ended_.size() > kSessionsRemembered) ended_.pop_front();
 }
 
-/// Not while the journal needs the space, unless memory is full; while the archive is in trouble
-/// only now and then, which is waited for only with memory full.
+/// Returns true if records may be written now: not while the journal needs the space, unless memory
+/// is full, and after a fault only at intervals.  Waits for an interval only if memory is full.
 bool ArchiveThread::may_write() {
     if (time_.now() - last_look_at_space_ >= kSpaceInterval) {
         last_look_at_space_ = time_.now();
@@ -161,8 +164,8 @@ bool ArchiveThread::may_write() {
     return time_.now() >= *retry_at_;
 }
 
-/// @return false when the disk did not take everything; the rest waits.
-bool ArchiveThread::put_away(bool is_last) {
+/// Writes the waiting records.  @return false if writing failed; the rest waits.
+bool ArchiveThread::store_records(bool is_last) {
     try {
         if (retry_at_) reopen();
         for (; !undescribed_.empty(); undescribed_.pop_front())
@@ -213,7 +216,7 @@ void ArchiveThread::sync() {
     try {
         marks = writer_->sync();
     } catch (...) {
-        // What the kernel dropped cannot be told from what it kept.
+        // It is not known which data the kernel kept and which it dropped.
         are_marks_true_ = false;
         throw;
     }
@@ -247,7 +250,8 @@ void ArchiveThread::post_model() {
     hooks_.post(*model);
 }
 
-/// A fault may have torn the end of a day file: nothing may be appended behind a torn record.
+/// Repairs and opens the archive after a fault, which may have left an incomplete record at the end
+/// of a day file; nothing may be appended after that.
 void ArchiveThread::reopen() {
     if (are_marks_true_) {
         try {

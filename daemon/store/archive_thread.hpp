@@ -1,10 +1,11 @@
 #pragma once
 /// @file
-/// The archive thread: journal chunks -> samples, times, miniSEED records.  First those that the
-/// last run left in the journal, so that acquisition need not wait for them.  While the archive
-/// cannot be written, or the journal needs the space that is left, records wait in memory, tried
-/// now and then, and the journal goes on: 64 MiB here, 18 h at 50 Hz.  Then they are written if
-/// they can be, or else wait in ChunkQueue; from then on the journal waits.
+/// The archive thread: journal chunks -> samples, times, miniSEED records.  It first
+/// processes the chunks that the last run left in the journal; acquisition does not wait for them.
+/// If the archive cannot be written, or the journal needs the remaining disk space, records wait in
+/// memory (64 MiB, 18 h at 50 Hz), writing is tried again at intervals, and the journal continues.
+/// When this memory is full, the records are written if possible, even if space is short.
+/// Otherwise chunks wait in ChunkQueue, and when that is full the journal waits.
 
 #include <atomic>
 #include <chrono>
@@ -35,14 +36,14 @@ struct ArchiveStatus {
     bool is_faulty = false;
     std::string trouble;
     std::uint64_t faults = 0;
-    std::uint64_t chunks_lost = 0;  ///< Not parsed; the journal holds them.
-    /// False once a sync failed or a chunk was lost: nothing is marked until the next start, which
-    /// replays the journal from the last mark.
+    std::uint64_t chunks_lost = 0;  ///< Chunks that could not be parsed; they are in the journal.
+    /// False after a failed sync or a lost chunk: nothing is marked as archived until the next
+    /// start, which replays the journal from the last mark.
     bool is_marking = true;
-    bool is_replaying = false;  ///< The journal of the last run is being brought in.
+    bool is_replaying = false;  ///< The last run's journal is being added to the archive.
     std::uint64_t records = 0;
     std::uint64_t records_waiting = 0;
-    std::uint64_t conflicts = 0;  ///< Records that the archive holds otherwise: left as they are.
+    std::uint64_t conflicts = 0;  ///< Records that differ from the archive's, which are kept.
     record::ArchiverCounters counters;
     std::optional<record::Sample> last_sample;
     timing::TimingState timing_state = timing::TimingState::unlocked;
@@ -53,19 +54,19 @@ struct ArchiveStatus {
 class ArchiveThread {
 public:
     struct Hooks {
-        /// Takes MARK and MODEL chunks on their way to the journal.
+        /// Receives MARK and MODEL chunks for the journal.
         std::function<void(record::JournalChunk)> post;
-        /// A session begins: time to describe the instrument.
+        /// Called when a session begins, to describe the instrument.
         std::function<void(const record::JournalHeader&)> session_began;
-        /// The archive is up to the journal of the last run.
+        /// Called when the last run's journal is completely in the archive.
         std::function<void(const record::RecoveryReport&)> recovered;
-        /// Before anything is read or written.
+        /// Called before anything is read or written.
         std::function<void()> begin;
-        /// Each sample that gets its place, those of the last run's journal included.
+        /// Called for each sample with index and time, also those of the last run's journal.
         std::function<void(const record::Sample&, UtcTime)> sample;
     };
 
-    /// All referred to must outlive this.
+    /// All objects passed by reference must outlive this.
     ArchiveThread(record::FileLayer& files, std::filesystem::path archive,
                   record::StationCodes codes, const HostClock& clock, ChunkQueue& chunks,
                   Progress& progress, SpaceReserve& reserve, Hooks hooks, DiskTime time,
@@ -74,15 +75,15 @@ public:
 
     void start();
 
-    /// What has come, in the caller's thread, for who does without start().
+    /// Processes pending input in the caller's thread; for tests that do not call start().
     void step();
 
-    /// From now on nothing is waited for: a fault at the end is retried once, a replay is left to the
-    /// next start.
-    void hurry();
+    /// Ends all waiting from now on: a fault at the end is retried once, and a replay is left to
+    /// the next start.
+    void skip_waits();
 
-    /// Waits until the queue was closed and everything is in the archive, synced and marked.
-    /// @return false when something could not be written.
+    /// Waits until the queue is closed and everything is in the archive, synced and marked.
+    /// @return false if something could not be written.
     bool join();
 
     [[nodiscard]] std::optional<Instant> latest();
@@ -90,7 +91,7 @@ public:
     [[nodiscard]] ArchiveStatus status();
 
 private:
-    /// Holds records until they are written, outside the lock.
+    /// Keeps records until they are written, which is done without the lock.
     class Outbox : public record::ArchiveSink {
     public:
         struct Entry {
@@ -108,20 +109,20 @@ private:
             last_sample = sample;
             placed(sample);
         }
-        [[nodiscard]] std::optional<std::size_t> samples_held(const std::string& channel,
+        [[nodiscard]] std::optional<std::size_t> samples_in_archive(const std::string& channel,
                                                               UtcTime start) const override {
-            return writer->samples_held(channel, start);
+            return writer->samples_in_archive(channel, start);
         }
 
-        const record::ArchiveWriter* writer = nullptr;  ///< Never null while records come.
-        std::optional<record::SessionId> session;       ///< Of what comes.
+        const record::ArchiveWriter* writer = nullptr;  ///< Not null while records are received.
+        std::optional<record::SessionId> session;       ///< Session of the records being received.
         std::deque<Entry> entries;
         std::size_t bytes = 0;
         std::optional<record::Sample> last_sample;
         std::function<void(const record::Sample&)> placed;
     };
 
-    /// A session that is over but still remembered.
+    /// A session that has ended and is still remembered.
     struct Ended {
         record::SessionId session;
         timing::SampleClock clock;
@@ -132,7 +133,7 @@ private:
     [[nodiscard]] bool recover() noexcept;
     [[nodiscard]] bool replay(record::RecoveryReport& report);
     void close_replayed();
-    [[nodiscard]] bool take_again(const record::JournalChunk& chunk);
+    [[nodiscard]] bool replay_chunk(const record::JournalChunk& chunk);
     void handle(const NumberedChunk& numbered) noexcept;
     void take(const NumberedChunk& numbered);
     void open_archive(const record::StationCodes& codes);
@@ -140,7 +141,7 @@ private:
     void begin_session(const record::JournalHeader& header);
     void note_session(const record::SessionId& session);
     [[nodiscard]] bool may_write();
-    bool put_away(bool is_last);
+    bool store_records(bool is_last);
     void write_outbox();
     void sync();
     void note_fault(const std::string& trouble);
@@ -160,22 +161,22 @@ private:
 
     using steady_time = std::chrono::steady_clock::time_point;
 
-    // Of the archive thread.
+    // Used by the archive thread only.
     std::unique_ptr<record::ArchiveWriter> writer_;
     steady_time last_sync_, last_model_real_, last_look_at_space_;
     RawTime last_model_;
-    std::optional<steady_time> retry_at_;            ///< Set while the archive is in trouble.
-    std::deque<record::JournalHeader> undescribed_;  ///< Sessions whose metadata are to be written.
+    std::optional<steady_time> retry_at_;            ///< Time of the next try; set after a fault.
+    std::deque<record::JournalHeader> undescribed_;  ///< Sessions whose metadata must be written.
     std::atomic<bool> are_marks_true_{true};
-    std::optional<record::SessionId> marked_;  ///< Session of the writer's records.
+    std::optional<record::SessionId> marked_;  ///< Session of the records in the writer.
 
-    mutable std::mutex mutex_;  ///< Of archiver_ and what it feeds; short, no disk below it.
+    mutable std::mutex mutex_;  ///< Mutex of archiver_ and its output; not locked for disk access.
     std::condition_variable hurried_;
-    bool has_recorded_ = false;  ///< A session, or more of one, in this run.
+    bool has_recorded_ = false;  ///< This run recorded a session or a part of one.
     bool is_hurried_ = false;
     Outbox outbox_;
     std::unique_ptr<record::Archiver> archiver_;
-    std::optional<record::SessionId> session_;  ///< Of archiver_.
+    std::optional<record::SessionId> session_;  ///< Session of archiver_.
     std::deque<Ended> ended_;
     ArchiveStatus status_;
     std::thread thread_;

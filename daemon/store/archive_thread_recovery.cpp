@@ -1,5 +1,5 @@
 /// @file
-/// The beginning of the archive thread: what the last run left in the journal.
+/// The begin of the archive thread: it adds the data that the last run left in the journal.
 
 #include <system_error>
 
@@ -7,9 +7,9 @@
 
 namespace a351::daemon {
 
-/// Brings the last run's journal in.  The archiver then stands where that run left it: a stream
-/// that is adopted goes on in its session.
-/// @return false: the disk failed, or time was short; to be called again.
+/// Adds the last run's journal to the archive.  The archiver is then in the state in which that run
+/// ended, so that an adopted stream continues its session.
+/// @return false if the disk failed, or the daemon is stopping; must be called again.
 bool ArchiveThread::recover() noexcept {
     {
         const std::lock_guard lock(mutex_);
@@ -23,7 +23,7 @@ bool ArchiveThread::recover() noexcept {
         if (!replay(report)) return false;
         hooks_.recovered(report);
     } catch (const std::exception& error) {
-        // What the kernel dropped after a failed sync cannot be told from what it kept.
+        // After a failed sync it is not known which data the kernel kept and which it dropped.
         const auto* const failure = dynamic_cast<const std::system_error*>(&error);
         if (failure == nullptr || !record::is_disk_full(failure->code())) are_marks_true_ = false;
         note_fault(error.what());
@@ -49,7 +49,7 @@ bool ArchiveThread::replay(record::RecoveryReport& report) {
         session_.reset();
         ended_.clear();
     }
-    const auto take = [this](const record::JournalChunk& chunk) { return take_again(chunk); };
+    const auto take = [this](const record::JournalChunk& chunk) { return replay_chunk(chunk); };
     for (const record::Replay& part : plan_.replays) {
         {
             const std::lock_guard lock(mutex_);
@@ -58,7 +58,7 @@ bool ArchiveThread::replay(record::RecoveryReport& report) {
         if (!record::replay_journal(files_, archive_, part, *writer_, take, report)) return false;
         if (&part != &plan_.replays.back() || part.codes != codes_) close_replayed();
     }
-    // No mark yet where nothing goes on; it is with the first records of the session that does.
+    // No mark is written yet.  If a session continues, its first records bring the mark.
     static_cast<void>(writer_->sync());
     const std::lock_guard lock(mutex_);
     outbox_.session = marked_ = session_;
@@ -67,7 +67,7 @@ bool ArchiveThread::replay(record::RecoveryReport& report) {
     return true;
 }
 
-/// Other codes are another archive: nothing can go on there.
+/// Closes the records of the replayed part.  With other station codes nothing continues there.
 void ArchiveThread::close_replayed() {
     {
         const std::lock_guard lock(mutex_);
@@ -82,11 +82,11 @@ void ArchiveThread::open_archive(const record::StationCodes& codes) {
     outbox_.writer = writer_.get();
 }
 
-/// @return false when time is short.
-bool ArchiveThread::take_again(const record::JournalChunk& chunk) {
+/// Processes one chunk of the replay.  @return false if the daemon is stopping.
+bool ArchiveThread::replay_chunk(const record::JournalChunk& chunk) {
     if (reserve_.is_space_short())
         throw std::system_error(std::make_error_code(std::errc::no_space_on_device),
-                                "the journal needs the space");
+                                "the remaining space is kept for the journal");
     bool is_new_session = false;
     {
         const std::lock_guard lock(mutex_);

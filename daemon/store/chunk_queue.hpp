@@ -11,34 +11,34 @@
 
 namespace a351::daemon {
 
-/// A chunk that is written to the journal (not yet synced), by its number since start.
+/// A chunk that is written to the journal (not yet synced), with its number since start.
 struct NumberedChunk {
     std::uint64_t number = 0;
     record::JournalChunk chunk;
 };
 
-/// From the journal thread to the archive thread.
+/// The queue from the journal thread to the archive thread.
 class ChunkQueue {
 public:
-    /// 32 MiB of chunks: about three quarters of an hour at 50 Hz, 20 chunks a
-    /// second of some 600 bytes.
+    /// Capacity: 32 MiB of chunks, about three quarters of an hour at 50 Hz (20 chunks a second of
+    /// about 600 bytes).
     static constexpr std::size_t kCapacityBytes = std::size_t{32} << 20;
 
     explicit ChunkQueue(std::size_t capacity_bytes = kCapacityBytes);
 
-    /// Waits while the queue is full: the journal must not run ahead of what memory holds.
-    /// @return false when it had to wait.
+    /// Appends a chunk.  Waits while the queue is full.
+    /// @return false if it had to wait.
     bool push(NumberedChunk chunk);
 
-    /// Waits for a chunk; std::nullopt once the queue is closed and empty.
+    /// Waits for a chunk and removes it.  @return std::nullopt once the queue is closed and empty.
     [[nodiscard]] std::optional<NumberedChunk> pop();
 
-    /// Does not wait.
+    /// Removes a chunk without waiting.  @return std::nullopt if there is none.
     [[nodiscard]] std::optional<NumberedChunk> try_pop();
 
     [[nodiscard]] bool is_half_full() const;
 
-    /// No chunk will follow; one that does is dropped.
+    /// Declares that no chunk follows; later chunks are dropped.
     void close();
 
 private:

@@ -16,7 +16,7 @@ DataRootLock::DataRootLock(record::FileLayer& files, const std::filesystem::path
     for (const char* name : {"journal", "archive", "metadata", "events", "state"}) {
         files.create_directories(root / name);
     }
-    files.sync_directory(root);  // A start that was killed may have made them without.
+    files.sync_directory(root);  // A start that was killed may not have synced it.
     const std::filesystem::path file = root / "state" / "lock";
     descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (descriptor_ < 0) {
@@ -24,7 +24,7 @@ DataRootLock::DataRootLock(record::FileLayer& files, const std::filesystem::path
     }
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
         close(descriptor_);
-        throw DataRootLocked(root.string() + ": another a351d records here");
+        throw DataRootLocked(root.string() + ": another a351d is using this data root");
     }
 }
 
@@ -44,8 +44,9 @@ std::optional<std::string> describe_station(record::FileLayer& files,
         for (int n = 2; std::filesystem::exists(aside); ++n)
             aside = file.string() + ".damaged." + std::to_string(n);
         files.rename(file, aside);
-        trouble = std::string(damage.what()) + "; kept as " + aside.filename().string() +
-                  ", and written anew without its earlier epochs";
+        trouble = std::string(damage.what()) + "; the file is kept as " +
+                  aside.filename().string() +
+                  ", and a new one without its earlier epochs was written";
         xml = record::to_station_xml(description);
     }
     if (xml) record::replace_file(files, file, std::as_bytes(std::span(*xml)));

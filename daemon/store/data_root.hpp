@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The directory of the record: journal/ archive/ metadata/ events/ state/.
+/// The data root, which contains journal/ archive/ metadata/ events/ state/.
 
 #include <filesystem>
 #include <optional>
@@ -12,17 +12,17 @@
 
 namespace a351::daemon {
 
-/// Another daemon works here.
+/// Thrown if another daemon uses this data root.
 class DataRootLocked : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// Holds `state/lock` of a data root; the kernel frees it when the process ends, however it ends.
+/// Keeps `state/lock` of a data root locked.  The kernel releases the lock when the process ends.
 class DataRootLock {
 public:
-    /// Creates the directories that are not there.
-    /// @throws DataRootLocked     another process holds it.
+    /// Creates missing directories and takes the lock.
+    /// @throws DataRootLocked     another process has the lock.
     /// @throws std::system_error  the root cannot be used.
     DataRootLock(record::FileLayer& files, const std::filesystem::path& root);
     ~DataRootLock();
@@ -33,9 +33,9 @@ private:
     int descriptor_ = -1;
 };
 
-/// Extends `metadata/station.xml` by the epochs that begin with this description, or writes it.  One
-/// that cannot be used is moved aside.
-/// @return  what was wrong with it.
+/// Extends `metadata/station.xml` by the epochs that begin with this description, or creates it.  A
+/// file that cannot be used is renamed and replaced by a new one.
+/// @return  the trouble with the existing file; std::nullopt if none.
 /// @throws std::system_error  it cannot be read or written.
 std::optional<std::string> describe_station(record::FileLayer& files,
                                             const std::filesystem::path& root,

@@ -5,10 +5,10 @@
 
 namespace a351::daemon {
 
-/// Real time, by which journal and archive write, sync and try again.
+/// The real time that journal and archive use for writing, syncing and trying again.
 struct DiskTime {
     std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
-    /// Between tries when a file could not be written.
+    /// Time between tries after a file could not be written.
     std::chrono::milliseconds retry_interval{10'000};
 };
 

@@ -21,7 +21,7 @@ struct Segment {
     record::JournalHeader header;
 };
 
-/// Those that can be read.
+/// Returns the segments whose header can be read.
 std::vector<Segment> readable_segments(const fs::path& journal) {
     std::vector<Segment> segments;
     for (const fs::path& path : record::journal_segments(journal))
@@ -29,7 +29,7 @@ std::vector<Segment> readable_segments(const fs::path& journal) {
     return segments;
 }
 
-/// Session of the newest MARK: those before it are complete in the archive.
+/// Returns the session of the newest MARK.  Earlier sessions are complete in the archive.
 std::optional<record::SessionId> marked_session(const std::vector<Segment>& segments) {
     for (auto segment = segments.rbegin(); segment != segments.rend(); ++segment)
         if (const auto mark = record::newest_mark(segment->path)) return mark->session;
@@ -99,7 +99,8 @@ void JournalKeeper::remove_old() {
     if (first && last && *last - *first < kept) return;
 
     const auto segments = readable_segments(journal_);
-    // Newest first: the begin of what follows, by a synchronised clock, is after the end of all before.
+    // The loop goes from newest to oldest.  A segment that begins by a synchronised clock begins
+    // after the end of all earlier ones.
     std::optional<UtcTime> newest, followed_at;
     std::size_t old = segments.size();  // Segments before this one are old enough.
     for (; old > 0; --old) {
@@ -109,7 +110,7 @@ void JournalKeeper::remove_old() {
         followed_at = clock.realtime;
         if (!newest) newest = clock.realtime;
     }
-    // A session that goes on is kept as a whole.
+    // A session that continues into a newer segment is kept as a whole.
     while (old > 0 && old < segments.size() &&
            segments[old - 1].header.session == segments[old].header.session)
         --old;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What happens to closed segments of the journal: compressed after an hour, removed after some days.
+/// Care of closed journal segments: compressed after an hour, removed after some days.
 
 #include <atomic>
 #include <chrono>
@@ -15,12 +15,12 @@
 
 namespace a351::daemon {
 
-/// Runs in a thread of its own that takes a processor only when nobody else wants it.
+/// Runs in a thread of its own that uses a processor only when it is otherwise idle.
 class JournalKeeper {
 public:
     struct Options {
-        int keep_days = 30;                         ///< 0: for ever.
-        std::chrono::seconds compress_after{3600};  ///< Since the last write, in real time.
+        int keep_days = 30;                         ///< Days to keep a session; 0: always.
+        std::chrono::seconds compress_after{3600};  ///< Real time since the last write.
         std::chrono::milliseconds interval{60'000};
     };
 
@@ -28,7 +28,7 @@ public:
         std::uint64_t compressed = 0;
         std::uint64_t removed = 0;
         std::uint64_t faults = 0;
-        std::string trouble;  ///< The last fault.
+        std::string trouble;  ///< Text of the last fault.
     };
 
     JournalKeeper(record::FileLayer& files, std::filesystem::path journal, Options options);
@@ -36,13 +36,15 @@ public:
 
     void start();
 
-    /// While someone reads segments by their names none is compressed; removed is none that matters.
+    /// Declares whether segments are being read by their names.  Meanwhile none is compressed.
+    /// Removal continues, because it affects only segments that need not be read.
     void keep_names(bool are_read) noexcept { are_names_read_ = are_read; }
 
-    /// Removes sessions that ended `keep_days` before the newest segment began, by headers whose
-    /// clocks were synchronised, and that are wholly in the archive: a later session has a MARK.  A
-    /// session goes from its last segment to its first, so that what is left of it keeps its indices.
-    /// Then compresses what is old enough, but never the newest segment.  Faults are counted.
+    /// Removes old sessions, then compresses segments that are old enough, except the newest one.
+    /// A session is removed if it ended `keep_days` before the newest segment began, by headers
+    /// with synchronised clocks, and is completely in the archive, because a later session has a
+    /// MARK.  Its segments are removed from last to first, so that the remaining ones keep their
+    /// indices.  Faults are counted.
     void tidy() noexcept;
 
     [[nodiscard]] Status status() const;

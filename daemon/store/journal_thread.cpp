@@ -10,14 +10,14 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr milliseconds kWriteInterval{50};  // Half of what is promised leaves room for the disk.
+constexpr milliseconds kWriteInterval{50};  // Half of the promised 100 ms; the disk takes the rest.
 constexpr milliseconds kJournalSyncInterval{800};  // Leaves 0.2 s of the promised 1 s.
-constexpr seconds kClockInterval{1};  // Between two clock readings: on the instrument's time,
-constexpr milliseconds kShortestClockInterval{100};  // and on real time.
-// Together with 12 bytes per stamp below the largest chunk.
+constexpr seconds kClockInterval{1};  // Time between two clock readings: instrument time,
+constexpr milliseconds kShortestClockInterval{100};  // and real time.
+// Most bytes in a chunk.  With 12 bytes per stamp a chunk stays below the largest size.
 constexpr std::size_t kMostBytes = std::size_t{48} << 10;
 constexpr std::size_t kMostReads = 1000;
-// Almost three hours of the oven's polls, one a second, while the disk takes nothing.
+// Most chunks that wait: almost three hours of the oven's polls, one a second, while writing fails.
 constexpr std::size_t kMostPosted = 10'000;
 
 }  // namespace
@@ -52,7 +52,7 @@ void JournalThread::drain() {
         phase_ = Phase::draining;
         woken_.notify_all();
     }
-    if (!thread_.joinable()) return go_round(Phase::draining);
+    if (!thread_.joinable()) return run_once(Phase::draining);
     std::unique_lock lock(mutex_);
     woken_.wait(lock, [this] { return is_drained_; });
 }
@@ -66,7 +66,7 @@ bool JournalThread::finish() {
     if (thread_.joinable())
         thread_.join();
     else
-        go_round(Phase::finishing);
+        run_once(Phase::finishing);
     const std::lock_guard lock(mutex_);
     return !status_.is_faulty;
 }
@@ -96,10 +96,10 @@ void JournalThread::commit(const record::Event& event, milliseconds patience) {
         const std::lock_guard lock(mutex_);
         if (std::erase(commits_, commit) > 0) {
             throw std::system_error(std::make_error_code(std::errc::timed_out),
-                                    "the journal thread is held up");
+                                    "the event was not written in time because the disk is busy");
         }
     }
-    done.get();  // Once begun it is waited for: nobody may be told the opposite of what happens.
+    done.get();  // Once begun it is waited for, so that the answer is always true.
 }
 
 JournalStatus JournalThread::status() const {
@@ -125,12 +125,12 @@ void JournalThread::run() noexcept {
             });
             phase = phase_;
         }
-        go_round(phase);
+        run_once(phase);
         if (phase == Phase::finishing) break;
     }
 }
 
-void JournalThread::go_round(Phase phase) noexcept {
+void JournalThread::run_once(Phase phase) noexcept {
     try {
         work(phase);
         if (phase != Phase::running) sync();
@@ -153,7 +153,7 @@ void JournalThread::work(Phase phase) {
     if (may_try_again()) {
         retry_unwritten();
         write_reads();
-        // Once drained, the archive would not see what a reader will see.
+        // After draining the archive would not see this chunk, but a reader of the journal would.
         if (phase == Phase::running && is_clock_due()) write_clock(clock_.read());
         while (auto chunk = next_posted()) write(std::move(*chunk));
     }
@@ -161,7 +161,8 @@ void JournalThread::work(Phase phase) {
     if (is_dirty_ && may_try_again() && time_.now() - last_sync_ >= kJournalSyncInterval) sync();
 }
 
-/// The header of a session stays: it waits to be written in the place of what came before it.
+/// Drops the oldest reads when the queue is almost full and writing fails.  A session's header is
+/// kept: it replaces the chunk that waits to be written.
 void JournalThread::make_room() {
     if (faults_running_ < 2) return;
     std::uint64_t dropped = 0;
@@ -254,11 +255,11 @@ void JournalThread::retry_unwritten() {
         on_disk([&] { writer_.begin_segment(*header); });
         has_segment_ = true;
     } else {
-        // A header later than the reader's own would tell of sleeps to come.
+        // With a clock reading later than the reader's own, the header would include later sleeps.
         const auto* const reading = std::get_if<timing::ClockReading>(&*unwritten_);
         std::optional<record::JournalHeader> rotated;
         on_disk([&] { rotated = writer_.append(*unwritten_, reading ? *reading : clock_.read()); });
-        if (rotated) hand_over(*rotated);  // The archive must see what a reader will see.
+        if (rotated) hand_over(*rotated);  // The archive must see the same chunks as a reader.
     }
     is_dirty_ = true;
     hand_over(*std::exchange(unwritten_, std::nullopt));
@@ -287,7 +288,8 @@ void JournalThread::carry_out_commits() {
     }
 }
 
-// The event log decides: the journal's copy follows, at once unless the journal is in trouble.
+// The event counts as written when it is in the event log.  The copy in the journal follows at
+// once, or later after a fault of the journal.
 void JournalThread::carry_out(Commit& commit) {
     try {
         on_disk([&] { record::append_event(files_, events_, commit.event); });
@@ -325,7 +327,8 @@ void JournalThread::sync() {
     progress_.journal_synced(last_chunk_);
 }
 
-/// Times it, and tries it once more on a disk that was full when the reserve is given up.
+/// Runs a disk operation and measures its time.  If the disk is full, gives up the reserve and
+/// tries once more.
 void JournalThread::on_disk(const std::function<void()>& operation) {
     const auto note_end = [this] {
         const std::lock_guard lock(mutex_);
@@ -360,14 +363,14 @@ void JournalThread::note_fault(const std::string& trouble) {
     ++status_.faults;
 }
 
-// At once after the first fault; while the disk is bad each further try may cost a segment.
+// Tries again at once after the first fault, then at intervals: each try may begin a segment.
 bool JournalThread::may_try_again() const {
     if (faults_running_ < 2) return true;
     const std::lock_guard lock(mutex_);
     return phase_ != Phase::running || !is_fault_recent();
 }
 
-/// With the lock held.
+/// Must be called with the lock held.
 bool JournalThread::is_fault_recent() const {
     return last_fault_ && time_.now() - *last_fault_ < time_.retry_interval;
 }

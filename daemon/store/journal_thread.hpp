@@ -1,9 +1,9 @@
 #pragma once
 /// @file
-/// The journal thread: what was read goes to disk within 100 ms and survives a power cut after
-/// one second, both of real time.  It waits for the disk, and for the archive
-/// thread when ChunkQueue is full.  What a full disk refuses costs the reserve first; of what it
-/// refuses for longer than the queue of reads can hold, the newest is kept.
+/// The journal thread.  Received bytes go to disk within 100 ms and survive a power cut after
+/// one second, both in real time.  The thread waits for the disk, and for the archive thread when
+/// ChunkQueue is full.  When the disk is full, the reserve is used first.  If writing fails for
+/// longer than the queue of reads can store, the newest reads are kept.
 
 #include <atomic>
 #include <chrono>
@@ -33,21 +33,21 @@
 namespace a351::daemon {
 
 struct JournalStatus {
-    bool is_faulty = false;  ///< Now, or within the last retry interval: long enough to be seen.
-    std::string trouble;     ///< The last fault of the disk.
+    bool is_faulty = false;  ///< A fault now or within the last retry interval, so that it is seen.
+    std::string trouble;     ///< Text of the last disk fault.
     std::uint64_t faults = 0;
     std::uint64_t bytes_written = 0;
-    std::uint64_t rounds = 0;                   ///< Of the thread.
-    std::uint64_t archive_waits = 0;            ///< Times it had to wait for the archive.
-    std::uint64_t events_refused = 0;           ///< That the event log did not take.
-    std::uint64_t reads_dropped = 0;            ///< That the disk refused for too long.
-    std::chrono::milliseconds longest_sync{0};  ///< Or write; one under way counts.
-    std::chrono::milliseconds present_sync{0};  ///< The one under way; 0: none.
+    std::uint64_t rounds = 0;                   ///< Rounds of the thread.
+    std::uint64_t archive_waits = 0;            ///< Number of times it had to wait for the archive.
+    std::uint64_t events_refused = 0;           ///< Events not written to the event log.
+    std::uint64_t reads_dropped = 0;            ///< Reads dropped, writing failed for too long.
+    std::chrono::milliseconds longest_sync{0};  ///< Longest sync or write, or one in progress.
+    std::chrono::milliseconds present_sync{0};  ///< Duration of the one in progress; 0: none.
 };
 
 class JournalThread {
 public:
-    /// All referred to must outlive this.
+    /// All objects passed by reference must outlive this.
     JournalThread(record::FileLayer& files, const std::filesystem::path& data_root,
                   const HostClock& clock, ReadQueue& reads, ChunkQueue& written, Progress& progress,
                   SpaceReserve& reserve, DiskTime time);
@@ -55,23 +55,24 @@ public:
 
     void start();
 
-    /// One round in the caller's thread, for who does without start().
-    void step() noexcept { go_round(Phase::running); }
+    /// Runs one round in the caller's thread; for tests that do not call start().
+    void step() noexcept { run_once(Phase::running); }
 
-    /// Writes what is left in the queues, closes `written`, and goes on until finish().
+    /// Writes everything left in the queues and closes `written`; the thread continues until
+    /// finish().
     void drain();
-    /// Writes what was posted meanwhile, syncs, and ends.
-    /// @return false when something could not be written.
+    /// Writes the chunks posted meanwhile, syncs, and ends the thread.
+    /// @return false if something could not be written.
     bool finish();
 
-    /// A chunk to be written soon: MARK, MODEL.
+    /// Queues a chunk to be written soon: MARK, MODEL or a poll of the oven.
     void post(record::JournalChunk chunk);
 
-    /// Waits until the event log holds the event, synced; the journal has it then too, or as soon
-    /// as it can be written.
-    /// @throws std::system_error  what kept it out of the event log: nothing of it is written;
-    ///                            timed_out when its turn did not come within `patience`: then it is
-    ///                            withdrawn.
+    /// Writes the event and waits until it is in the event log and synced.  The journal contains it
+    /// then too, or as soon as the journal can be written.
+    /// @throws std::system_error  the event could not be written, and nothing of it is in the event
+    ///                            log; timed_out if its turn did not come within `patience`: it is
+    ///                            then withdrawn.
     void commit(const record::Event& event, std::chrono::milliseconds patience);
 
     [[nodiscard]] JournalStatus status() const;
@@ -84,7 +85,7 @@ private:
     };
 
     void run() noexcept;
-    void go_round(Phase phase) noexcept;
+    void run_once(Phase phase) noexcept;
     void work(Phase phase);
     void make_room();
     void write_reads();
@@ -112,13 +113,13 @@ private:
     SpaceReserve& reserve_;
     record::JournalWriter writer_;
 
-    bool is_started_ = false;  ///< Else the caller's thread does the work.
+    bool is_started_ = false;  ///< If false, the caller's thread does the work.
 
-    // Of the journal thread.
+    // Used by the journal thread only.
     bool has_segment_ = false;
     bool is_dirty_ = false;
-    int faults_running_ = 0;                         ///< Since the last good sync.
-    std::optional<record::JournalChunk> unwritten_;  ///< What the disk refused.
+    int faults_running_ = 0;                         ///< Faults since the last successful sync.
+    std::optional<record::JournalChunk> unwritten_;  ///< Chunk that could not be written yet.
     std::uint64_t last_chunk_ = 0;
     RawTime last_clock_;
     std::chrono::steady_clock::time_point last_clock_real_, last_sync_;

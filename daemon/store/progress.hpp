@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// How far the record has come, as sample indices of the running session.  The journal knows
-/// chunks, the archive knows samples; here they meet.
+/// Progress of recording as sample indices of the running session.  It joins the journal's count in
+/// chunks with the archive's count in samples.
 
 #include <cstdint>
 #include <deque>
@@ -17,17 +17,18 @@ public:
     struct Indices {
         std::optional<record::SessionId> session;
         std::optional<std::int64_t> received;   ///< Last sample parsed.
-        std::optional<std::int64_t> journaled;  ///< Last one that survives a power cut.
-        std::optional<std::int64_t> archived;   ///< Last one in a synced record, on all channels.
+        std::optional<std::int64_t> journaled;  ///< Last sample that survives a power cut.
+        std::optional<std::int64_t> archived;   ///< Last sample in synced records of all channels.
     };
 
-    /// The archive thread has parsed a chunk; `last_index` is the session's last sample so far.
+    /// Notes that the archive thread parsed a chunk; `last_index` is the session's last one so far.
     void parsed(std::uint64_t chunk, const record::SessionId& session,
                 std::optional<std::int64_t> last_index);
 
-    /// Every chunk up to `chunk` is on disk.
+    /// Notes that every chunk up to `chunk` is on disk.
     void journal_synced(std::uint64_t chunk);
 
+    /// Notes that all samples up to `index` are in synced records.
     void archive_synced(const record::SessionId& session, std::int64_t index);
 
     [[nodiscard]] Indices indices() const;
@@ -41,7 +42,7 @@ private:
 
     mutable std::mutex mutex_;
     Indices indices_;
-    std::deque<Parsed> unsynced_;  ///< Parsed, not known to be synced; ascending.
+    std::deque<Parsed> unsynced_;  ///< Chunks parsed but not known to be synced; ascending.
     std::uint64_t synced_chunk_ = 0;
 };
 

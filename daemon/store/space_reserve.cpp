@@ -8,7 +8,7 @@ namespace a351::daemon {
 SpaceReserve::SpaceReserve(record::FileLayer& files, std::filesystem::path file,
                            std::uint64_t size_bytes)
     : files_(files), file_(std::move(file)), size_bytes_(size_bytes) {
-    if (std::filesystem::exists(file_)) make();  // A copy of the root may have left out its blocks.
+    if (std::filesystem::exists(file_)) make();  // In a copied root the file may have no blocks.
     tend();
 }
 
@@ -42,9 +42,9 @@ void SpaceReserve::make() {
         }
     }
     try {
-        files_.remove(file_);  // It may hold some of the space.
+        files_.remove(file_);  // It may occupy some of the space.
     } catch (const std::system_error&) {
-        // It was not even created; else it is tried again, or no reserve.
+        // The file was not created, or its removal is tried again later.
     }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Space set aside for the journal: a file whose blocks are given back when the disk is full.
+/// Disk space reserved for the journal: a file that is removed when the disk is full.
 
 #include <atomic>
 #include <cstdint>
@@ -12,38 +12,39 @@
 
 namespace a351::daemon {
 
-/// For any number of threads.
+/// Thread-safe.
 class SpaceReserve {
 public:
     enum class State {
         present,
-        given_up,     ///< Or not yet there for want of space.
-        unavailable,  ///< The file cannot be made.
+        given_up,     ///< The file was removed, or not created yet because space is short.
+        unavailable,  ///< The file cannot be created.
     };
     struct Status {
         State state = State::given_up;
-        std::string trouble;  ///< Why it is unavailable.
+        std::string trouble;  ///< Reason why it is unavailable.
         std::uint64_t times_given_up = 0;
         bool is_space_short = false;
     };
 
-    /// Half a day of journal at 50 Hz, 104 MB a day.
+    /// Size in bytes: half a day of journal at 50 Hz, 104 MB a day.
     static constexpr std::uint64_t kSize_bytes = std::uint64_t{64} << 20;
 
-    /// Makes the reserve, as tend() does; one that is there is kept.
+    /// Creates the reserve under the same condition as tend(); an existing one is kept.
     /// @param files  must outlive this.
-    /// @param file   its directory exists.
+    /// @param file   path; its directory must exist.
     SpaceReserve(record::FileLayer& files, std::filesystem::path file, std::uint64_t size_bytes);
 
-    /// Gives the space back, for good until tend() finds more.
-    /// @return false when there is nothing to give.
+    /// Removes the file.  It stays removed until tend() finds enough free space.
+    /// @return false if there is no file to remove.
     /// @throws std::system_error  the file cannot be removed.
     bool give_up();
 
-    /// Looks at the free space; with more than twice the reserve a missing one is made again.
+    /// Checks the free space, and creates a missing reserve if more than twice its size is free.
     void tend();
 
-    /// The reserve was given up, or what is free is less than it: what is left is the journal's.
+    /// Returns true if the reserve was given up, or less than its size is free.  The remaining
+    /// space is then kept for the journal.
     [[nodiscard]] bool is_space_short() const noexcept;
 
     [[nodiscard]] Status status() const;
@@ -55,7 +56,7 @@ private:
     std::filesystem::path file_;
     std::uint64_t size_bytes_;
 
-    std::mutex disk_mutex_;  ///< Of the file.
+    std::mutex disk_mutex_;  ///< Protects the file.
     std::atomic<State> state_{State::given_up};
     std::atomic<bool> is_little_free_{false};
     std::atomic<std::uint64_t> times_given_up_{0};

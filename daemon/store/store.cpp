@@ -10,7 +10,8 @@
 namespace a351::daemon {
 namespace {
 
-constexpr std::chrono::seconds kStall{1};  // What a power cut may cost is more from here on.
+// Duration of a sync above which a power cut would cost more than the promised second.
+constexpr std::chrono::seconds kStall{1};
 
 }  // namespace
 
@@ -27,21 +28,22 @@ Store::Store(record::FileLayer& files, StoreOptions options, const HostClock& cl
       profile_(wire::find_profile(options_.station.profile)),
       chunks_(options_.queue_bytes),
       journal_(files, options_.root, clock, reads, chunks_, progress_, reserve_, options_.time),
-      archive_(files, options_.root / "archive", options_.station.codes, clock, chunks_, progress_,
-               reserve_,
-               {.post = [this](record::JournalChunk chunk) { journal_.post(std::move(chunk)); },
-                .session_began = [this](const record::JournalHeader& header) { describe(header); },
-                .recovered = [this](const record::RecoveryReport& report) { go_on(report); },
-                .begin = options_.begin,
-                .sample = options_.sample},
-               options_.time, plan_) {}
+      archive_(
+          files, options_.root / "archive", options_.station.codes, clock, chunks_, progress_,
+          reserve_,
+          {.post = [this](record::JournalChunk chunk) { journal_.post(std::move(chunk)); },
+           .session_began = [this](const record::JournalHeader& header) { describe(header); },
+           .recovered = [this](const record::RecoveryReport& report) { finish_recovery(report); },
+           .begin = options_.begin,
+           .sample = options_.sample},
+          options_.time, plan_) {}
 
 Store::~Store() { stop(); }
 
 void Store::start() {
     is_running_ = true;
-    keeper_.keep_names(true);  // The replay reads what begin_recovery() found.
-    keeper_.start();           // A full disk may hold up the replay until old segments are gone.
+    keeper_.keep_names(true);  // The replay reads the segments that begin_recovery() found.
+    keeper_.start();           // A full disk may delay the replay until old segments are removed.
     archive_.start();
     journal_.start();
 }
@@ -55,7 +57,7 @@ void Store::step() {
 bool Store::stop() {
     if (!is_running_) return true;
     is_running_ = false;
-    archive_.hurry();
+    archive_.skip_waits();
     journal_.drain();
     const bool is_archived = archive_.join();
     return journal_.finish() && is_archived;
@@ -67,7 +69,7 @@ std::optional<Instant> Store::at(UtcTime utc) { return archive_.at(utc); }
 
 void Store::commit(const record::Event& event) { journal_.commit(event, options_.commit_patience); }
 
-/// On a full disk the reserve is given up for it: a day in the field must go on.
+/// Begins recovery.  On a full disk it gives up the reserve, because recording must continue.
 record::RecoveryPlan Store::plan_recovery() {
     const auto journal = options_.root / "journal";
     try {
@@ -78,17 +80,18 @@ record::RecoveryPlan Store::plan_recovery() {
     }
 }
 
-void Store::go_on(const record::RecoveryReport& report) {
+void Store::finish_recovery(const record::RecoveryReport& report) {
     options_.recovered(report);
     keeper_.keep_names(false);
 }
 
-/// Trouble with it is shown, and does not hold up the archive; the next header tries again.
+/// Writes the station metadata.  Trouble is shown in the status and does not delay the archive; the
+/// next header tries again.
 void Store::describe(const record::JournalHeader& header) {
-    // A host without a clock knows no epoch.
+    // Without a host clock the begin of the epoch is not known.
     if (header.clock.realtime < record::TimeGate::kEarliest) return;
     record::StationDescription description = options_.station;
-    // The first samples stand for instants before their header by the filter's delay.
+    // The times of the first samples precede their header by the filter's delay.
     description.start = header.clock.realtime - description.group_delay;
     description.product_id = header.product_id;
     description.serial_number = header.serial_number;
@@ -105,7 +108,7 @@ void Store::describe(const record::JournalHeader& header) {
     metadata_trouble_ = trouble.value_or("");
 }
 
-bool Store::has_come_round() {
+bool Store::is_alive() {
     const JournalStatus journal = journal_.status();
     return journal.present_sync.count() > 0 ||
            std::exchange(rounds_, journal.rounds) != journal.rounds;
@@ -133,8 +136,10 @@ void Store::fill(Status& status) {
     }
 
     if (archive.is_replaying) {
-        complain(status, Status::Level::warning,
-                 "archive: the last run's journal is being brought in");
+        complain(
+            status, Status::Level::warning,
+            "archive: the last run's data are being added from the journal; occupations can be "
+            "started and stopped when this is finished");
     }
     status.more_counters["archive_conflicts"] = archive.conflicts;
     const JournalStatus journal = journal_.status();
@@ -152,19 +157,20 @@ void Store::fill(Status& status) {
     status.more_counters["journal_segments_removed"] = keeper.removed;
     status.more_counters["journal_keeper_faults"] = keeper.faults;
     if (keeper.faults > 0)
-        complain(status, Status::Level::warning, "journal, closed segments: " + keeper.trouble);
+        complain(status, Status::Level::warning,
+                 "closed journal segment: not compressed or removed: " + keeper.trouble);
     if (journal.is_faulty) complain(status, Status::Level::fault, "journal: " + journal.trouble);
     if (archive.is_faulty) complain(status, Status::Level::fault, "archive: " + archive.trouble);
 
     if (journal.is_faulty && journal.reads_dropped > 0) {
         complain(status, Status::Level::fault,
-                 "journal: the disk refuses for longer than memory reaches; the oldest reads are "
-                 "dropped");
+                 "journal: writing has failed for so long that the buffer is full; the oldest data "
+                 "are being discarded; check the disk");
     }
     if (archive.chunks_lost > 0) {
         complain(status, Status::Level::fault,
-                 "archive: it could not take all; the journal holds it, and the next start brings "
-                 "it in");
+                 "archive: some data could not be added; they are safe in the journal and will be "
+                 "added at the next start");
     }
     {
         const std::lock_guard lock(metadata_mutex_);
@@ -172,15 +178,17 @@ void Store::fill(Status& status) {
             complain(status, Status::Level::warning, "metadata: " + metadata_trouble_);
     }
     if (!archive.is_marking) {
-        complain(
-            status, Status::Level::warning,
-            "archive: a sync failed or a chunk was lost, so nothing more is called archived; the "
-            "journal holds it, and the next start brings it in");
+        complain(status, Status::Level::warning,
+                 "archive: a sync failed or a chunk was lost, so newer data are not confirmed as "
+                 "archived; they are safe in the journal and will be added at the next start");
     }
 
     status.longest_sync = journal.longest_sync;
     if (journal.present_sync >= kStall)
-        complain(status, Status::Level::warning, "the disk stalls: what is read waits in memory");
+        complain(
+            status, Status::Level::warning,
+            "the disk stalls: new data wait in memory and a power cut would lose them; check the "
+            "disk");
 
     status.disk_free_bytes = files_.free_bytes(options_.root);
     const SpaceReserve::Status reserve = reserve_.status();
@@ -189,8 +197,8 @@ void Store::fill(Status& status) {
     status.more_counters["reserve_given_up"] = reserve.times_given_up;
     if (reserve.is_space_short) {
         complain(status, Status::Level::fault,
-                 "disk full: the archive waits so that the journal has the space; " +
-                     std::to_string(status.disk_free_bytes.value_or(0) >> 20) + " MiB free");
+                 "disk full: " + std::to_string(status.disk_free_bytes.value_or(0) >> 20) +
+                     " MiB free; the archive waits so that the journal can continue; make room");
     }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// Everything between the reader's queue and the disk: recovery at start, journal, archive,
-/// station metadata, events; and what the survey and the page ask of the record.
+/// Everything between the reader's queue and the disk: recovery at start, journal, archive, station
+/// metadata, events.  It also answers the requests of survey and page about recorded data.
 
 #include <chrono>
 #include <cstdint>
@@ -33,61 +33,64 @@ namespace a351::daemon {
 
 struct StoreOptions {
     std::filesystem::path root;
-    /// What the configuration knows of the station; device and instants come with each session.
+    /// Station as configured; device and times are added for each session.
     record::StationDescription station = {};
     DiskTime time = {};
     std::uint64_t reserve_bytes = SpaceReserve::kSize_bytes;
     std::size_t queue_bytes = ChunkQueue::kCapacityBytes;
     JournalKeeper::Options keeper = {};
-    /// How long an event waits for its turn.
+    /// Longest time that an event waits for its turn.
     std::chrono::milliseconds commit_patience{10'000};
-    /// Called by another thread when the archive is up to the journal of the last run.
+    /// Called by another thread when the last run's journal is completely in the archive.
     std::function<void(const record::RecoveryReport&)> recovered = [](const auto&) {};
-    /// Both by another thread: once before anything is recorded or recovered, and it must not
-    /// throw; and with each sample that gets its place, those of the last run's journal included.
+    /// Called by another thread, once, before anything is recorded or recovered.  Must not throw.
     std::function<void()> begin = [] {};
+    /// Called by another thread for each sample that received its index and time, also those of the
+    /// last run's journal.
     std::function<void(const record::Sample&, UtcTime)> sample = [](const auto&, UtcTime) {};
 };
 
 class Store : public Recorder {
 public:
-    /// Locks the data root and mends its journal.  `files`, `clock` and `reads` must outlive this.
+    /// Locks the data root and repairs its journal.  The references must outlive this.
     /// @throws DataRootLocked, std::system_error
     Store(record::FileLayer& files, StoreOptions options, const HostClock& clock, ReadQueue& reads);
     ~Store() override;
 
-    /// Where the stream stands that the journal knows.
+    /// Returns the end of the stream that the journal contains; std::nullopt if there is none.
     [[nodiscard]] const std::optional<record::StreamEnd>& known_stream() const noexcept {
         return known_stream_;
     }
 
-    /// Records from now on; the archive is recovered meanwhile.
+    /// Starts recording; the archive is recovered at the same time.
     void start();
 
-    /// Instead of start(): does in the caller's thread what journal and archive thread would do.
+    /// Runs one round of the journal and archive threads in the caller's thread; for tests that do
+    /// not call start().
     void step();
 
-    /// Writes what the reader left in its queue, closes and syncs everything.
-    /// @return false when something could not be written.
+    /// Writes the rest of the reader's queue, then closes and syncs everything.
+    /// @return false if something could not be written.
     bool stop();
 
     [[nodiscard]] std::optional<Instant> latest() override;
     [[nodiscard]] std::optional<Instant> at(UtcTime utc) override;
     void commit(const record::Event& event) override;
 
-    /// A poll for the journal; dropped before the sensor's first session, which opens it.
+    /// Passes a poll to the journal.  It is dropped before the sensor's first session, which opens
+    /// the journal.
     void post(record::OvenChunk poll) { journal_.post(std::move(poll)); }
 
-    /// Whether the journal thread came round since the last call, or waits for the disk: what is
-    /// read then waits in memory, which a restart would lose.
-    [[nodiscard]] bool has_come_round();
+    /// Returns true if the journal thread finished a round since the last call, or waits for the
+    /// disk.  While it waits, data are in memory only, and a restart would lose them.
+    [[nodiscard]] bool is_alive();
 
-    /// Fills in what the store knows.
+    /// Copies the state of the store into the status, and adds its reasons.
     void fill(Status& status);
 
 private:
     record::RecoveryPlan plan_recovery();
-    void go_on(const record::RecoveryReport& report);
+    void finish_recovery(const record::RecoveryReport& report);
     void describe(const record::JournalHeader& header);
 
     record::FileLayer& files_;
@@ -105,7 +108,7 @@ private:
     std::mutex metadata_mutex_;
     std::string metadata_trouble_;
     bool is_running_ = false;
-    std::uint64_t rounds_ = 0;  ///< Of the journal thread, when it was last asked for.
+    std::uint64_t rounds_ = 0;  ///< Journal rounds at the last call of is_alive().
 };
 
 }  // namespace a351::daemon

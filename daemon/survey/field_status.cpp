@@ -10,7 +10,7 @@
 namespace a351::daemon {
 namespace {
 
-constexpr double kForgottenAfter = 3.0;  ///< Planned lengths.
+constexpr double kForgottenAfter = 3.0;  ///< Time until a reminder, in planned lengths.
 constexpr double kEarthRadiusMetres = 6371000.0;
 
 using SetUp = record::Occupation::SetUp;
@@ -38,7 +38,7 @@ std::vector<std::string> warnings_of(const RunningOccupation& running,
     }
     if (running_s > kForgottenAfter * planned_s) {
         std::snprintf(text, sizeof text,
-                      "running for %.0f min, planned are %.0f: was stop forgotten?",
+                      "running for %.0f min, planned %.0f min: stop it if the reading is finished",
                       running_s / 60.0, planned_s / 60.0);
         warnings.emplace_back(text);
     }
@@ -63,7 +63,7 @@ void compare_level(FieldStatus& field, const Occupations& occupations, const Liv
     field.level = live.level_against(first.start, first.end);
 }
 
-/// Haversine formula.
+/// Returns the distance by the haversine formula.
 double distance_m(const text::Site& site, Degrees latitude, Degrees longitude) {
     const double phi_1 = kRadPerDeg * latitude.value(), phi_2 = kRadPerDeg * site.latitude.value();
     const double half_phi = 0.5 * (phi_2 - phi_1);

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// What the operator at a benchmark wants to know besides the verdict: the running value, how the
-/// box stands, what to do next.  Functions of occupations and live record alone.
+/// Information for the operator at a benchmark besides the verdict: the running value, the level of
+/// the box, and what to do next.  All are functions of occupations and live record only.
 
 #include <optional>
 #include <string>
@@ -15,42 +15,44 @@
 
 namespace a351::daemon {
 
-/// Mean of an occupation's set-ups as far as they are remembered.
+/// The mean of an occupation's set-ups, as far as they are in memory.
 struct OccupationReading {
-    std::optional<MilliGal> value;           ///< Mean of the norm, no correction.
-    std::optional<MilliGal> standard_error;  ///< Absent while that of one set-up is.
+    std::optional<MilliGal> value;           ///< Mean of the norm, uncorrected.
+    std::optional<MilliGal> standard_error;  ///< Absent if that of any set-up is absent.
 };
 
 struct FieldStatus {
-    /// Of the running set-up, the others below.
-    std::optional<RunningReading> reading;
-    OccupationReading whole;
-    std::optional<double> half_time_s;  ///< Until then; 0 when it is past.
-    bool proposes_set_up = false;       ///< Half time is past and there was one set-up.
+    std::optional<RunningReading> reading;  ///< Reading of the running set-up.
+    OccupationReading whole;                ///< Mean of all set-ups.
+    std::optional<double> half_time_s;      ///< Seconds until half time; 0 after it.
+    bool proposes_set_up = false;           ///< Half time is past and there was only one set-up.
     std::vector<std::string> warnings;
 
-    std::optional<Level> level;  ///< Against the day's first set-up ...
-    std::string level_site;      ///< ... which was here, from `level_utc` on.
-    UtcTime level_utc;
+    std::optional<Level> level;  ///< Tilt relative to the day's first set-up.
+    std::string level_site;      ///< Site of that set-up; empty if there is none.
+    UtcTime level_utc;           ///< Start of that set-up.
 };
 
-/// The finished occupations of the survey day that ends now (record::kSurveyNight), in time order.
+/// Returns the finished occupations of the current survey day (record::kSurveyNight),
+/// in time order.
 [[nodiscard]] std::vector<record::Occupation> survey_day(const Occupations& occupations,
                                                          UtcTime now);
 
+/// Returns the information for the operator at this time.
 [[nodiscard]] FieldStatus field_status(const Occupations& occupations, const LiveRecord& live,
                                        UtcTime now);
 
+/// Returns the mean of these set-ups.
 [[nodiscard]] OccupationReading reading_of(const std::vector<record::Occupation::SetUp>& set_ups,
                                            const LiveRecord& live, MilliGal target);
 
 struct SiteDistance {
     text::Site site;
-    std::optional<Metres> distance;  ///< Absent where a position is not known.
+    std::optional<Metres> distance;  ///< Absent if the site's position is not known.
 };
 
-/// Nearest first to `from`, those without a position last, in the order of the list.  Distances on
-/// a sphere of 6371 km.
+/// Sorts the sites by their distance from this position, on a sphere of 6371 km radius.  Sites
+/// without a position come last, in the order of the list.
 [[nodiscard]] std::vector<SiteDistance> nearest_first(const std::vector<text::Site>& sites,
                                                       Degrees latitude, Degrees longitude);
 

@@ -72,25 +72,24 @@ Occupations::Occupations(Recorder& recorder, std::vector<text::Site> sites,
 
 Occupations::Placed Occupations::place(std::optional<UtcTime> at) {
     const auto latest = recorder_.latest();
-    if (!latest) return {std::nullopt, "no sample has come yet"};
+    if (!latest) return {std::nullopt, "no sample is available yet; see the status"};
     if (!at) return {latest, ""};
     if (*at > latest->utc) {
         return {std::nullopt, shown(*at) + " is later than the last sample, " + shown(latest->utc)};
     }
     auto placed = recorder_.at(*at);
     if (placed) return {placed, ""};
-    return {std::nullopt,
-            shown(*at) + " is earlier than the part of the record that is remembered"};
+    return {std::nullopt, shown(*at) + " is earlier than the data that the daemon keeps in memory"};
 }
 
 std::optional<std::string> Occupations::trouble_with_site(std::string_view site) const {
-    if (site.empty()) return "no site is named";
+    if (site.empty()) return "no site is given";
     if (sites_.empty() || text::find_site(sites_, site)) return std::nullopt;
     return "site " + std::string(site) + " is not one of the " + std::to_string(sites_.size()) +
-           " in the list of sites";
+           " sites in the list";
 }
 
-/// An event that needs no sample: it must be possible with the sensor unplugged.
+/// Makes an event that needs no sample, because it must be possible with the sensor unplugged.
 record::Event Occupations::about_now(std::string type) {
     if (const auto latest = recorder_.latest()) return event_at(std::move(type), *latest);
     record::Event event;
@@ -110,8 +109,8 @@ Outcome Occupations::start(std::string_view site, const Remark& remark, std::opt
     for (const auto& one : list()) {
         if (one.set_ups.front().start <= placed.instant->utc &&
             placed.instant->utc < one.set_ups.back().end) {
-            return refused(shown(placed.instant->utc) + " is within " + named(one) + ", " +
-                           shown(one.set_ups.front().start) + " to " +
+            return refused(shown(placed.instant->utc) + " is within the occupation " + named(one) +
+                           ", " + shown(one.set_ups.front().start) + " to " +
                            shown(one.set_ups.back().end));
         }
     }
@@ -156,7 +155,7 @@ std::string Occupations::remarks_on_stop(UtcTime stop) const {
     const auto minutes = [](Nanoseconds span) {
         return std::chrono::duration<double, std::ratio<60>>(span).count();
     };
-    std::snprintf(text, sizeof text, "; short: %.1f min of the %.0f planned", minutes(stay),
+    std::snprintf(text, sizeof text, "; shorter than planned: %.1f of %.0f min", minutes(stay),
                   minutes(options_.planned));
     return text;
 }
@@ -197,7 +196,7 @@ Outcome Occupations::rename(std::string_view site, const Remark& remark) {
     const auto last = changed_by(event);
     if (!running_ && !last) {
         return refused("there is no occupation to rename, or " + std::string(site) +
-                       " is its name already");
+                       " is already its name");
     }
     std::string old = running_ ? named(running_->site, running_->number) : named(*last);
     return commit(std::move(event), "renamed " + std::move(old) + " to " + std::string(site));
@@ -206,7 +205,7 @@ Outcome Occupations::rename(std::string_view site, const Remark& remark) {
 Outcome Occupations::note(std::string_view text) {
     if (text.empty()) return refused("the note is empty");
     auto event = about_now("note");
-    if (event.utc == UtcTime{}) return refused("no sample has come yet");
+    if (event.utc == UtcTime{}) return refused("no sample is available yet; see the status");
     add(event, "note", text);
     std::string said = "noted at " + shown(event.utc);
     return commit(std::move(event), std::move(said));
@@ -215,12 +214,12 @@ Outcome Occupations::note(std::string_view text) {
 Outcome Occupations::set_target(MilliGal target) {
     if (!is_target(target)) return refused("target: allowed: 0.01 to 1000 mGal");
     auto event = about_now("target");
-    if (event.utc == UtcTime{}) return refused("no sample has come yet");
+    if (event.utc == UtcTime{}) return refused("no sample is available yet; see the status");
     std::array<char, 32> text{};
     const auto end = std::to_chars(text.begin(), text.end(), target.value()).ptr;
     add(event, kTargetKey, std::string_view(text.data(), end));
-    return commit(std::move(event),
-                  "good enough is a standard error of " + std::string(text.data(), end) + " mGal");
+    return commit(std::move(event), "target set: good enough at a standard error of " +
+                                        std::string(text.data(), end) + " mGal");
 }
 
 void Occupations::use(std::vector<text::Site> sites, const Options& options) {
@@ -232,7 +231,7 @@ std::vector<record::Occupation> Occupations::list() const {
     return record::occupations_of(events_);
 }
 
-/// The finished occupation that would no longer be what it is once `event` were in the log.
+/// Returns the finished occupation that `event` would remove or rename.
 std::optional<record::Occupation> Occupations::changed_by(const record::Event& event) const {
     auto events = events_;
     events.push_back(event);
@@ -251,7 +250,7 @@ Outcome Occupations::commit(record::Event event, std::string message) {
     try {
         recorder_.commit(event);
     } catch (const std::system_error& error) {
-        return {Outcome::Kind::failed, std::string("not on disk: ") + error.what()};
+        return {Outcome::Kind::failed, std::string("not saved: ") + error.what()};
     }
     follow(event);
     events_.push_back(std::move(event));

@@ -17,44 +17,46 @@ namespace a351::daemon {
 struct Outcome {
     enum class Kind {
         done,     ///< On disk.
-        refused,  ///< Against a rule; nothing was written.
-        failed    ///< The recorder could not confirm that it is on disk; treated as not done.
+        refused,  ///< Not allowed; nothing was written.
+        failed    ///< Not confirmed to be on disk; treated as not done.
     };
     Kind kind = Kind::done;
     std::string message;  ///< One line for the operator.
 };
 
-/// What goes with a start or stop.  An empty text is a text not given.
+/// Optional texts of a start or stop; empty if not given.
 struct Remark {
     std::string operator_name;
     std::string note;
 };
 
-/// The occupation that was started and not yet stopped.
+/// The occupation that was started and is not stopped yet.
 struct RunningOccupation {
     std::string site;
-    int number = 1;  ///< Counts the stays at this site, discarded ones left out.
+    int number = 1;  ///< Number of this stay at the site, without discarded ones.
     UtcTime start;
-    std::vector<UtcTime> set_ups;              ///< Start of each, the first at `start`.
-    std::optional<record::SessionId> session;  ///< Of the first sample.
-    std::optional<std::int64_t> index;
+    std::vector<UtcTime> set_ups;              ///< Start of each set-up; the first is `start`.
+    std::optional<record::SessionId> session;  ///< Session of the first sample.
+    std::optional<std::int64_t> index;         ///< Index of the first sample.
     Remark remark;
 };
 
-/// Starts and stops occupations.  Every change is an event that the recorder has committed before
-/// the answer is given, and the state is a function of the events alone: a restarted daemon that
-/// replays them is where it was.  Not thread-safe: one thread (that of the page) owns it.
+/// Starts and stops occupations.  Every change is an event, which the recorder commits before the
+/// answer is given.  The state depends on the events only, so a restarted daemon that replays them
+/// has the same state.  Not thread-safe: one thread (that of the page) owns it.
 ///
-/// `at` is an instant of the recorded past, by default that of the last sample.  Refused are: an
-/// instant after the last sample or before what the recorder remembers; a start while another runs;
-/// a stop or set-up without one, or not after its start; an overlap with a finished occupation; a
-/// site that is not in the list (any name will do when the list is empty).  What is allowed but
-/// may be a mistake (a site again, a short stay) is said in the answer.
+/// `at` is a time in the recorded past, by default that of the last sample.  Refused are:
+/// - a time after the last sample or before the data that the recorder keeps in memory;
+/// - a start while an occupation is running;
+/// - a stop or set-up without a running occupation, or not after its start;
+/// - an overlap with a finished occupation;
+/// - a site that is not in the list (any name is allowed if the list is empty).
+/// The answer points out a possible mistake (a repeated site, a short stay).
 class Occupations {
 public:
     struct Options {
-        Nanoseconds planned = std::chrono::minutes(10);  ///< Length of a stay.
-        MilliGal target{1.0};                            ///< Until the operator sets another.
+        Nanoseconds planned = std::chrono::minutes(10);  ///< Planned length of a stay.
+        MilliGal target{1.0};  ///< Target until the operator sets another.
     };
 
     /// @param events  the event log so far, in file order.  `recorder` must outlive this.
@@ -66,26 +68,26 @@ public:
 
     Outcome start(std::string_view site, const Remark& remark, std::optional<UtcTime> at);
     Outcome stop(const Remark& remark, std::optional<UtcTime> at);
-    /// The sensor was lifted and set down again: a further set-up of the running occupation.
+    /// Begins a further set-up of the running occupation: the sensor was lifted and set down again.
     Outcome setup(std::optional<UtcTime> at);
 
-    /// These two speak of the running occupation, or else of the last one that was stopped.
+    /// Discards or renames the running occupation, or else the one stopped last.
     Outcome discard();
     Outcome rename(std::string_view site, const Remark& remark);
 
     Outcome note(std::string_view text);
 
-    /// The standard error with which a reading is good enough, from now on: 0.01 to 1000 mGal.
+    /// Sets the standard error at which a reading is good enough, from now on: 0.01 to 1000 mGal.
     Outcome set_target(MilliGal target);
     [[nodiscard]] MilliGal target() const noexcept { return target_.value_or(options_.target); }
     [[nodiscard]] Nanoseconds planned() const noexcept { return options_.planned; }
 
-    /// Other sites to start at, another planned length and another target, unless the operator has
+    /// Replaces the list of sites and the planned length, and the target unless the operator has
     /// set one.
     void use(std::vector<text::Site> sites, const Options& options);
     [[nodiscard]] const std::vector<text::Site>& sites() const noexcept { return sites_; }
 
-    /// Finished ones, as record::occupations_of() reads them from the log.
+    /// Returns the finished occupations, as record::occupations_of() reads them from the log.
     [[nodiscard]] std::vector<record::Occupation> list() const;
     [[nodiscard]] const std::optional<RunningOccupation>& running() const noexcept {
         return running_;
@@ -108,7 +110,7 @@ private:
 
     Recorder& recorder_;
     Options options_;
-    std::optional<MilliGal> target_;  ///< As the operator set it.
+    std::optional<MilliGal> target_;  ///< Target set by the operator.
     std::vector<text::Site> sites_;
     std::vector<record::Event> events_;
     std::optional<RunningOccupation> running_;

@@ -16,21 +16,21 @@ struct Instant {
     UtcTime utc;
 };
 
-/// What the survey side asks of the store.  Called from the web thread; the store answers from
-/// whatever thread it likes.
+/// The requests of the survey side to the store.  They are called from the web thread; the store
+/// may answer with any thread.
 class Recorder {
 public:
     virtual ~Recorder() = default;
 
-    /// The last sample received; std::nullopt while none has come in this session.
+    /// Returns the last sample received; std::nullopt if there is none yet.
     [[nodiscard]] virtual std::optional<Instant> latest() = 0;
 
-    /// The first sample at or after `utc`; std::nullopt when it lies before the part of the record
-    /// that is remembered, or after the last sample.
+    /// Returns the first sample at or after `utc`; std::nullopt if `utc` is before the data kept in
+    /// memory or after the last sample.
     [[nodiscard]] virtual std::optional<Instant> at(UtcTime utc) = 0;
 
     /// Writes the event to journal and event log and syncs both before it returns.
-    /// @throws std::system_error  it is not on disk.
+    /// @throws std::system_error  the event is not on disk.
     virtual void commit(const record::Event& event) = 0;
 };
 

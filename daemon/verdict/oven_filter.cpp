@@ -10,15 +10,15 @@
 namespace a351::daemon {
 namespace {
 
-// Where the outlook of 10 min was likeliest on simulated warm-ups, visits and disturbances, seeds 1
-// to 50 and 251 to 350 of tests/bench/verdict_bench.cpp.
-constexpr double kRateSeconds = 700.0;    ///< An ambient that changes does so for so long.
-constexpr double kCycleSeconds = 2500.0;  ///< The oven's cycle keeps its phase for so long.
+// Values that gave the most likely outlook of 10 min on simulated warm-ups, visits and
+// disturbances, seeds 1 to 50 and 251 to 350 of tests/bench/verdict_bench.cpp.
+constexpr double kRateSeconds = 700.0;    ///< Decay time of a change of the ambient temperature.
+constexpr double kCycleSeconds = 2500.0;  ///< Decay time of the oven's cycle.
 constexpr double kLevelNoise = 5e-4;      ///< [degC / s^(1/2)]
 constexpr double kRateNoise = 4e-7;       ///< [degC / s^(3/2)]
 constexpr double kCycleNoise = 9.4e-5;    ///< [degC / s^(1/2)]
 
-// What is known of a box that was never seen before.
+// Initial standard errors.
 constexpr double kBodyDegc = 0.1, kLevelDegc = 0.2, kRateDegcPerSecond = 1e-4, kCycleDegc = 0.01;
 
 double square(double x) { return x * x; }
@@ -39,7 +39,7 @@ OvenFilter::OvenFilter(const VerdictOptions& options)
     const double relax_s = 60.0 * options.relax_min;
     Eigen::Matrix3d rates;
     rates << -1.0 / relax_s, 1.0 / relax_s, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0 / kRateSeconds;
-    // Its exponential: steps are short, so that few terms suffice.
+    // The exponential of the matrix; a few terms suffice because steps are short.
     Eigen::Matrix3d term = Eigen::Matrix3d::Identity(), chain = term;
     for (int k = 1; k < 8; ++k) {
         term = (term * rates * h / k).eval();

@@ -19,7 +19,7 @@ ReadingOutlook::ReadingOutlook(const VerdictOptions& options, const OvenFilter& 
         const Changes one = changes(continued(past, unit, filter), 0.0);
         for (std::size_t i = 0; i < one.size(); ++i) by_state_[i][j] = one[i];
 
-        // Noise of a later step acts from there on.
+        // The noise of a later step acts from that step on.
         const double variance = filter.unrest(j);
         std::vector<double> later = past;
         while (variance > 0.0 && later.size() < 2 * half_ + kAhead + 1) {
@@ -57,8 +57,9 @@ std::vector<double> ReadingOutlook::continued(std::vector<double> degc, OvenFilt
     return degc;
 }
 
-/// @param degc       from half a cycle ago on.
-/// @param slow_degc  lagged, at its first.
+/// Returns the change of the reading at each whole minute ahead.
+/// @param degc       temperatures from half a cycle ago on.
+/// @param slow_degc  lagged temperature at the first of them.
 ReadingOutlook::Changes ReadingOutlook::changes(const std::vector<double>& degc,
                                                 double slow_degc) const {
     std::vector<double> weighed;

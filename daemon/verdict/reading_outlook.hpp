@@ -10,31 +10,34 @@
 
 namespace a351::daemon {
 
-/// What temperature will do to the reading within the next 10 min.
+/// The effect of temperature on the reading within the next 10 min.
 struct Outlook {
-    double change_mgal =
-        0.0;                  ///< Of its mean over a cycle, where |change| + sure error is most ...
-    double error_mgal = 0.0;  ///< ... with its standard error there.
+    /// Change of the reading's mean over a cycle, when |change| + sure error is largest.
+    double change_mgal = 0.0;
+    double error_mgal = 0.0;  ///< Standard error of this change.
 };
 
-/// The unit's response to the oven's filter.  With m the mean over one cycle, centred,
+/// Predicts the reading from the oven's filter with the unit's temperature response.  With m the
+/// centred mean over one cycle,
 ///
 ///     e = static m(T) + rate dm(T)/dt + slow m(lag(T)) + warm-up,
 ///     change(s) = e(t + s) - e(t),   0 < s <= 10 min
 ///
-/// which needs T from half a cycle ago on, which has been seen, to half a cycle beyond s, which the
-/// filter continues.  Its error joins the filter's, for now and for the noise to come, and a share of
-/// what the box is off its level: the oven's cycle is not regular while it follows the air.
+/// This needs T from half a cycle ago, which was observed, to half a cycle after s, which the
+/// filter predicts.  The error combines the filter's present error, its future noise, and a share
+/// of the distance of the box from its level, because the oven's cycle is irregular while it
+/// follows the air.
 class ReadingOutlook {
 public:
     ReadingOutlook(const VerdictOptions& options, const OvenFilter& filter);
 
     void clear();
-    void take(double degc);  ///< The next mean, or what was expected in its place.
+    void take(double degc);  ///< Takes the next mean, or the expected value in its place.
 
-    /// @param filter        as it is after that mean.
-    /// @param warm_up_mgal  what is left of the warm-up now.
-    /// @return              std::nullopt before half a cycle.
+    /// Returns the outlook from now on.
+    /// @param filter        its state after the last mean.
+    /// @param warm_up_mgal  remaining effect of the warm-up now.
+    /// @return              std::nullopt before half a cycle is known.
     [[nodiscard]] std::optional<Outlook> outlook(const OvenFilter& filter,
                                                  double warm_up_mgal) const;
 
@@ -48,12 +51,12 @@ private:
                                                 const OvenFilter& filter) const;
 
     VerdictOptions options_;
-    std::size_t half_;  ///< Steps of half a cycle.
+    std::size_t half_;  ///< Number of steps in half a cycle.
     double slow_gain_;
     std::deque<double> past_degc_;
-    std::deque<double> past_slow_degc_;  ///< Lagged.
+    std::deque<double> past_slow_degc_;  ///< Lagged temperatures.
     std::array<OvenFilter::State, kAhead / kEvery> by_state_{};
-    Changes unforeseen_mgal2_{};  ///< Variance by the noise to come.
+    Changes unforeseen_mgal2_{};  ///< Variance due to future noise.
 };
 
 }  // namespace a351::daemon

@@ -10,10 +10,9 @@
 namespace a351::daemon {
 namespace {
 
-constexpr int kLeastInMinute = 15;       ///< Half of its values.
-constexpr double kKeptSeconds = 2400.0;  ///< Less than three cycles: the slope is that of now.
-constexpr double kMostRelated =
-    0.9;  ///< Of neighbouring residuals: more cannot be told from so few.
+constexpr int kLeastInMinute = 15;       ///< Least number of values in a minute: half of them.
+constexpr double kKeptSeconds = 2400.0;  ///< Length of the fit: below three cycles, to be recent.
+constexpr double kMostRelated = 0.9;     ///< Largest correlation that so few values can determine.
 
 }  // namespace
 

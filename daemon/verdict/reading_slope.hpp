@@ -14,27 +14,27 @@ struct Slope {
     double error_mgal_per_h = 0.0;  ///< Standard error.
 };
 
-/// How the reading moves beneath the oven's cycle, at one place: a, b, c, d by least squares to the
-/// means of whole minutes of the last 40,
+/// The slope of the reading without the oven's cycle, at one place: a, b, c, d are fitted by least
+/// squares to the means of the last 40 whole minutes,
 ///
 ///     a + b t + c cos(w t) + d sin(w t),   w = 2 pi / cycle_s
 ///
-/// The error of b takes neighbouring residuals as related: first-order autoregressive.
+/// The error of b assumes correlated residuals: first-order autoregressive.
 class ReadingSlope {
 public:
     explicit ReadingSlope(const VerdictOptions& options) : options_(options) {}
 
-    /// @param norm  of the axes; nothing of a knock in it.
+    /// Takes the next value.  @param norm  of the axes, not affected by a knock.
     void take(UtcTime time, MilliGal norm);
-    void clear();  ///< Another place.
+    void clear();  ///< Starts again, at another place.
 
-    /// std::nullopt until `history_min` is known.
+    /// Returns the slope; std::nullopt until `history_min` minutes are known.
     [[nodiscard]] const std::optional<Slope>& slope() const noexcept { return slope_; }
 
 private:
     struct Minute {
         UtcTime time;
-        double mgal = 0.0;  ///< Above zero_mgal_.
+        double mgal = 0.0;  ///< Mean, relative to zero_mgal_.
     };
 
     void close_minute();

@@ -10,7 +10,7 @@ namespace a351::daemon {
 namespace {
 
 constexpr int kPerMinute = 30;
-constexpr int kLeastMinutes = 3;  ///< Fewer have no scatter to speak of.
+constexpr int kLeastMinutes = 3;  ///< Least number of minutes for an estimate of their scatter.
 
 }  // namespace
 
@@ -55,7 +55,7 @@ RunningReading RunningValue::reading(MilliGal target, VerdictState state) const 
     const auto variance = minute_variance();
     if (!variance) return reading;
 
-    const double scatter = *variance * kSecondsPerMinute;  // by u
+    const double scatter = *variance * kSecondsPerMinute;  // Divided by u below.
     const double cycle = options_.cycle_mgal / (2.0 * std::numbers::sqrt2);
     const double bend_s = options_.cycle_s / std::numbers::pi;
     const double share = std::min(1.0, bend_s / reading.used_s);

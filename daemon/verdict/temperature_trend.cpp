@@ -9,9 +9,9 @@ namespace a351::daemon {
 namespace {
 
 constexpr double kMeanSeconds = OvenFilter::kStepSeconds;
-constexpr double kLongestGapSeconds = 300.0;  ///< A third of a cycle: it can be continued.
-constexpr double kVarianceShare = 0.05;       ///< Of a new variance: an average over some 20 means.
-constexpr double kLeastErrorDegc = 3e-4;      ///< What the sensor's noise leaves in a mean.
+constexpr double kLongestGapSeconds = 300.0;  ///< Longest gap to fill: a third of a cycle.
+constexpr double kVarianceShare = 0.05;   ///< Weight of a new variance: averages about 20 means.
+constexpr double kLeastErrorDegc = 3e-4;  ///< Least error of a mean: the sensor's noise.
 
 }  // namespace
 

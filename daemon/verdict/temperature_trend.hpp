@@ -10,23 +10,25 @@
 
 namespace a351::daemon {
 
-/// The series of temperature as means of 20 s, each with the error that its own scatter gives it,
-/// through the oven's filter.  A gap of up to 5 min is bridged by what the filter expects.
+/// Passes the temperature as means of 20 s, each with an error from its own scatter, through the
+/// oven's filter.  A gap of up to 5 min is filled with the values that the filter expects.
 class TemperatureTrend {
 public:
     explicit TemperatureTrend(const VerdictOptions& options);
 
-    /// @param temperature  NaN: missing.  Of rising instants; anything else starts anew.
+    /// Takes a value.  Times must increase; otherwise the trend starts again.
+    /// @param temperature  NaN if missing.
     void take(UtcTime time, DegC temperature);
 
-    /// A hand is at the box: its lid may be open from now on.
+    /// Notes that the box is being handled: its lid may be open from now on.
     void touch() { filter_.touch(); }
 
-    /// @param warm_up_mgal  what is left of the warm-up now.
-    /// @return              std::nullopt until `history_min` is known.
+    /// Returns the outlook of the reading.
+    /// @param warm_up_mgal  remaining effect of the warm-up now.
+    /// @return              std::nullopt until `history_min` minutes are known.
     [[nodiscard]] std::optional<Outlook> outlook(double warm_up_mgal) const;
 
-    [[nodiscard]] double slope_degc_per_h() const noexcept;  ///< Beneath the cycle.
+    [[nodiscard]] double slope_degc_per_h() const noexcept;  ///< Slope without the oven's cycle.
     [[nodiscard]] double known_min() const noexcept;
 
 private:
@@ -36,13 +38,13 @@ private:
     VerdictOptions options_;
     OvenFilter filter_;
     ReadingOutlook reading_;
-    int means_ = 0;  ///< Seen or bridged without a break.
-    UtcTime begun_;  ///< Of the mean that is gathered.
-    UtcTime last_;   ///< Value.
+    int means_ = 0;  ///< Means observed or filled without a break.
+    UtcTime begun_;  ///< Begin of the mean in progress.
+    UtcTime last_;   ///< Time of the last value.
     double last_degc_ = 0.0;
-    double sum_degc_ = 0.0, squares_degc2_ = 0.0;  ///< Squares of the steps from value to value.
+    double sum_degc_ = 0.0, squares_degc2_ = 0.0;  ///< Squares of the steps between values.
     int count_ = 0;
-    double variance_degc2_ = 0.0;  ///< Of a value.
+    double variance_degc2_ = 0.0;  ///< Variance of one value.
 };
 
 }  // namespace a351::daemon

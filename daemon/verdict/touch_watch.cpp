@@ -10,11 +10,11 @@
 namespace a351::daemon {
 namespace {
 
-constexpr std::size_t kMinute = 30;  ///< Samples.
-constexpr std::size_t kHour = 60;    ///< Minutes.
-constexpr std::size_t kUsualMinutes = 10;
-constexpr std::size_t kUsualShakes = 300;     ///< Samples: ten minutes.
-constexpr double kLongestTailSeconds = 30.0;  ///< Of a knock: after that something else shakes.
+constexpr std::size_t kMinute = 30;           ///< Samples in a minute.
+constexpr std::size_t kHour = 60;             ///< Minutes in an hour.
+constexpr std::size_t kUsualMinutes = 10;     ///< Least number of minutes for the usual noise.
+constexpr std::size_t kUsualShakes = 300;     ///< Samples for the usual shaking: ten minutes.
+constexpr double kLongestTailSeconds = 30.0;  ///< Longest end of a knock.
 
 double rms_about_mean(const std::deque<double>& values) {
     double mean = 0.0, square = 0.0;
@@ -44,7 +44,7 @@ double TouchWatch::usual_shake_mgal() const {
     return corrector::median({shakes_mgal_.begin(), shakes_mgal_.end()});
 }
 
-/// A knock begins above its threshold and ends where the shaking is back at its usual level.
+/// Follows knocks: begin above the threshold, end when shaking is at its usual level again.
 void TouchWatch::follow_shake(const LiveSample& sample) {
     const double shake_mgal = sample.shake.value();
     if (!std::isfinite(shake_mgal)) return;
@@ -67,7 +67,7 @@ void TouchWatch::follow_shake(const LiveSample& sample) {
     }
 }
 
-/// The axes of a minute ago against those of now.
+/// Compares the axes of a minute ago with those of now.
 void TouchWatch::follow_tilt(const LiveSample& sample) {
     tilts_mgal_.push_back({sample.axes[0].value(), sample.axes[1].value()});
     if (tilts_mgal_.size() <= kMinute) return;

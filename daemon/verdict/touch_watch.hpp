@@ -9,25 +9,27 @@
 
 namespace a351::daemon {
 
-/// Knocks, hands, and a box that was brought to another place; and how noisy the series is.
+/// Detects knocks, handling of the box and its move to another place; measures the noise.
 class TouchWatch {
 public:
     explicit TouchWatch(const VerdictOptions& options);
 
     void take(const LiveSample& sample);
 
-    /// Nothing of the last knock reaches into the sample's values.
+    /// Returns true if the last knock does not reach the sample's values through the filters.
     [[nodiscard]] bool is_clean(const LiveSample& sample) const noexcept;
 
-    /// End of the last knock; of the last that was a hand at the box.
+    /// Returns the end of the last knock, and of the last handling of the box.
     [[nodiscard]] std::optional<UtcTime> last_knock() const noexcept { return last_knock_; }
     [[nodiscard]] std::optional<UtcTime> last_handled() const noexcept { return last_handled_; }
 
-    /// Last shaking above its usual level, the median of ten minutes, knock or not.
+    /// Returns the last time at which shaking exceeded its usual level (the median of ten minutes),
+    /// by a knock or otherwise.
     [[nodiscard]] std::optional<UtcTime> last_shaking() const noexcept { return last_shaking_; }
 
-    /// Rms of the last minute of the norm about its mean, with its ratio to the usual level: the
-    /// median of the minutes of the last hour.  1 until ten of them are known.
+    /// Returns the rms of the norm about its mean in the last minute, and its ratio to the usual
+    /// level (the median of the minutes of the last hour; the ratio is 1 until ten minutes are
+    /// known).
     [[nodiscard]] double noise_mgal() const noexcept { return noise_mgal_; }
     [[nodiscard]] double noise_ratio() const noexcept;
 
@@ -39,7 +41,7 @@ private:
 
     VerdictOptions options_;
     std::optional<UtcTime> knock_begun_;
-    std::optional<UtcTime> last_shaken_;  ///< As last_knock_, but for another tilt.
+    std::optional<UtcTime> last_shaken_;  ///< Like last_knock_, but not set by a change of tilt.
     std::optional<UtcTime> last_knock_, last_handled_, last_shaking_;
     std::deque<double> shakes_mgal_;
     std::deque<std::array<double, 2>> tilts_mgal_;  ///< Horizontal axes.

@@ -11,7 +11,7 @@ namespace a351::daemon {
 namespace {
 
 constexpr double kAheadHours = 600.0 / kSecondsPerHour;
-constexpr double kWatchedHours = 1.0;  ///< A box that was switched on has warmed by then.
+constexpr double kWatchedHours = 1.0;  ///< Time in which a box that was switched on warms up.
 
 }  // namespace
 
@@ -34,8 +34,10 @@ std::string_view to_text(VerdictState state) noexcept {
 std::string Reason::to_text() const {
     char with_error[32] = "", text[160];
     if (error > 0.0) std::snprintf(with_error, sizeof with_error, " +- %.2g", error);
-    std::snprintf(text, sizeof text, "%s %.3g%s%s%s, %s %.3g", quantity, value, with_error,
-                  *unit ? " " : "", unit, is_least ? "at least" : "limit", limit);
+    const char* const gap = *unit ? " " : "";
+    std::snprintf(text, sizeof text, "%s %.3g%s%s%s%s%s (%s %.3g%s%s)", quantity, value, with_error,
+                  gap, unit, *ending ? " " : "", ending, is_least ? "needs" : "limit", limit, gap,
+                  unit);
     return text;
 }
 
@@ -66,7 +68,8 @@ const Verdict& VerdictJudge::take(const LiveSample& sample) {
     return at(sample.seen_at);
 }
 
-/// A box that is cold when it is first seen, or warms by itself, has just been switched on.
+/// Detects power-on: a box that is cold at the first sample, or warms by itself, has just been
+/// switched on.
 void VerdictJudge::follow_power(UtcTime seen_at, double degc) {
     if (!first_seen_) {
         first_seen_ = seen_at;
@@ -86,27 +89,30 @@ const Verdict& VerdictJudge::at(UtcTime now) {
 
 void VerdictJudge::judge(UtcTime now) {
     std::vector<Reason> reasons;
-    const auto most = [&](const char* quantity, double value, const char* unit, double limit) {
-        reasons.push_back({quantity, value, unit, limit, false, value <= limit});
+    const auto most = [&](const char* quantity, double value, const char* unit, double limit,
+                          const char* ending = "") {
+        reasons.push_back({quantity, value, unit, ending, limit, false, value <= limit});
         return reasons.back().is_met;
     };
-    const auto least = [&](const char* quantity, double value, const char* unit, double limit) {
-        reasons.push_back({quantity, value, unit, limit, true, value >= limit});
+    const auto least = [&](const char* quantity, double value, const char* unit, double limit,
+                           const char* ending = "") {
+        reasons.push_back({quantity, value, unit, ending, limit, true, value >= limit});
         return reasons.back().is_met;
     };
     if (!last_good_) {
-        least("values so far (the first takes 20 s)", 0.0, "", 1.0);
+        least("values so far (the first takes 20 s):", 0.0, "", 1.0);
         return decide(VerdictState::no_data, now, std::move(reasons));
     }
-    if (!most("last good sample", seconds_between(*last_good_, now), "s ago", options_.gap_s) ||
-        !most("temperature the same for", seconds_between(*stuck_since_, now), "s",
+    if (!most("last good sample", seconds_between(*last_good_, now), "s", options_.gap_s, "ago") ||
+        !most("temperature unchanged for", seconds_between(*stuck_since_, now), "s",
               options_.stuck_s)) {
         return decide(VerdictState::no_data, now, std::move(reasons));
     }
     reasons.clear();
 
     const double off_degc = std::abs(last_degc_ - options_.operating_degc);
-    bool is_warm = most("temperature off the set point", off_degc, "degC", options_.warm_up_degc);
+    bool is_warm =
+        most("temperature differs from the set point by", off_degc, "degC", options_.warm_up_degc);
 
     double on_h = options_.warm_up_h, warm_up_mgal = 0.0;
     if (switched_on_) {
@@ -117,8 +123,9 @@ void VerdictJudge::judge(UtcTime now) {
     bool is_settled = false;
     if (const auto outlook = trend_.outlook(warm_up_mgal)) {
         const double change = std::abs(outlook->change_mgal), error = outlook->error_mgal;
-        reasons.push_back({"reading changes in 10 min by", change, "mGal", options_.change_mgal,
-                           false, change + sure * error <= options_.change_mgal, error});
+        reasons.push_back({"reading will change in 10 min by", change, "mGal", "",
+                           options_.change_mgal, false,
+                           change + sure * error <= options_.change_mgal, error});
         is_settled = reasons.back().is_met;
         is_settled &= most("temperature slope", std::abs(trend_.slope_degc_per_h()), "degC/h",
                            options_.slope_degc_per_h);
@@ -128,29 +135,29 @@ void VerdictJudge::judge(UtcTime now) {
     if (const auto& slope = slope_.slope()) {
         const double value = std::abs(slope->mgal_per_h), error = slope->error_mgal_per_h;
         const double limit = options_.change_mgal / kAheadHours;
-        reasons.push_back({"acceleration slope", value, "mGal/h", limit, false,
+        reasons.push_back({"acceleration slope", value, "mGal/h", "", limit, false,
                            value - sure * error <= limit, error});
         is_settled &= reasons.back().is_met;
     }
     if (!is_settled && on_h < options_.warm_up_h) {
-        is_warm = least("since power-on", on_h, "h", options_.warm_up_h);
+        is_warm = least("switched on", on_h, "h", options_.warm_up_h, "ago");
     }
 
     const auto thermal_count = static_cast<std::ptrdiff_t>(reasons.size());
     bool is_quiet = true;
     if (const auto knock = touches_.last_knock()) {
-        is_quiet &=
-            least("since the last knock", seconds_between(*knock, now), "s", options_.quiet_s);
+        is_quiet &= least("last knock", seconds_between(*knock, now), "s", options_.quiet_s, "ago");
     }
     if (const auto handled = touches_.last_handled()) {
         is_quiet &=
-            least("since a hand at the box", seconds_between(*handled, now), "s", options_.watch_s);
+            least("box last touched", seconds_between(*handled, now), "s", options_.watch_s, "ago");
     }
     if (const auto shaking = touches_.last_shaking()) {
         is_quiet &=
-            least("since the last shaking", seconds_between(*shaking, now), "s", options_.shake_s);
+            least("last shaking", seconds_between(*shaking, now), "s", options_.shake_s, "ago");
     }
-    is_quiet &= most("noise to its usual level", touches_.noise_ratio(), "", options_.noise_factor);
+    is_quiet &=
+        most("noise", touches_.noise_ratio(), "", options_.noise_factor, "x its usual level");
 
     if (is_settled && is_warm) {
         if (!steady_since_) steady_since_ = now;
@@ -159,7 +166,7 @@ void VerdictJudge::judge(UtcTime now) {
     }
     is_steady_ = steady_since_ && seconds_between(*steady_since_, now) >= options_.hold_s;
     if (!is_warm) return decide(VerdictState::warming_up, now, std::move(reasons));
-    if (!is_quiet) {  // What disturbs comes first.
+    if (!is_quiet) {  // The disturbances come first.
         std::rotate(reasons.begin(), reasons.begin() + thermal_count, reasons.end());
         return decide(VerdictState::disturbed, now, std::move(reasons));
     }

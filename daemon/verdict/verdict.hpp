@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What an operator who stands at a benchmark is told about the signal.  No threads, clocks or I/O.
+/// The verdict on the signal, for an operator at a benchmark.  No threads, clocks or I/O.
 
 #include <optional>
 #include <string>
@@ -17,51 +17,54 @@ namespace a351::daemon {
 
 enum class VerdictState { no_data, warming_up, disturbed, settling, stable };
 
-[[nodiscard]] std::string_view to_text(
-    VerdictState state) noexcept;  ///< "warming up" and the like.
+/// Returns "warming up" and the like.
+[[nodiscard]] std::string_view to_text(VerdictState state) noexcept;
 
-/// One thing looked at.
+/// One check of the verdict.
 struct Reason {
     const char* quantity = "";
     double value = 0.0;
     const char* unit = "";
+    const char* ending = "";  ///< Words after value and unit, for example "ago".
     double limit = 0.0;
-    bool is_least = false;  ///< The value must reach the limit; otherwise stay below it.
+    bool is_least = false;  ///< True: the value must reach the limit; false: must not exceed it.
     bool is_met = false;
-    double error = 0.0;  ///< Standard error of the value, where it has one: then the claim is sure.
+    double error = 0.0;  ///< Standard error of the value if it has one; included in the check.
 
-    /// "temperature slope 0.31 degC/h, limit 0.25", "acceleration slope 2.1 +- 1.4 mGal/h, limit 12"
+    /// Returns "temperature slope 0.31 degC/h (limit 0.25 degC/h)",
+    /// "last knock 12 s ago (needs 72 s)" and the like.
     [[nodiscard]] std::string to_text() const;
 };
 
 struct Verdict {
     VerdictState state = VerdictState::no_data;
     UtcTime since;                ///< Begin of the state.
-    std::vector<Reason> reasons;  ///< What is not met first.
+    std::vector<Reason> reasons;  ///< Checks; those not met come first.
 };
 
 /// Judges the live series.  From the worst to the best:
 ///
-///     no data      no sample for gap_s; one that is not finite; a temperature that is stuck
-///     warming up   farther than warm_up_degc from the set point; or not yet settled and power-on was
-///                  less than warm_up_h ago
-///     disturbed    a knock within quiet_s, a hand at the box within watch_s, shaking within shake_s,
-///                  noise above usual
-///     settling     temperature not known long enough; its slope above the limit; the change of the
-///                  reading that it announces not surely below; the slope of the reading surely above
+///     no data      no finite sample for gap_s, or a temperature that does not change
+///     warming up   farther than warm_up_degc from the set point; or not settled yet and on for
+///                  less than warm_up_h
+///     disturbed    a knock within quiet_s, a touch within watch_s, shaking within shake_s, or
+///                  noise above its usual level
+///     settling     temperature not known for history_min; its slope above the limit; expected
+///                  change of the reading not surely below the limit; or the slope of the
+///                  reading surely above it
 ///     stable       none of these for hold_s
 ///
-/// Surely: by `sure` standard errors until it is settled, by `sure_stay` from then on until a hand is
-/// at the box.  The first sample passes for power-on when the box is then colder than warm_up_degc
-/// below its set point, or warms by half of that within an hour.
+/// "Surely" means by `sure` standard errors until the box has settled, then by `sure_stay` until
+/// the box is touched.  The first sample counts as power-on if the box is then more than
+/// warm_up_degc below its set point, or warms by half of that within an hour.
 class VerdictJudge {
 public:
     explicit VerdictJudge(const VerdictOptions& options = {});
 
-    /// The next value of the series.
+    /// Takes the next value of the series.
     const Verdict& take(const LiveSample& sample);
 
-    /// Time goes by, with or without samples.
+    /// Judges at this time, with or without new samples.
     const Verdict& at(UtcTime now);
 
     [[nodiscard]] const Verdict& verdict() const noexcept { return verdict_; }
@@ -79,9 +82,9 @@ private:
     std::optional<UtcTime> first_seen_;
     double first_degc_ = 0.0;
     std::optional<UtcTime> last_good_;    ///< Last finite sample seen.
-    std::optional<UtcTime> stuck_since_;  ///< The temperature has its value from then on.
+    std::optional<UtcTime> stuck_since_;  ///< Time since which the temperature has not changed.
     double last_degc_ = 0.0;
-    std::optional<UtcTime> steady_since_;  ///< Settled and warm, shaken or not.
+    std::optional<UtcTime> steady_since_;  ///< Settled and warm since then, shaken or not.
     bool is_steady_ = false;
     bool has_judged_ = false;
     Verdict verdict_;

@@ -41,7 +41,7 @@ public:
     }
 
 private:
-    /// Whether a record continues the last segment: at the same rate, within half a sample.
+    /// Returns true if a record continues the last segment: same rate, start within half a sample.
     [[nodiscard]] bool joins(UtcTime start, double rate_hz) const {
         if (data_.segments.empty() || data_.segments.back().rate_hz != rate_hz) return false;
         return std::chrono::abs(start - expected_) <= from_seconds(0.5 / rate_hz);
@@ -65,7 +65,7 @@ UtcTime Segment::time_of(std::size_t i) const {
 
 std::string to_text(const ArchiveDamage& damage) {
     return damage.file.filename().string() + ": offset " + std::to_string(damage.offset) + ": " +
-           std::to_string(damage.byte_count) + " bytes are no record";
+           std::to_string(damage.byte_count) + " bytes are not a record";
 }
 
 ChannelData read_channel(const fs::path& archive, const StationCodes& codes,
@@ -93,7 +93,7 @@ ChannelData read_channel(const fs::path& archive, const StationCodes& codes,
                 collector.take(*record);
                 at += kRecordSize;
             } else {
-                // Stray bytes may have shifted all that follows, so every offset is tried.
+                // Stray bytes may have shifted all later records, so every offset is tried.
                 ++damaged;
                 ++at;
             }

@@ -45,7 +45,7 @@ ArchiveWriter::ArchiveWriter(FileLayer& files, std::filesystem::path archive, St
       codes_(std::move(codes)),
       sds_(std::make_unique<SdsWriter>(files_, archive_, codes_)) {}
 
-ArchiveWriter::Held ArchiveWriter::describe(const DecodedRecord& record) {
+ArchiveWriter::ArchivedRecord ArchiveWriter::describe(const DecodedRecord& record) {
     const std::string_view bytes(reinterpret_cast<const char*>(record.samples.data()),
                                  record.samples.size() * sizeof(std::int32_t));
     return {record.samples.size(), std::hash<std::string_view>()(bytes),
@@ -62,7 +62,7 @@ void ArchiveWriter::end_replay() {
     }
 }
 
-/// With what the archive holds of the day of `start`, if it was not read before.
+/// Returns a channel; in a replay it knows the records of the day of `start` in the archive.
 ArchiveWriter::Channel& ArchiveWriter::replayed(const std::string& name, UtcTime start) const {
     Channel& channel = channels_[name];
     const auto day_file = sds_file(archive_, codes_, name, start);
@@ -94,8 +94,8 @@ void ArchiveWriter::reopen() {
     for (auto& [name, channel] : channels_) channel.sequence.reset();
 }
 
-std::optional<std::size_t> ArchiveWriter::samples_held(const std::string& name,
-                                                       UtcTime start) const {
+std::optional<std::size_t> ArchiveWriter::samples_in_archive(const std::string& name,
+                                                             UtcTime start) const {
     if (!is_replaying_) return std::nullopt;
     const Channel& channel = replayed(name, start);
     const auto held = channel.held.find(start);
@@ -111,7 +111,7 @@ ArchiveWriter::Found ArchiveWriter::find(const std::string& name, const PackedRe
         channel.held.clear();
         return Found::nothing;
     }
-    const Held made = describe(*decode_record(record.bytes));
+    const ArchivedRecord made = describe(*decode_record(record.bytes));
     const auto [begin, end] = channel.held.equal_range(record.start);
     for (auto held = begin; held != end; ++held) {
         if (held->second.sample_count != made.sample_count ||
@@ -149,7 +149,7 @@ void ArchiveWriter::record(const std::string& name, const PackedRecord& record,
     }
     Channel& channel = channels_[name];
     if (found == Found::same) {
-        ++records_passed_over_;
+        ++records_skipped_;
     } else {
         if (!channel.sequence) channel.sequence = newest_sequence(name);
         const int sequence = *channel.sequence % kLargestSequence + 1;

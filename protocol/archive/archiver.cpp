@@ -21,14 +21,14 @@ namespace {
 using wire::Axis;
 using Kind = timing::Placement::Kind;
 
-// The counter wraps every 16.4 s: a loss up to these bounds is known from it alone.
+// The counter wraps every 16.4 s: up to these limits it alone determines the length of a loss.
 constexpr std::uint64_t kContiguousFrames = 400;
 constexpr Nanoseconds kContiguousSilence = std::chrono::seconds(10);
 
-// All axes read so while rate and filter do not fit (M-A352AD10 data sheet, FLAG).
+// Value of all axes while rate and filter do not match (M-A352AD10 data sheet, FLAG).
 constexpr std::int32_t kNoData = 0x64000000;
 
-// XALARM_ERR; those of Y and Z follow below it.
+// Bit XALARM_ERR; the alarm bits of Y and Z are the next lower ones.
 constexpr unsigned kFlagAlarmX = 0x0010;
 
 bool is_data(const wire::BurstValues& values) {
@@ -123,7 +123,7 @@ public:
         slow_.close(ends_series);
     }
 
-    /// Ends the session: bytes that wait for more will not become a frame.
+    /// Ends the session: pending bytes will not become a frame any more.
     void end() {
         close_records(true);
         counters_.bytes_skipped += decoder_.pending_bytes();
@@ -135,7 +135,7 @@ public:
 private:
     struct Channel {
         ChannelPacker packer;
-        std::optional<Axis> axis;  // temperature without
+        std::optional<Axis> axis;  ///< Absent for the temperature.
     };
 
     void adopt(const JournalHeader& header) {
@@ -166,7 +166,7 @@ private:
         return {clock_, record_header_, errors_, slow_, counters_};
     }
 
-    /// From the instant of the newest sample.
+    /// Returns the time from the instant of the newest sample to `raw`.
     [[nodiscard]] Nanoseconds since_last_sample(RawTime raw) const {
         return clock_options(header_).fixed_delay + (clock_.awake(raw) - last_arrival_);
     }
@@ -223,7 +223,7 @@ private:
                 (!last_index_ || arrival - last_arrival_ < kContiguousSilence);
             return index_.place(values.count, is_contiguous, arrival);
         }
-        // Without a counter, what was skipped is all that tells of a loss.
+        // Without a counter, only the skipped bytes show a loss.
         const std::uint64_t frame_size = layout_.frame_size();
         const std::uint64_t lost =
             last_index_ ? (skipped_since_frame_ + frame_size / 2) / frame_size : 0;
@@ -231,7 +231,7 @@ private:
                 next_index() + static_cast<std::int64_t>(lost), 0};
     }
 
-    // The device restarted in mid-stream.
+    // Begins again after the device restarted in mid-stream.
     void restart() {
         close_records(true);
         index_ = timing::SampleIndex(count_step_, Hertz(header_.output_rate_hz));
@@ -294,7 +294,7 @@ private:
     std::vector<Channel> channels_;
     IndexMarks errors_;
     SlowChannels slow_;
-    std::uint64_t stream_offset_ = 0;  // bytes the decoder has reported on
+    std::uint64_t stream_offset_ = 0;  ///< Bytes covered by events of the decoder.
     std::uint64_t skipped_since_frame_ = 0;
     std::optional<std::int64_t> last_index_;
     RawTime last_arrival_;
@@ -312,7 +312,7 @@ void Archiver::take(const JournalChunk& chunk) {
             return;
         }
         if (session_) session_->end();
-        session_.reset();  // Bytes behind a header that is refused belong to nothing.
+        session_.reset();  // Bytes after a refused header belong to no session.
         session_ = std::make_unique<Session>(*header, *gate_, counters_, retiming_);
     } else if (const auto* received = std::get_if<RxChunk>(&chunk)) {
         counters_.bytes += received->bytes.size();

@@ -9,20 +9,20 @@
 
 namespace a351::record {
 
-/// How long so many bytes take on a line of 8N1, ten bits each.  @param baud  > 0.
+/// Returns the time that `bytes` take on a serial line with 8N1, ten bits each.  @param baud  > 0.
 [[nodiscard]] inline Nanoseconds wire_time(std::uint64_t bytes, int baud) {
     constexpr std::int64_t kBitTimesPerByte_ns = 10 * std::int64_t{1'000'000'000};
     return Nanoseconds(static_cast<std::int64_t>(bytes) * kBitTimesPerByte_ns / baud);
 }
 
-/// Arrival of every byte that no event of the decoder covers yet.
+/// Arrival times of the bytes that no event of the decoder covers yet.
 class Arrivals {
 public:
     void add(const RxChunk& chunk) {
         for (const auto& read : chunk.reads) reads_.push_back({received_ + read.end, read.time});
         received_ += chunk.bytes.size();
     }
-    /// Of the byte before stream offset `end`; ends rise.
+    /// Returns the arrival of the byte before stream offset `end`; `end` rises from call to call.
     [[nodiscard]] RawTime of(std::uint64_t end, int baud) {
         while (reads_.size() > 1 && reads_.front().end < end) reads_.pop_front();
         const auto& read = reads_.front();

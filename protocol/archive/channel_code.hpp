@@ -5,15 +5,15 @@
 
 namespace a351::record {
 
-/// SEED channel code: band code of a broad-band sensor at this rate, then instrument and axis, as
-/// in BNZ at 50 Hz and HNZ at 100 Hz.  SEED reference manual 2.4, appendix A.
+/// Returns the SEED channel code: band code of a broad-band sensor at this rate, then instrument
+/// and axis; BNZ at 50 Hz, HNZ at 100 Hz.  SEED reference manual 2.4, appendix A.
 [[nodiscard]] inline std::string channel_code(int rate_hz, std::string_view instrument_and_axis) {
     const char band = rate_hz >= 1000 ? 'F' : rate_hz >= 250 ? 'C' : rate_hz >= 80 ? 'H' : 'B';
     return band + std::string(instrument_and_axis);
 }
 
-/// Codes of the derived channels; band code L is 1 Hz.  LCE and LCQ as Quanterra digitizers have
-/// them, so that network tools know them.
+/// Codes of the derived channels; band code L is 1 Hz.  LCE and LCQ are also used by Quanterra
+/// digitizers, so network tools know them.
 inline constexpr std::string_view kSensorTemperature = "LK1";  ///< 0.001 degC
 inline constexpr std::string_view kOvenTemperature = "LK2";    ///< Process value, 0.001 degC.
 inline constexpr std::string_view kOvenSetPoint = "LK3";       ///< 0.001 degC
@@ -21,6 +21,7 @@ inline constexpr std::string_view kOvenHeating = "LYH";        ///< 0.01 %
 inline constexpr std::string_view kClockError = "LCE";         ///< 1 us
 inline constexpr std::string_view kTimingQuality = "LCQ";      ///< 1 %
 
+/// Returns true for the code of a derived channel: band code L.
 [[nodiscard]] inline bool is_derived(std::string_view channel) { return channel.starts_with('L'); }
 
 }  // namespace a351::record

@@ -44,7 +44,7 @@ void ChannelPacker::close(const RecordContext& context, bool ends_series) {
     while (!samples_.empty()) pack_one(context, ends_series);
 }
 
-// A record lies within one UTC day, that of its day file.
+// Returns the number of samples before midnight: a record lies within the UTC day of its day file.
 std::size_t ChannelPacker::samples_before_midnight(const timing::SampleClock& clock,
                                                    UtcTime start) const {
     const UtcTime midnight = std::chrono::floor<std::chrono::days>(start) + std::chrono::days(1);
@@ -54,7 +54,7 @@ std::size_t ChannelPacker::samples_before_midnight(const timing::SampleClock& cl
     std::size_t low = 0;
     std::size_t high = samples_.size() - 1;
     if (is_before(high)) return samples_.size();
-    while (low < high) {  // on the last sample before midnight; the first is
+    while (low < high) {  // searches the last sample before midnight; the first sample is before it
         const std::size_t middle = high - (high - low) / 2;
         if (is_before(middle))
             low = middle;
@@ -72,12 +72,12 @@ void ChannelPacker::pack_one(const RecordContext& context, bool ends_series) {
     set_timing(header, time);
 
     std::size_t available = samples_before_midnight(context.clock, header.start);
-    if (const auto held = context.sink.samples_held(code_, header.start))
+    if (const auto held = context.sink.samples_in_archive(code_, header.start))
         available = std::min(available, *held);
     const auto samples = std::span<const std::int32_t>(samples_).first(available);
     PackedRecord packed = pack_record(header, samples);
 
-    // How much the record holds, and with it these flags, is known only when it is packed.
+    // The size of the record, and therefore these flags, are known only after packing.
     const std::int64_t end = first_ + static_cast<std::int64_t>(packed.sample_count);
     header.starts_series = !has_started_;
     header.ends_series = ends_series && packed.sample_count == samples_.size();

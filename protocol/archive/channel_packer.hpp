@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The samples of one channel that are not in a record yet, and where records end.
+/// Samples of one channel that are not in a record yet; decides where records end.
 
 #include <chrono>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace a351::record {
 
-/// Sample indices something was noted at; they come in rising order.
+/// List of sample indices at which something was noted; added in rising order.
 class IndexMarks {
 public:
     void add(std::int64_t index) {
@@ -27,30 +27,31 @@ private:
     std::deque<std::int64_t> indices_;
 };
 
-/// A record is closed when its oldest sample is this old, so that slow channels become visible.
+/// Age of the oldest sample at which a record is closed, so that slow channels become visible.
 inline constexpr std::chrono::seconds kMostRecordAge{60};
 
-/// What the records of all channels of a session share.
+/// Data shared by the records of all channels of a session.
 struct RecordContext {
     const timing::SampleClock& clock;
     const RecordHeader& header;  ///< Codes and rates.
-    const IndexMarks& errors;    ///< Sample that was due when bytes were given up.
+    const IndexMarks& errors;    ///< Samples that were due when bytes were discarded.
     ArchiveSink& sink;
     ArchiverCounters& counters;
 };
 
-/// What a record says of its time: clock locked, questionable, quality.
+/// Sets the fields of a record about its time: clock locked, time questionable, timing quality.
 void set_timing(RecordHeader& header, const timing::SampleTime& time);
 
+/// Packs the samples of one channel into records.
 class ChannelPacker {
 public:
     explicit ChannelPacker(std::string code);
 
-    /// Precondition: the channel is empty or `index` is the next one.
+    /// Adds a sample.  Precondition: the channel is empty or `index` is the next one.
     void add(const RecordContext& context, std::int64_t index, std::int32_t counts,
              bool is_clipped);
 
-    /// Packs all that is left.
+    /// Packs all remaining samples.
     void close(const RecordContext& context, bool ends_series);
 
     [[nodiscard]] const std::string& code() const noexcept { return code_; }
@@ -64,7 +65,7 @@ private:
 
     std::string code_;
     std::vector<std::int32_t> samples_;
-    std::int64_t first_ = 0;  // index of samples_.front()
+    std::int64_t first_ = 0;  ///< Index of samples_.front().
     IndexMarks clipped_;
     bool has_started_ = false;
 };

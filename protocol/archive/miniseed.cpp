@@ -47,7 +47,7 @@ void put_float(std::span<std::byte> bytes, std::size_t at, float value) {
 
 void discard_message(char*) {}
 
-/// libmseed keeps its log and last error in process-wide variables.
+/// Locks libmseed, which keeps its log and last error in process-wide variables.
 std::unique_lock<std::mutex> lock_libmseed() {
     static std::mutex mutex;
     std::unique_lock lock(mutex);
@@ -74,15 +74,16 @@ bool jumps(std::span<const std::int32_t> samples, std::size_t i) {
     return difference >= kSteim2Limit || difference <= -kSteim2Limit;
 }
 
-/// What the next record is to hold: samples and their coding.
+/// Samples of the next record, and their coding.
 struct Portion {
     std::size_t sample_count = 0;
     bool is_integer_coded = false;
 };
 
-/// Up to the first jump in Steim-2, for a record's first difference carries nothing.  A jump right
-/// behind the first sample would leave records of one sample: then all samples of a row that a jump
-/// follows go as integers.
+/// Chooses the samples up to the first jump, in Steim-2: the jump is then the first difference of
+/// the next record, which is not used.  A jump directly after the first sample would give records
+/// of one sample.  In this case all successive samples that are followed by a jump are coded as
+/// integers.
 Portion next_portion(std::span<const std::int32_t> samples) {
     const std::size_t limit = std::min(samples.size(), kMostSamplesPerRecord);
     std::size_t first_jump = 1;
@@ -121,7 +122,7 @@ void set_flags(fsdh_s& fixed, const RecordHeader& header) {
                                   (header.is_time_questionable ? kTimeTagQuestionable : 0));
 }
 
-/// Samples that fill more than one record are packed again with the next one.
+/// Keeps the first record only; further samples are packed again with the next record.
 void keep_first_record(char* bytes, int length, void* target) {
     auto& record = *static_cast<PackedRecord*>(target);
     if (record.sample_count > 0 || length != static_cast<int>(kRecordSize)) return;
@@ -156,26 +157,27 @@ bool is_blockette(std::span<const std::byte> bytes, std::size_t at, int type, st
     return get<std::uint16_t>(bytes, at) == type && get<std::uint16_t>(bytes, at + 2) == next;
 }
 
-/// A whole number of Hz, or minus the seconds from sample to sample.
+/// Returns true for a whole number of Hz, or for minus the seconds from sample to sample.
 bool is_rate(int factor, int multiplier) {
     return factor > 0 ? multiplier == 1 : factor < -1 && multiplier == -1;
 }
 
-/// Of a rate as is_rate() takes it.
+/// Returns the rate of the fixed header; is_rate() must be true for it.
 double nominal_rate_hz(std::span<const std::byte> bytes) {
     const double factor = get<std::int16_t>(bytes, kRateFactorAt);
     return factor > 0.0 ? factor : -1.0 / factor;
 }
 
-/// A declared rate corrects the nominal one by ppm: what is far from it is damage, and would put
-/// samples at times that no integer holds.
+/// Returns true if a declared rate is near the nominal one, which it corrects by some ppm.  Any
+/// other is damage, and could give times that overflow an integer.
 bool is_declared_rate(double rate_hz, double nominal_hz) {
     constexpr double kFarthest = 0.1;
     return std::abs(rate_hz / nominal_hz - 1.0) <= kFarthest;
 }
 
-/// Whether every field that fixes the record's shape is as pack_record() writes it.  libmseed
-/// follows offsets and counts without checking all of them, so damage has to end here.
+/// Returns true if every field that determines the shape of the record is as pack_record() writes
+/// it.  libmseed uses offsets and counts without checking all of them, so damage must be found
+/// here.
 bool is_layout_ours(std::span<const std::byte> bytes) {
     const std::size_t blockettes = get<std::uint8_t>(bytes, kBlocketteCountAt);
     if (blockettes != 2 && blockettes != 3) return false;
@@ -211,8 +213,8 @@ bool is_layout_ours(std::span<const std::byte> bytes) {
                               nominal_rate_hz(bytes))));
 }
 
-/// Steim coding carries the first and the last sample beside the differences.  libmseed only warns
-/// when the last one disagrees.
+/// Compares the samples with the first and the last one that Steim coding stores beside the
+/// differences.  libmseed only warns if the last one disagrees.
 bool do_steim_ends_agree(std::span<const std::byte> bytes, std::span<const std::int32_t> samples) {
     if (get<std::uint8_t>(bytes, kBlockette1000At + 4) != kCodingSteim2) return true;
     const std::size_t data_at = get<std::uint16_t>(bytes, kDataOffsetAt);
@@ -266,7 +268,7 @@ PackedRecord pack_record(const RecordHeader& header, std::span<const std::int32_
     record->samprate = header.nominal_rate.value();
     record->byteorder = 1;
     record->sampletype = 'i';
-    // libmseed appends 1000 behind all others unless it stands first already.
+    // libmseed appends 1000 after all others unless it is already the first.
     add_blockette(record.get(), blkt_1000_s{}, 1000);
     blkt_1001_s timing{};
     timing.timing_qual =
@@ -280,7 +282,7 @@ PackedRecord pack_record(const RecordHeader& header, std::span<const std::int32_
         portion.sample_count = std::min(portion.sample_count, (kRecordSize - data_at) / 4);
     }
     record->encoding = portion.is_integer_coded ? DE_INT32 : DE_STEIM2;
-    // libmseed reads the samples only, through a pointer that is not const.
+    // libmseed only reads the samples, but through a pointer that is not const.
     record->datasamples = const_cast<std::int32_t*>(samples.data());
     record->numsamples = static_cast<std::int64_t>(portion.sample_count);
 
@@ -293,7 +295,7 @@ PackedRecord pack_record(const RecordHeader& header, std::span<const std::int32_
         throw std::invalid_argument("pack_record: libmseed refuses a record of " + header.channel);
     }
     if (header.declared_rate_hz) {
-        // libmseed would fill both rates from one number; the fixed header stays nominal.
+        // libmseed sets both rates from one number; here the fixed header keeps the nominal rate.
         put_float(packed.bytes, kBlockette100At + 4, static_cast<float>(*header.declared_rate_hz));
     }
     return packed;

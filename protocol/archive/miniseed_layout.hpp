@@ -1,8 +1,8 @@
 #pragma once
 /// @file
-/// Where the fields of our miniSEED records lie; all big-endian.  FDSN, SEED reference manual 2.4,
-/// chapter 8 (fixed section of data header; blockettes 100, 1000, 1001).
-/// The same as a table for readers: protocol/archive/archive-format.md.
+/// Offsets of the fields in the miniSEED records of this archive; all fields are big-endian.  FDSN,
+/// SEED reference manual 2.4, chapter 8 (fixed section of data header; blockettes 100, 1000, 1001).
+/// A table for readers: protocol/archive/archive-format.md.
 
 #include <cstddef>
 #include <cstdint>

@@ -5,13 +5,14 @@
 namespace a351::record {
 namespace {
 
-// An arrival that a poll is timed by may be late by a pause of the host; a clock that goes back by
-// more was set.
+// Largest backward step of poll times that is not a set clock: a pause of the host may delay the
+// arrival from which a poll is timed.
 constexpr std::chrono::seconds kMostJitter{2};
 
-// Polls wander by milliseconds, some by the pauses of a busy host, and two in a row keep their
-// places in any phase.  At 1 s little more than the half: a poll that follows a failed one is to
-// begin a new row, not to stand on the second of that one.
+// Largest distance of a poll from the place of its sample.  Polls wander by milliseconds, some by
+// pauses of a busy host; with these limits two polls in a row keep their places in any phase.  At
+// an interval of 1 s the limit is little more than half: a poll after a failed one must begin a new
+// row and not take the second of the failed one.
 constexpr Nanoseconds kMostAside = std::chrono::seconds(1);
 constexpr Nanoseconds kMostAsideAtOneSecond = std::chrono::milliseconds(600);
 

@@ -10,17 +10,18 @@
 
 namespace a351::record {
 
-/// What the oven's controller answered.
+/// Answer of the oven's controller.
 struct OvenSample {
     UtcTime utc;
     oven::ControllerValues values;
-    std::int64_t index = 0;  ///< Of the newest sample of the sensor then.
+    std::int64_t index = 0;  ///< Newest sample of the sensor at that time.
 };
 
-/// LK2 process value, LK3 set point in 0.001 degC, LYH heating in 0.01 %.  Samples are `interval`
-/// apart; one that comes less than 1 s beside its place, or 0.6 s at an interval of 1 s, stands on
-/// it.  Of several answers for a place the first one counts; after a pause the next one begins a new
-/// row, on the nearest second.  A process value that its status makes unbelievable is missing.
+/// Makes the channels of the oven: LK2 process value, LK3 set point, both in 0.001 degC, and LYH
+/// heating in 0.01 %.  Samples are `interval` apart.  An answer is taken for a place if it comes
+/// less than 1 s before or after it (0.6 s at an interval of 1 s); of several answers the first one
+/// counts.  After a pause the next answer begins a new row, on the nearest second.  A process value
+/// is missing if the status reports an input error.
 class OvenChannels {
 public:
     explicit OvenChannels(std::chrono::seconds interval)

@@ -7,8 +7,8 @@
 namespace a351::record {
 namespace {
 
-/// Instant of the newest sample of a channel that survived whatever happened; std::nullopt when the
-/// mark does not speak of it: what stands there may come from sessions that are not replayed.
+/// Returns the time up to which a channel is certainly on disk; std::nullopt if the mark does not
+/// name the channel: its records may come from sessions that are not replayed.
 std::optional<UtcTime> synced_until(const Replay& replay, const std::string& channel) {
     if (!replay.mark) return UtcTime::min();
     for (const ChannelMark& mark : replay.mark->channels)
@@ -17,7 +17,7 @@ std::optional<UtcTime> synced_until(const Replay& replay, const std::string& cha
 }
 
 std::vector<Replay> plan_replays(const std::filesystem::path& journal) {
-    std::vector<Replay> replays;  // the newest first
+    std::vector<Replay> replays;  // newest first
     std::optional<MarkChunk> mark;
     bool has_reached_oldest = false;
     const auto segments = journal_segments(journal);
@@ -64,7 +64,7 @@ bool replay_journal(FileLayer& files, const std::filesystem::path& archive, cons
         }
     }
     report.records_added += writer.records_written();
-    report.records_confirmed += writer.records_passed_over();
+    report.records_confirmed += writer.records_skipped();
     report.records_conflicting += writer.replay_conflicts();
     return true;
 }

@@ -20,7 +20,7 @@ struct Discard final : ArchiveSink {
     void record(const std::string&, const PackedRecord&, std::int64_t) override {}
 };
 
-/// The archives of one root; a station's codes may change between sessions.
+/// Writes the archives of one data root; the codes of a station may change between sessions.
 class Archives final : public ArchiveSink {
 public:
     Archives(FileLayer& files, fs::path archive) : files_(files), archive_(std::move(archive)) {}
@@ -66,7 +66,7 @@ void write(const Segments& segments, Retiming& retiming, Archives& archives, Ret
     while (const auto chunk = chunks.next()) {
         if (const auto* header = std::get_if<JournalHeader>(&*chunk);
             header && header->codes != codes) {
-            archiver.close_records();  // under the codes they were taken with
+            archiver.close_records();  // under their own codes
             archives.begin(header->codes);
             codes = header->codes;
         }
@@ -98,12 +98,12 @@ RetimeReport retime(FileLayer& files, const fs::path& root, const fs::path& out_
     if (segments.empty())
         throw InputError(root.string() + ": no journal; allowed: the data root of a daemon");
     if (fs::exists(out))
-        throw InputError("--out " + out.string() + ": exists; allowed: a directory to be made");
+        throw InputError("--out " + out.string() + ": already exists; allowed: a new directory");
     fs::path partial = out;
     partial += ".partial";
     if (fs::exists(partial)) {
         throw InputError("--out " + out.string() + ": " + partial.string() +
-                         " is in the way, left by a run that was cut short");
+                         " was left by an interrupted run; remove it first");
     }
     RetimeReport report;
     report.segments = segments.size();

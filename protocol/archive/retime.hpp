@@ -17,13 +17,13 @@ struct RetimeReport {
     ArchiverCounters counters;
 };
 
-/// Writes the archive of a data root anew, with times from what was known at the end: the clock of
-/// a second from the arrivals 450 s before and after it, and the host's clock between the readings
-/// at which it was synchronised.  Samples, gaps and channels are those of the running daemon;
-/// records may end elsewhere.  Events keep their samples and get their new times; metadata are
-/// copied.  The journal stays where it is.
+/// Writes the archive of a data root again, with times computed afterwards: each second from the
+/// arrivals 450 s before and after it, and from the readings at which the host's clock was
+/// synchronised.  Samples, gaps and channels are those of the running daemon; records may end at
+/// other samples.  Events keep their samples and get the new times; metadata are copied.  The
+/// journal is not copied.
 ///
-/// All or nothing: written beside `out` and renamed at the end.
+/// The result is complete or absent: it is written beside `out` and renamed at the end.
 ///
 /// @throws InputError         no journal in `root`, or `out` exists.
 /// @throws std::system_error  a file cannot be read or written.

@@ -12,7 +12,8 @@ void Retiming::begin_run(const JournalHeader& header, timing::SampleClockOptions
         return;
     }
     if (next_run_ == runs_.size())
-        throw InputError("the journal grew while it was read; allowed: one that nobody writes");
+        throw InputError(
+            "the journal grew while it was read; allowed: a journal to which no daemon writes");
     Run& run = runs_[next_run_++];
     const timing::UtcHistory& history = histories_[run.boot_id];
     if (history.is_empty()) return;

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// Two passes of an archiver over a journal: the first one gathers what the second one's times are
-/// made of.
+/// Two passes of an archiver over a journal: the first one collects the data from which the times
+/// of the second one are computed.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,20 +15,23 @@
 
 namespace a351::record {
 
-/// Runs of the sensor, in order; their clock readings by boots of the host, which outlast runs.
+/// Collects the runs of the sensor in order, and clock readings per boot of the host; one boot may
+/// have several runs.
 class Retiming {
 public:
-    /// An index begins at 0.  In the second pass `clock` takes over the times of this run.
+    /// Begins a run, whose index starts at 0.  In the second pass `clock` gets the times of this
+    /// run.
     void begin_run(const JournalHeader& header, timing::SampleClockOptions options,
                    timing::SampleClock& clock);
     void observe_clock(const timing::ClockReading& reading);
     void observe(std::int64_t index, RawTime arrival);
 
-    /// The same chunks follow again, from the first.
+    /// Begins the second pass: the same chunks follow again, from the first one.
     void begin_second_pass();
 
-    /// After the second pass.  A session may have several runs: of their samples with this index,
-    /// the one nearest to `near`.  std::nullopt for a session that was not met.
+    /// Returns the new time of a sample; to be called after the second pass.  If a session has
+    /// several runs with this index, it is the time nearest to `near`.  std::nullopt for an unknown
+    /// session.
     [[nodiscard]] std::optional<UtcTime> time_of(const SessionId& session, std::int64_t index,
                                                  UtcTime near) const;
 
@@ -37,7 +40,7 @@ private:
         SessionId session;
         std::string boot_id;
         timing::Hindsight hindsight;
-        std::optional<timing::SampleClock> clock;  ///< Of the second pass.
+        std::optional<timing::SampleClock> clock;  ///< Clock of the second pass.
     };
     bool is_second_pass_ = false;
     std::map<std::string, timing::UtcHistory> histories_;

@@ -26,12 +26,12 @@ bool is_number(std::string_view text, std::size_t width) {
            std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// File name up to the year: `NET.STA.LOC.CHAN.D.`
+/// Returns the file name up to the year: `NET.STA.LOC.CHAN.D.`
 std::string name_stem(const StationCodes& codes, const std::string& channel) {
     return codes.network + "." + codes.station + "." + codes.location + "." + channel + ".D.";
 }
 
-/// Directories of the station, one per year, ascending.
+/// Returns the directories of the station, one per year, ascending.
 std::vector<fs::path> station_directories(const fs::path& archive, const StationCodes& codes) {
     std::vector<fs::path> directories;
     if (!fs::is_directory(archive)) return directories;
@@ -98,7 +98,8 @@ std::optional<fs::path> newest_day_file(const fs::path& archive, const StationCo
 
 namespace {
 
-/// Where the records end that can be kept: whole ones, as far as the end of the file ...
+/// Returns the end of the records that can be kept if the file was not cut by a power failure: the
+/// last whole record.
 std::uint64_t end_of_whole_records(const fs::path& day_file) {
     std::uint64_t whole = fs::file_size(day_file) / kRecordSize * kRecordSize;
     while (whole > 0 && !decode_record(read_bytes(day_file, whole - kRecordSize, kRecordSize))) {
@@ -107,7 +108,8 @@ std::uint64_t end_of_whole_records(const fs::path& day_file) {
     return whole;
 }
 
-/// ... or up to the first that a power cut spoilt, behind those that were synced.
+/// Returns the end of the records that can be kept after a power failure: the first damaged one
+/// after those that were synced.
 std::uint64_t end_of_good_records(const fs::path& day_file, UtcTime synced_until) {
     const auto bytes = read_bytes(day_file);
     std::uint64_t good = 0;
@@ -130,7 +132,7 @@ std::optional<TornTail> repair_tail(FileLayer& files, const fs::path& day_file,
     if (whole == size && size > 0) return std::nullopt;
     TornTail tail{day_file, whole, size - whole};
     if (tail.byte_count > 0) {
-        // A day may see several crashes; the offset keeps what each of them left.
+        // Several crashes may happen in a day; the offset in the name keeps their files apart.
         auto side = day_file;
         side += '.';
         side += std::to_string(whole);
@@ -155,10 +157,10 @@ void SdsWriter::append(const std::string& channel, const PackedRecord& record) {
     if (!open_.contains(channel)) {
         if (fs::exists(path)) repair_tail(files_, path);
         if (!fs::exists(path)) {
-            // Comes into being whole: readers fail on a day file that is empty.
+            // Created with its first record: readers fail on an empty day file.
             files_.create_directories(path.parent_path());
-            place_file(files_, path, record.bytes);
-            // All above it too: who made them may have been killed before their sync.
+            write_file_atomically(files_, path, record.bytes);
+            // All parents too: the program that made them may have been killed before their sync.
             for (auto directory = path.parent_path(); directory != archive_.parent_path();
                  directory = directory.parent_path())
                 new_entries_.insert(directory);
@@ -171,12 +173,12 @@ void SdsWriter::append(const std::string& channel, const PackedRecord& record) {
     try {
         open.file->append(record.bytes);
     } catch (...) {
-        close(channel);  // Its tail is looked at again before the next append.
+        close(channel);  // Its tail is checked again before the next append.
         throw;
     }
 }
 
-/// Syncs the file, since nobody will be able to later.
+/// Closes a file; syncs it before, because this is not possible later.
 void SdsWriter::close(const std::string& channel) {
     const auto node = open_.extract(channel);
     if (!node.mapped().is_dirty) return;
@@ -191,9 +193,9 @@ void SdsWriter::close(const std::string& channel) {
 void SdsWriter::sync() {
     if (may_have_lost_) {
         throw std::system_error(EIO, std::generic_category(),
-                                "sync " + archive_.string() + ": an earlier one failed");
+                                "sync " + archive_.string() + ": an earlier sync failed");
     }
-    may_have_lost_ = true;  // Unless all goes well.
+    may_have_lost_ = true;  // Until all syncs succeeded.
     for (const fs::path& directory : new_entries_) files_.sync_directory(directory);
     new_entries_.clear();
     for (auto& [channel, open] : open_) {

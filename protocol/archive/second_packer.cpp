@@ -31,8 +31,8 @@ void SecondPacker::add(const RecordContext& context, const SecondSample& sample)
 
 void SecondPacker::pass(const RecordContext& context, UtcTime now) {
     if (counts_.empty() || now - first_ < most_age_) return;
-    // A run that was shut down knew samples sooner than its replay does: they are yet to come.
-    if (context.sink.samples_held(code_, first_).value_or(0) > counts_.size()) return;
+    // A run that was shut down knew samples earlier than its replay does: they are still to come.
+    if (context.sink.samples_in_archive(code_, first_).value_or(0) > counts_.size()) return;
     close(context, false);
 }
 
@@ -48,7 +48,7 @@ void SecondPacker::pack_one(const RecordContext& context, bool ends_series) {
     header.start = first_;
     set_timing(header, *context.clock.time_of(first_index_));
     std::size_t available = counts_.size();
-    if (const auto held = context.sink.samples_held(code_, header.start))
+    if (const auto held = context.sink.samples_in_archive(code_, header.start))
         available = std::min(available, *held);
     header.starts_series = !has_started_;
     header.ends_series = ends_series && available == counts_.size();

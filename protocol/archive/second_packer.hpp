@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The samples of one slow channel that are not in a record yet, and where its records end.
+/// Samples of one slow channel that are not in a record yet; decides where its records end.
 
 #include <chrono>
 #include <cstdint>
@@ -11,16 +11,16 @@
 
 namespace a351::record {
 
-/// A sample of a derived channel stands on a whole UTC second.
+/// Sample of a derived channel, at a whole UTC second.
 struct SecondSample {
     std::chrono::sys_seconds second;
     std::int32_t counts = 0;
-    std::int64_t index = 0;  ///< Of the sensor's sample it was known with.
+    std::int64_t index = 0;  ///< Sample of the sensor with which it became known.
 };
 
-/// A record ends before a sample that is missing or goes back, at UTC midnight and when its first
-/// sample is old: 60 s, or 60 samples but not more than an hour.  The nominal rate is the true one:
-/// no blockette 100.
+/// Packs the samples of one slow channel.  A record ends before a missing sample or a backward
+/// step, at UTC midnight, and when its first sample is old: 60 s, or 60 samples but at most an
+/// hour.  The nominal rate is the true one, so there is no blockette 100.
 class SecondPacker {
 public:
     explicit SecondPacker(std::string_view code,
@@ -28,10 +28,10 @@ public:
 
     void add(const RecordContext& context, const SecondSample& sample);
 
-    /// Closes the record if it is old by now, and not shorter than the one the archive holds.
+    /// Closes the record if it is old at `now`, and not shorter than the one in the archive.
     void pass(const RecordContext& context, UtcTime now);
 
-    /// Packs all that is left.
+    /// Packs all remaining samples.
     void close(const RecordContext& context, bool ends_series);
 
 private:

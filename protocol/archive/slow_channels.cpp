@@ -12,7 +12,8 @@ namespace {
 
 using std::chrono::seconds;
 
-// Sensor's and host's clocks agree to 100 ppm, and published times are pulled by 200 ppm at most.
+// Share of a second's samples that surely lie within it: the clocks of sensor and host agree to
+// 100 ppm, and published times are pulled by 200 ppm at most.
 constexpr double kSurelyWithin = 0.999;
 
 bool fits(std::int64_t counts) {
@@ -81,7 +82,8 @@ void SlowChannels::take(const Waiting& sample) {
     second_->last_index = sample.index;
 }
 
-/// @param is_entered  the sample follows one of which the second is known.
+/// Finds the second of a sample; finishes the one before.
+/// @param is_entered  the second of the sample before is known.
 void SlowChannels::look(std::int64_t index, bool is_entered) {
     const UtcTime time = context_.clock.time_of(index)->utc;
     const auto begin = std::chrono::floor<seconds>(time);
@@ -147,12 +149,12 @@ void SlowChannels::record(const std::string& channel, const PackedRecord& record
     }
 }
 
-std::optional<std::size_t> SlowChannels::samples_held(const std::string& channel,
-                                                      UtcTime start) const {
-    return context_.sink.samples_held(channel, start);
+std::optional<std::size_t> SlowChannels::samples_in_archive(const std::string& channel,
+                                                            UtcTime start) const {
+    return context_.sink.samples_in_archive(channel, start);
 }
 
-/// As a reader takes it from the record.
+/// Returns the rate as a reader finds it in the record.
 double SlowChannels::header_rate_hz() const {
     const auto& declared = context_.header.declared_rate_hz;
     return declared ? static_cast<double>(static_cast<float>(*declared))

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// The derived channels: means and states at whole UTC seconds, from the samples and what
-/// is known of their times.  A pure function of the journal, as are the samples.
+/// The derived channels: means and states at whole UTC seconds, from the samples and their times.
+/// Like the samples they are a pure function of the journal.
 
 #include <chrono>
 #include <cstdint>
@@ -16,44 +16,48 @@
 
 namespace a351::record {
 
-/// Of one session.  Stands between the packers of the sampled channels and the archive, to see where
-/// their records begin.
+/// Makes the derived channels of one session.  It is placed between the packers of the sampled
+/// channels and the archive, so that it sees where their records begin.
 ///
 ///     LK1  mean of the sensor's temperature over [s, s + 1 s), in 0.001 degC
-///     LCQ  timing quality of the last sample of that second, as known when it was over
-///     LCE  time of a sample minus what start and rate of its record say, in us; the last sample at
-///          or before s, the records those of the first channel of the layout
+///     LCQ  timing quality of the last sample of that second, as known at its end
+///     LCE  time of a sample minus its time by start and rate of its record, in us; for the last
+///          sample at or before s and the records of the first channel of the layout
 ///     LK2, LK3, LYH  the oven's answers, at the oven's interval: OvenChannels
 ///
-/// LK1 and LCQ have a second when its samples were met from the one before to the one after, by the
-/// clock's fixed times: not the first and the last of a run, nor one in which the times jump.  So a
-/// second never depends on where a process or a record ended.  Samples missing within do not count.
+/// LK1 and LCQ have a value for a second if samples of the seconds before and after it were seen,
+/// by the clock's fixed times.  The first and the last second of a run and one in which the times
+/// jump have none.  So a second never depends on where a process or a record ended.  Missing
+/// samples are left out of the mean.
 class SlowChannels final : public ArchiveSink {
 public:
-    /// @param context  of the archive itself; what it refers to must outlive this.
+    /// @param context  context of the archive itself; the objects it refers to must outlive this.
     SlowChannels(const wire::DeviceProfile& profile, const RecordContext& context);
 
-    /// Indices begin at 0.  @param reference  channel whose records LCE is told of.
+    /// Begins a run; its indices begin at 0.  @param reference  channel whose records LCE refers
+    /// to.
     void begin_run(std::string reference, bool has_temperature);
 
-    /// From sample to sample of the oven's channels, from now on.
+    /// Sets the sample interval of the oven's channels from now on.
     void use_oven_interval(std::chrono::seconds interval);
 
+    /// Adds a sample of the sensor.
     void add(std::int64_t index, std::int32_t temperature_counts);
 
-    /// @param after  from the instant of sample `index`, the newest, to the poll.
+    /// Adds a poll of the oven.
+    /// @param after  time from the instant of sample `index`, the newest, to the poll.
     void add(std::int64_t index, Nanoseconds after, const OvenChunk& poll);
 
-    /// Closes records that are old by now.
+    /// Closes records that are old at `now`.
     void pass(UtcTime now);
 
-    /// Packs all that is known.
+    /// Packs all known samples.
     void close(bool ends_series);
 
     void record(const std::string& channel, const PackedRecord& record,
                 std::int64_t last_index) override;
-    [[nodiscard]] std::optional<std::size_t> samples_held(const std::string& channel,
-                                                          UtcTime start) const override;
+    [[nodiscard]] std::optional<std::size_t> samples_in_archive(const std::string& channel,
+                                                                UtcTime start) const override;
 
 private:
     struct Waiting {
@@ -65,10 +69,10 @@ private:
         Nanoseconds after{0};
         oven::ControllerValues values;
     };
-    /// The one that is running.
+    /// The second in progress.
     struct Second {
         std::chrono::sys_seconds begin;
-        bool is_whole = false;  ///< So far.
+        bool is_whole = false;  ///< True if it is complete up to now.
         std::int64_t temperature_sum = 0;
         std::int64_t sample_count = 0;
         std::int64_t last_index = 0;
@@ -85,7 +89,7 @@ private:
     RecordContext context_;
     std::string reference_;
     bool has_temperature_ = false;
-    // Until their times are fixed: 2 s of a run's data.
+    // Samples and polls wait until their times are fixed: for the first 2 s of a run's data.
     std::vector<Waiting> waiting_;
     std::vector<WaitingPoll> waiting_polls_;
     std::optional<Second> second_;

@@ -4,11 +4,12 @@
 
 namespace a351::record {
 
-/// Keeps records out of the archive whose times cannot be true: those of a host that started
-/// without a clock.  They stay in the journal, for a re-timing once a clock was known.
+/// Keeps records with impossible times out of the archive: those of a host that started without a
+/// clock.  Their data remain in the journal and can be re-timed if the host's clock was set later.
 class TimeGate final : public ArchiveSink {
 public:
-    /// Before the published survey with this sensor, of 2017; a host without a clock starts in 1970.
+    /// Earliest plausible record: before the published survey with this sensor, of 2017.  A host
+    /// without a clock starts in 1970.
     static constexpr UtcTime kEarliest =
         std::chrono::sys_days(std::chrono::year(2015) / std::chrono::January / 1);
 
@@ -23,9 +24,9 @@ public:
             ++counters_.records_withheld;
     }
     void sample(const Sample& sample) override { sink_.sample(sample); }
-    [[nodiscard]] std::optional<std::size_t> samples_held(const std::string& channel,
-                                                          UtcTime start) const override {
-        return sink_.samples_held(channel, start);
+    [[nodiscard]] std::optional<std::size_t> samples_in_archive(const std::string& channel,
+                                                                UtcTime start) const override {
+        return sink_.samples_in_archive(channel, start);
     }
 
 private:

@@ -11,14 +11,17 @@ namespace a351 {
 ///
 ///     simulated = utc + factor (host clock - host)
 ///
-/// Accuracy: the product is rounded to 1 ns and exact while factor x (host clock - host) < 104 days.
+/// Accuracy: the product is rounded to 1 ns; it is exact while factor x (host clock - host) is
+/// below 104 days.
 struct ClockScale {
     double factor = 1.0;  ///< Simulated seconds per second, > 0.
-    UtcTime utc;          ///< Simulated instant that belongs to `host`.
+    UtcTime utc;          ///< Simulated instant at the host time `host`.
     UtcTime host;         ///< Instant of the host clock.
 
+    /// Returns the simulated time at the host time `host_now`.
     [[nodiscard]] UtcTime simulated(UtcTime host_now) const;
-    [[nodiscard]] UtcTime host_at(UtcTime simulated_time) const;  ///< Inverse of simulated().
+    /// Returns the host time of a simulated instant: the inverse of simulated().
+    [[nodiscard]] UtcTime host_at(UtcTime simulated_time) const;
 };
 
 /// Reads `scaled:FACTOR@UTC[,HOST]`, the value of --clock; HOST defaults to `host_now`.

@@ -7,8 +7,8 @@
 
 namespace a351 {
 
-/// Bad input from outside (configuration, CSV, command line).  The message is one line that names
-/// file, line, key, value and what is allowed; `main` prints it and ends with status 2.
+/// Error in an input from outside (configuration, CSV, command line).  The message is one line that
+/// names file, line, key, value and what is allowed; `main` prints it and ends with status 2.
 class InputError : public std::runtime_error {
 public:
     /// @param message  may quote the input: each ASCII control character in it becomes a blank.
@@ -18,7 +18,9 @@ public:
 private:
     static std::string in_one_line(std::string text) {
         // A char is signed on amd64 and unsigned on arm64.
-        const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
+        const auto is_control = [](char c) {
+            return static_cast<unsigned char>(c) < ' ' || c == '\x7f';
+        };
         std::replace_if(text.begin(), text.end(), is_control, ' ');
         return text;
     }

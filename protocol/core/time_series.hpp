@@ -25,6 +25,7 @@ public:
     [[nodiscard]] std::size_t size() const noexcept { return values_.size(); }
     [[nodiscard]] const std::vector<double>& values() const noexcept { return values_; }
     [[nodiscard]] Unit operator[](std::size_t i) const { return Unit(values_[i]); }
+    /// Returns the time of sample i to 1 ns; i may be a fraction or lie outside the series.
     [[nodiscard]] UtcTime time_of(double i) const {
         return start_ + from_seconds(i / rate_.value());
     }

@@ -35,7 +35,7 @@ private:
 using MilliGal = Quantity<struct MilliGalUnit>;                ///< 1 mGal = 1e-5 m/s2.
 using StandardGravity = Quantity<struct StandardGravityUnit>;  ///< 1 g = 9.80665 m/s2 exactly.
 using DegC = Quantity<struct DegCUnit>;                        ///< Degrees Celsius.
-using Percent = Quantity<struct PercentUnit>;                  ///< Of full drive, full scale.
+using Percent = Quantity<struct PercentUnit>;                  ///< Share of full drive or scale.
 using Hertz = Quantity<struct HertzUnit>;                      ///< Events or samples per second.
 using Metres = Quantity<struct MetresUnit>;
 using Degrees = Quantity<struct DegreesUnit>;  ///< Angle; latitude north, longitude east.

@@ -7,7 +7,7 @@ namespace {
 
 using std::chrono::minutes;
 
-/// Reads fixed-width fields from the front of a text; the first failure sticks.
+/// Reads fixed-width fields from the front of a text; after the first failure failed() stays true.
 class FieldReader {
 public:
     explicit FieldReader(std::string_view text) : rest_(text) {}

@@ -25,24 +25,25 @@ struct RawClock {
 };
 using RawTime = RawClock::time_point;
 
-/// RFC 3339 `YYYY-MM-DDThh:mm:ss[.fraction](Z|+hh:mm|-hh:mm)`; a blank may stand for the T.
-/// Digits beyond the ninth decimal are dropped.  Second 60 is refused.
+/// Reads RFC 3339 `YYYY-MM-DDThh:mm:ss[.fraction](Z|+hh:mm|-hh:mm)`; a blank may replace the T.
+/// Digits beyond the ninth decimal are dropped.  Second 60 is refused.  Years: 1678 to 2261.
 /// @return std::nullopt unless the whole text is one valid instant within the range of UtcTime.
 [[nodiscard]] std::optional<UtcTime> parse_rfc3339(std::string_view text);
 
-/// As parse_rfc3339, but the zone may be missing and is then `zone` east of Greenwich.
+/// Reads an instant like parse_rfc3339; if the text has no zone, it is `zone` east of Greenwich.
 [[nodiscard]] std::optional<UtcTime> parse_rfc3339_in_zone(std::string_view text,
                                                            std::chrono::minutes zone);
 
-/// RFC 3339 in UTC with `decimals` (0-9) digits after the second, truncated toward the past.
+/// Returns RFC 3339 text in UTC with `decimals` (0-9) digits of the second, truncated to the past.
 [[nodiscard]] std::string to_rfc3339(UtcTime time, int decimals = 0);
 
-/// Seconds from `from` to `to`; exact to 1 ns up to 104 days.
+/// Returns the seconds from `from` to `to`; exact to 1 ns up to 104 days.
 [[nodiscard]] constexpr double seconds_between(UtcTime from, UtcTime to) noexcept {
     return std::chrono::duration<double>(to - from).count();
 }
 
-/// Nearest whole nanosecond to a length given in seconds; |seconds| < 9e9.
+/// Returns the nearest whole number of nanoseconds, halves away from zero.
+/// @param seconds  finite, magnitude below 9e9; not checked.
 [[nodiscard]] constexpr Nanoseconds from_seconds(double seconds) noexcept {
     const double nanoseconds = seconds * 1e9;
     return Nanoseconds(static_cast<std::int64_t>(nanoseconds + (nanoseconds < 0 ? -0.5 : 0.5)));

@@ -25,7 +25,7 @@ const std::string* text_at(const Json& json, const char* key) {
     return found == json.end() ? nullptr : found->get_ptr<const std::string*>();
 }
 
-/// "2026-03.jsonl"
+/// Returns the file name of a month, such as "2026-03.jsonl".
 std::string month_file(UtcTime time) { return to_rfc3339(time).substr(0, 7) + ".jsonl"; }
 
 bool is_month_file(const std::string& name) {
@@ -43,12 +43,12 @@ bool ends_without_newline(const fs::path& file) {
     return in.get() != '\n';
 }
 
-/// What was refused must not be found later.
+/// Removes a line that could not be synced, so that a refused event is not found later.
 void take_back(FileLayer& files, const fs::path& file, std::uint64_t size) {
     try {
         files.truncate(file, size);
     } catch (const std::system_error&) {
-        // The first trouble is the one to be told.
+        // The first error is the one to report.
     }
 }
 
@@ -98,7 +98,7 @@ void append_event(FileLayer& files, const fs::path& directory, const Event& even
     const auto path = directory / month_file(event.utc);
     const bool is_new = !fs::exists(path);
     if (is_new) files.create_directories(directory);
-    // A line torn by a crash must not swallow this one.
+    // The new line must not be joined to one torn by a crash.
     std::string line = ends_without_newline(path) ? "\n" : "";
     line += to_json(event);
     line += '\n';

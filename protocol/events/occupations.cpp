@@ -19,7 +19,7 @@ void remark(Occupation& occupation, const Event& event) {
     occupation.note += note;
 }
 
-/// Follows the events one by one.
+/// Applies the events one by one.
 class EventReplay {
 public:
     void take(const Event& event) {

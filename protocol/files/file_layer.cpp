@@ -27,7 +27,7 @@ public:
     }
     Descriptor(const Descriptor&) = delete;
     Descriptor& operator=(const Descriptor&) = delete;
-    // What was not synced is not promised, so a failing close() tells nothing new.
+    // Only synced data are guaranteed, so an error of close() adds no information.
     ~Descriptor() { ::close(fd_); }
 
     [[nodiscard]] int get() const noexcept { return fd_; }
@@ -59,8 +59,8 @@ public:
             if (written < 0 && errno == EINTR) continue;
             if (written < 0) {
                 const int error = errno;
-                // The front part may be on disk (full disk): take it back.  Where that fails too,
-                // readers meet a torn tail, which they must bear anyway.
+                // On a full disk the first part may have been written: remove it.  If that fails
+                // too, readers find a torn tail, which they must tolerate anyway.
                 if (::ftruncate(file_.get(), static_cast<off_t>(size_)) != 0) size_ += done;
                 fail("append to", path_, error);
             }
@@ -126,7 +126,7 @@ public:
         if (::fsync(opened.get()) != 0) fail("sync", file, errno);
         struct stat status {};
         if (::fstat(opened.get(), &status) != 0) fail("stat", file, errno);
-        // Where the system only pretends (zeros compressed away) there is no space to give back.
+        // A file system that compresses zeros away has reserved nothing.
         constexpr std::uint64_t kStatBlock = 512;  // stat(2), st_blocks.
         if (static_cast<std::uint64_t>(status.st_blocks) * kStatBlock < size) {
             fail("allocate", file, EOPNOTSUPP);
@@ -148,8 +148,8 @@ FileLayer& posix_files() {
     return files;
 }
 
-void place_file(FileLayer& files, const std::filesystem::path& file,
-                std::span<const std::byte> content) {
+void write_file_atomically(FileLayer& files, const std::filesystem::path& file,
+                           std::span<const std::byte> content) {
     auto temporary = file;
     temporary += ".tmp";
     if (std::filesystem::exists(temporary)) files.remove(temporary);  // Left by a crash.
@@ -161,7 +161,7 @@ void place_file(FileLayer& files, const std::filesystem::path& file,
 
 void replace_file(FileLayer& files, const std::filesystem::path& file,
                   std::span<const std::byte> content) {
-    place_file(files, file, content);
+    write_file_atomically(files, file, content);
     files.sync_directory(file.has_parent_path() ? file.parent_path() : ".");
 }
 

@@ -15,8 +15,8 @@ namespace {
 
 using timing::ClockReading;
 
-// CRC-32C: G. Castagnoli et al., IEEE Trans. Commun. 41(6), 883-892, 1993; reflected, inverted, as
-// in RFC 3720 appendix B.4, whose check values journal_codec_test.cpp repeats.
+// CRC-32C: G. Castagnoli et al., IEEE Trans. Commun. 41(6), 883-892, 1993; reflected and inverted
+// as in RFC 3720, appendix B.4.  journal_codec_test.cpp checks the values given there.
 using Crc32c = boost::crc_optimal<32, 0x1EDC6F41, 0xFFFFFFFF, 0xFFFFFFFF, true, true>;
 
 template <class Int>
@@ -33,8 +33,8 @@ void put(std::vector<std::byte>& out, std::string_view text) {
     out.insert(out.end(), bytes, bytes + text.size());
 }
 
-/// Takes fields from the front of a payload; once one is missing or out of range, all further ones
-/// are missing.
+/// Takes fields from the front of a payload.  After one that is missing or out of range, all
+/// further ones are missing too.
 class Fields {
 public:
     explicit Fields(std::span<const std::byte> bytes) : bytes_(bytes) {}

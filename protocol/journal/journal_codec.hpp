@@ -39,27 +39,31 @@ struct ChunkHeader {
     std::uint32_t crc = 0;
 };
 
-/// Magic and version, as at the start of each segment.
+/// Returns magic and version, the first bytes of each segment.
 [[nodiscard]] std::vector<std::byte> encode_preamble();
+/// Returns true if `bytes` are encode_preamble().
 [[nodiscard]] bool is_preamble(std::span<const std::byte> bytes) noexcept;
 
-/// The whole chunk, header and payload.
+/// Returns the bytes of a chunk, header and payload.
 /// @throws std::invalid_argument  the payload exceeds kMostPayloadBytes; the reads of an RxChunk do
 ///         not ascend to its last byte; a channel name exceeds 255 characters; an OvenChunk has
 ///         registers without an answer, or more than 255.
 [[nodiscard]] std::vector<std::byte> encode_chunk(const JournalChunk& chunk,
                                                   std::uint32_t sequence);
 
-/// @param bytes  kChunkHeaderSize of them.
+/// Reads the header of a chunk; nothing is checked.
+/// @param bytes  kChunkHeaderSize bytes.
 [[nodiscard]] ChunkHeader decode_chunk_header(std::span<const std::byte> bytes) noexcept;
 
-/// CRC-32C (Castagnoli) over length, type, sequence and payload.
+/// Returns the CRC-32C (Castagnoli) over length, type, sequence and payload.
 [[nodiscard]] std::uint32_t chunk_crc(const ChunkHeader& header,
                                       std::span<const std::byte> payload);
 
+/// Returns true if `type` is one of ChunkType.
 [[nodiscard]] bool is_known(std::uint8_t type) noexcept;
 
-/// @return std::nullopt when the payload is not one of that type.
+/// Reads the payload of a chunk.
+/// @return std::nullopt if the payload is not valid for its type.
 [[nodiscard]] std::optional<JournalChunk> decode_payload(ChunkType type,
                                                          std::span<const std::byte> payload);
 

@@ -9,7 +9,7 @@
 namespace a351::record {
 namespace {
 
-// The level that zstd itself takes for a good bargain; noise gains little from higher ones.
+// Default level of zstd; noise compresses little better at higher ones.
 constexpr int kLevel = 3;
 
 // A segment is closed when it exceeds 64 MiB; one chunk may exceed it.
@@ -30,7 +30,7 @@ std::vector<std::byte> decompress_segment(const std::filesystem::path& segment) 
     const auto packed = read_bytes(segment);
     const unsigned long long size = ZSTD_getFrameContentSize(packed.data(), packed.size());
     if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN || size > kLargest)
-        throw std::runtime_error(segment.string() + ": no compressed segment");
+        throw std::runtime_error(segment.string() + ": not a compressed segment");
     std::vector<std::byte> bytes(static_cast<std::size_t>(size));
     const std::size_t found =
         ZSTD_decompress(bytes.data(), bytes.size(), packed.data(), packed.size());
@@ -50,7 +50,7 @@ void compress_segment(FileLayer& files, const std::filesystem::path& segment) {
         file->sync();
     }
     if (decompress_segment(partial) != bytes)
-        throw std::runtime_error(partial + ": differs when read back");
+        throw std::runtime_error(partial + ": differs from the original when read back");
     files.rename(partial, packed_name);
     files.sync_directory(segment.parent_path());
     files.remove(segment);

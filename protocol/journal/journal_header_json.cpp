@@ -99,7 +99,8 @@ std::string header_to_json(const JournalHeader& header) {
         json["repeats"] = {{"segment", header.repeats->segment},
                            {"sequence", header.repeats->sequence}};
     }
-    // Product and serial number come off a wire: a byte that is no UTF-8 must not stop the journal.
+    // Product and serial number come from the device: a byte that is not UTF-8 must not stop the
+    // journal.
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -8,10 +8,11 @@
 
 namespace a351::record {
 
-/// One line of JSON.  Bytes that are no UTF-8 become U+FFFD.
+/// Returns the header as one line of JSON.  Bytes that are not UTF-8 become U+FFFD.
 [[nodiscard]] std::string header_to_json(const JournalHeader& header);
 
-/// @return std::nullopt unless every field of a header is there with its type; others are ignored.
+/// Reads a header.  Unknown fields are ignored.
+/// @return std::nullopt unless every required field is present, of its type and in range.
 [[nodiscard]] std::optional<JournalHeader> parse_header(std::string_view text);
 
 }  // namespace a351::record

@@ -54,7 +54,7 @@ std::optional<JournalChunk> JournalReader::next() {
         std::array<std::byte, kPreambleSize> preamble{};
         if (size_ < kPreambleSize || !read(preamble)) return stop("shorter than its preamble");
         if (!is_preamble(preamble)) return stop("not a journal of this version");
-        // offset_ stays 0 until the header is found good: without it nothing in the file is.
+        // offset_ stays 0 until the header is read: without it the whole file is damaged.
     }
     for (std::uint64_t at = std::max<std::uint64_t>(offset_, kPreambleSize); at < size_;
          at = offset_) {
@@ -149,7 +149,7 @@ std::vector<std::filesystem::path> journal_segments(const std::filesystem::path&
             }
         }
     }
-    // By number; the original before its compressed copy, which a crash may have left beside it.
+    // Sorted by number; an original precedes its compressed copy, which a crash may have left.
     std::sort(numbered.begin(), numbered.end());
     std::vector<std::filesystem::path> segments;
     std::optional<std::uint64_t> last;
@@ -167,7 +167,7 @@ std::optional<JournalDamage> repair_newest_segment(FileLayer& files,
     }
     const auto& damage = reader.damage();
     if (!damage) {
-        // Its writer may have been killed before its last sync.
+        // The writer may have been killed before its last sync.
         files.open_append(segments.back())->sync();
         return std::nullopt;
     }

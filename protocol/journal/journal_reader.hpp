@@ -15,28 +15,29 @@
 
 namespace a351::record {
 
-/// Why a segment ends before its file does.
+/// Damage that ends a segment before its file ends.
 struct JournalDamage {
     std::filesystem::path file;
-    std::uint64_t offset = 0;      ///< First byte that belongs to no good chunk.
+    std::uint64_t offset = 0;      ///< First byte after the last good chunk.
     std::uint64_t byte_count = 0;  ///< From there to the end of the file.
     std::string reason;
 };
 
-/// Reads one segment, compressed or not, chunk by chunk with bounded memory.  Chunks of a type unknown here are passed
-/// over; bytes that are no chunk end the segment.
+/// Reads one segment, compressed or not, chunk by chunk with bounded memory.  Chunks of an unknown
+/// type are skipped; bytes that are not a chunk end the segment.
 class JournalReader {
 public:
     /// @throws std::system_error  the file cannot be opened.
     explicit JournalReader(std::filesystem::path segment);
 
-    /// The next good chunk; std::nullopt at the end or at the first damage.
+    /// Returns the next good chunk; std::nullopt at the end or at the first damage.
     [[nodiscard]] std::optional<JournalChunk> next();
 
-    /// Of the chunk that next() gave last.
+    /// Returns the sequence number of the last chunk that next() returned.
     [[nodiscard]] std::uint32_t sequence() const noexcept { return sequence_; }
 
-    /// Set once next() met damage.  A torn tail is normal: the writer may die at any byte.
+    /// Returns the damage that next() found.  A torn tail is normal: the writer may die at any
+    /// byte.
     [[nodiscard]] const std::optional<JournalDamage>& damage() const noexcept { return damage_; }
 
 private:
@@ -45,7 +46,7 @@ private:
 
     std::filesystem::path path_;
     std::unique_ptr<std::istream> in_;
-    std::uint64_t size_ = 0;  ///< When the file was opened.
+    std::uint64_t size_ = 0;  ///< Size when the file was opened.
     std::vector<std::byte> payload_;
     std::uint64_t offset_ = 0;
     std::uint32_t next_sequence_ = 0;
@@ -53,15 +54,16 @@ private:
     std::optional<JournalDamage> damage_;
 };
 
-/// Reads segments one after the other, each chunk once: repeated ones are passed over.
+/// Reads segments one after the other, each chunk once: repeated chunks are skipped.
 class JournalSequence {
 public:
-    /// @param segments  as journal_segments() gives them, or the last of these.
+    /// @param segments  result of journal_segments(), or the last of these.
     explicit JournalSequence(std::vector<std::filesystem::path> segments);
 
+    /// Returns the next chunk; std::nullopt at the end.
     [[nodiscard]] std::optional<JournalChunk> next();
 
-    /// Of the segments read so far.
+    /// Returns the damage found in the segments read so far.
     [[nodiscard]] const std::vector<JournalDamage>& damage() const noexcept { return damage_; }
 
 private:
@@ -73,24 +75,28 @@ private:
     std::vector<JournalDamage> damage_;
 };
 
-/// What heads a segment; std::nullopt when nothing in it can be read.
+/// Returns the header of a segment; std::nullopt if it cannot be read.
 [[nodiscard]] std::optional<JournalHeader> segment_header(const std::filesystem::path& segment);
 
-/// The newest MARK of a segment, if there is one.
+/// Returns the newest MARK of a segment, if there is one.
 [[nodiscard]] std::optional<MarkChunk> newest_mark(const std::filesystem::path& segment);
 
-/// When the host thought a segment began, from its name: a hint that costs no reading.
+/// Returns the host's UTC when the segment began, from the file name.  It is only a hint, but the
+/// file need not be read.
 [[nodiscard]] std::optional<UtcTime> segment_time(const std::filesystem::path& file);
 
-/// The counter in the name of a segment, whatever was appended to the name; std::nullopt for others.
+/// Returns the counter in the name of a segment; a suffix of the name is ignored.  std::nullopt for
+/// other files.
 [[nodiscard]] std::optional<std::uint64_t> segment_number(const std::filesystem::path& file);
 
-/// Segments of a directory, compressed or not, by their counter; none when there is no such directory.
+/// Returns the segments of a directory, compressed or not, in the order of their counter; none if
+/// the directory does not exist.
 [[nodiscard]] std::vector<std::filesystem::path> journal_segments(
     const std::filesystem::path& directory);
 
-/// Cuts a damaged tail of the newest segment into `*.torn` beside it, and syncs what is left.  A
-/// segment without a good header is renamed so as a whole.
+/// Moves a damaged tail of the newest segment to a file `*.torn` beside it and syncs the rest.  A
+/// segment without a good header is renamed to `*.torn` as a whole.
+/// @return the damage, if there was any.
 std::optional<JournalDamage> repair_newest_segment(FileLayer& files,
                                                    const std::filesystem::path& directory);
 

@@ -10,14 +10,14 @@ bool Repetitions::is_repeated(std::uint64_t segment, std::uint32_t sequence,
         if (header->repeats && header->repeats != from_) {
             const bool was_read = last_segment_ == header->repeats->segment &&
                                   last_sequence_ >= header->repeats->sequence;
-            met_ = was_read ? last_sequence_ - header->repeats->sequence + 1 : 0;
+            chunks_read_ = was_read ? last_sequence_ - header->repeats->sequence + 1 : 0;
         }
         from_ = header->repeats;
-        to_skip_ = from_ ? met_ : 0;
+        to_skip_ = from_ ? chunks_read_ : 0;
     } else if (sequence <= to_skip_) {
         return true;
     } else if (from_) {
-        met_ = sequence;
+        chunks_read_ = sequence;
     }
     last_segment_ = segment;
     last_sequence_ = sequence;

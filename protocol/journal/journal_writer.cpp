@@ -26,12 +26,12 @@ std::string segment_name(std::uint64_t number, UtcTime time) {
     return digits + "_" + stamp + ".a351j";
 }
 
-/// On a disk that is full or bad enough to refuse a header.
+/// Removes a file on a disk so full or faulty that the header could not be written.
 void remove_if_possible(FileLayer& files, const std::filesystem::path& path) {
     try {
         files.remove(path);
     } catch (const std::system_error&) {
-        // Readers pass over a segment without a header.
+        // Readers skip a segment without a header.
     }
 }
 
@@ -58,24 +58,24 @@ void JournalWriter::begin_segment(const JournalHeader& header) {
 std::optional<JournalHeader> JournalWriter::append(const JournalChunk& chunk,
                                                    const timing::ClockReading& clock) {
     assert(header_);
-    if (!segment_) write_again();
+    if (!segment_) rewrite_unsynced();
     const bool is_full =
         clock.raw - header_->clock.raw >= kLongestSegment || segment_->size() >= kLargestSegment;
     if (is_full) {
         JournalHeader header = *header_;
         header.clock = clock;
         begin_segment(header);
-        untold_ = header;
+        unreported_header_ = header;
     }
     write(chunk);
     unsynced_.push_back(chunk);
     if (const auto* reading = std::get_if<timing::ClockReading>(&chunk)) newest_clock_ = *reading;
-    return std::exchange(untold_, std::nullopt);
+    return std::exchange(unreported_header_, std::nullopt);
 }
 
 void JournalWriter::sync() {
     if (!segment_ && unsynced_.empty()) return;
-    if (!segment_) write_again();
+    if (!segment_) rewrite_unsynced();
     try {
         segment_->sync();
     } catch (...) {
@@ -85,8 +85,8 @@ void JournalWriter::sync() {
     forget_unsynced();
 }
 
-// After a fault, in a segment of its own; not synced.
-void JournalWriter::write_again() {
+// Writes the unsynced chunks into a new segment after a fault; does not sync.
+void JournalWriter::rewrite_unsynced() {
     JournalHeader header = *header_;
     header.clock = synced_clock_;
     open_segment(header);
@@ -126,7 +126,7 @@ void JournalWriter::write(const JournalChunk& chunk) {
     bytes_written_ += bytes.size();
 }
 
-// An attempt to write chunks again that fails does not change where they stood first.
+// If chunks cannot be written again either, the place where they were first is kept.
 void JournalWriter::give_up() noexcept {
     segment_.reset();
     if (!lost_from_) lost_from_ = RepeatedChunks{number_, first_unsynced_};

@@ -9,16 +9,16 @@
 
 namespace a351::record {
 
-/// Where a stream stood when it was last heard of.
+/// Last known state of a stream.
 struct StreamEnd {
     JournalHeader header;
     std::uint16_t count = 0;  ///< COUNT of the last frame.
-    RawTime arrival;
+    RawTime arrival;          ///< Time of the last read() of the chunk that ends that frame.
 };
 
-/// Of the newest session in the journal; std::nullopt when no frame of it is there, or frames have
-/// no counter.
-/// @param segments  as journal_segments() gives them, or the last of these.
+/// Returns the end of the newest session in the journal; std::nullopt if the journal has no frame
+/// of it, or the frames have no counter.
+/// @param segments  result of journal_segments(), or the last of these.
 /// @throws std::system_error  a segment cannot be read.
 [[nodiscard]] std::optional<StreamEnd> stream_end(
     const std::vector<std::filesystem::path>& segments);

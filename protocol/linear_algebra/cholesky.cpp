@@ -8,7 +8,7 @@ namespace a351::corrector {
 
 Cholesky::Cholesky(Eigen::MatrixXd matrix) : factor_(std::move(matrix)) {
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> in_place(factor_);
-    // Eigen takes a pivot that is not a number for a positive one.
+    // Eigen accepts a pivot that is NaN as positive.
     is_positive_definite_ = in_place.info() == Eigen::Success && factor_.diagonal().allFinite();
 }
 

@@ -6,13 +6,21 @@
 
 namespace a351::corrector {
 
+/// Eigenvalues and eigenvectors of A:  A vectors.col(k) = values(k) vectors.col(k).
 struct SymmetricEigen {
-    Eigen::VectorXd values;   ///< (n), ascending.
-    Eigen::MatrixXd vectors;  ///< (n, n) of length 1; column k belongs to values(k).
+    Eigen::VectorXd values;   ///< (n), ascending, in the unit of A.
+    Eigen::MatrixXd vectors;  ///< (n, n), columns of length 1; column k belongs to values(k).
 };
 
-/// Returns the decomposition of a symmetric matrix.
-/// @param matrix  (n, n) symmetric, finite; only its lower triangle is read.
+/// Returns all eigenvalues and eigenvectors of a symmetric matrix.  The sign of each vector is
+/// arbitrary.
+///
+/// Accuracy: |A v - lambda v| is below 1e-13 for a matrix of order 3 (linear_algebra_test.cpp).
+///
+/// @param matrix  A (n, n), n >= 1, symmetric, finite; not checked.  Only its lower triangle is
+///                read.
+///
+/// Source: Eigen::SelfAdjointEigenSolver.
 [[nodiscard]] SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
 
 }  // namespace a351::corrector

@@ -5,7 +5,7 @@
 namespace a351::oven {
 namespace {
 
-/// Division, not multiplication by 0.1: the nearest double to what the display shows.
+/// Divides instead of multiplying by 0.1, which gives the double nearest to the displayed value.
 double scaled(std::uint16_t digits, int decimals) {
     return static_cast<std::int16_t>(digits) / std::pow(10.0, decimals);
 }

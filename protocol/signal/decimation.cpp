@@ -36,9 +36,9 @@ DecimationFilter design_decimation(int factor) {
 double least_length(const DecimationFilter& filter, int stages) {
     const double factor = static_cast<double>(filter.factor);
     const double half_width = static_cast<double>(filter.half_width());
-    double first = 0.0;  // number of the first valid value after each stage
+    double first = 0.0;  // index of the first valid value after each stage
     for (int stage = 0; stage < stages; ++stage) first = std::ceil((first + half_width) / factor);
-    double last_needed = first;  // and, back again, of the last value that it needs
+    double last_needed = first;  // back through the stages: index of the last value that it needs
     for (int stage = 0; stage < stages; ++stage) last_needed = factor * last_needed + half_width;
     return last_needed + 1.0;
 }

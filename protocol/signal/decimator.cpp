@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-/// Outputs from one filling of the rows: for a factor of ten they then lie in the first-level cache.
+/// Outputs made from one filling of the rows; for a factor of ten the rows fit in the first-level
+/// cache.
 constexpr std::size_t kOutputsPerFilling = 64;
 
 }  // namespace
@@ -23,7 +24,7 @@ Decimator::Stage::Stage(const DecimationFilter& filter)
       row_size_(column_count_ + kSideBySide),
       phases_(factor_ * row_size_, kMissing),
       sum_tap_pairs_(sum_tap_pairs_variants().back()),
-      stored_(half_width_) {  // what lies before the first sample is missing
+      stored_(half_width_) {  // values before the first sample are missing
     const auto place = [this](std::size_t i) { return (i % factor_) * row_size_ + i / factor_; };
     const auto pair = [&](std::size_t j) {
         return TapPair{filter.taps[half_width_ + j], place(half_width_ - j),
@@ -83,7 +84,7 @@ void Decimator::Stage::make_room() {
     emitted_ = 0;
 }
 
-/// The outputs `first` and following; beyond the last complete one they mean nothing.
+/// Returns the outputs `first` and following; those after the last complete one are meaningless.
 Decimator::Stage::Outputs Decimator::Stage::filter_from(std::size_t first) const {
     // From the outside in: the smallest terms first.  A NaN among the inputs makes the sum NaN.
     Outputs outputs;
@@ -123,7 +124,7 @@ void Decimator::require_unfinished() const {
     if (is_finished_) throw std::logic_error("Decimator: used after finish()");
 }
 
-/// Through stage k and all after it.
+/// Passes `input` through stage k and all later ones.
 void Decimator::push_from(std::size_t k, std::span<const double> input,
                           std::vector<double>& output) {
     if (k == stages_.size()) {

@@ -6,11 +6,13 @@
 
 namespace a351::corrector {
 
-/// Standard deviation of Gaussian noise over its median absolute deviation.
+/// Standard deviation of Gaussian noise divided by its median absolute deviation, dimensionless:
+/// 1 / Phi^-1(3/4), rounded to four decimals.
 inline constexpr double kGaussianPerMad = 1.4826;
 
-/// The middle value; the upper of the two middle ones for an even number.
-/// @param values  not empty, finite.
+/// Returns the middle value, in the unit of the input; for an even number of values, the upper of
+/// the two middle ones, not their mean.
+/// @param values  (n), n >= 1, without NaN; not checked.  The order does not matter.
 [[nodiscard]] inline double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());

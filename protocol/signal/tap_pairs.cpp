@@ -5,7 +5,8 @@
 namespace a351::corrector {
 namespace {
 
-/// Written with vectors, since g++ 12 unrolls the plain loop before it could see one in it.
+/// Sums pairs of taps with explicit vectors, because g++ 12 unrolls the plain loop before it could
+/// vectorise it.
 template <std::size_t kLanes>
 [[gnu::always_inline]] inline void sum_tap_pairs(std::span<const TapPair> pairs,
                                                  const double* samples, double* sums) noexcept {

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The inner loop of a decimation: sums over the taps of a symmetric filter, two at a time.
+/// Inner loop of a decimation: sums over the taps of a symmetric filter, two at a time.
 
 #include <cstddef>
 #include <span>
@@ -8,23 +8,31 @@
 
 namespace a351::corrector {
 
-/// Two equal taps and the places of their samples for the first of the outputs.
+/// Two equal taps and the positions of their samples for the first of the outputs.
 struct TapPair {
-    double tap = 0.0;
-    std::size_t left = 0;
-    std::size_t right = 0;
+    double tap = 0.0;       ///< Value of both taps.
+    std::size_t left = 0;   ///< Position of the sample of the left tap.
+    std::size_t right = 0;  ///< Position of the sample of the right tap.
 };
 
-/// Outputs computed side by side: their sums fill half of the SSE2 registers.
+/// Number of outputs computed side by side: their sums fill half of the SSE2 registers.
 inline constexpr std::size_t kSideBySide = 16;
 
-/// For i = 0 ... kSideBySide - 1, terms in the order of `pairs`, none contracted:
+/// Computes the sums over all pairs for i = 0 ... kSideBySide - 1:
 ///
 ///     sums[i] = sum over pairs of tap (samples[left + i] + samples[right + i])
+///
+/// Terms are added in the order of `pairs`; no multiplication and addition are contracted to one
+/// operation.  NaN and infinity propagate as in plain arithmetic.
+/// `samples` must be readable up to position max(left, right) + kSideBySide - 1; `sums` takes
+/// kSideBySide numbers.
 using SumTapPairs = void (*)(std::span<const TapPair> pairs, const double* samples,
                              double* sums) noexcept;
 
-/// The variants that this processor can run, the fastest last.  All give the same bits.
+/// Returns the variants of the loop that this processor can run, the fastest last.
+///
+/// Accuracy: all give the bits of plain arithmetic (decimator_test.cpp, "every variant of the inner
+/// loop gives the bits of plain arithmetic").
 [[nodiscard]] std::vector<SumTapPairs> sum_tap_pairs_variants();
 
 }  // namespace a351::corrector

@@ -11,14 +11,16 @@
 
 namespace a351::record {
 
+/// Returns the document as text, indented by two blanks.
 [[nodiscard]] std::string xml_text(const pugi::xml_document& document);
 
-/// @throws InputError  the file is missing, is no StationXML, or a channel lacks what
+/// Reads a file and checks its channels.
+/// @throws InputError  the file is missing or is not StationXML, or a channel lacks data that
 ///                     read_station_xml() needs.
 [[nodiscard]] pugi::xml_document load_station_document(const std::filesystem::path& file);
 
-/// Of a node's attribute; std::nullopt without it.
-/// @throws InputError  it is no instant.
+/// Returns the instant in an attribute of a node; std::nullopt if the node does not have it.
+/// @throws InputError  the attribute is not an instant.
 [[nodiscard]] std::optional<UtcTime> date_of(const std::filesystem::path& file, pugi::xml_node node,
                                              const char* attribute);
 

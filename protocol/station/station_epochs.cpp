@@ -11,7 +11,7 @@ pugi::xml_node with_code(pugi::xml_node parent, const char* name, const char* co
     return parent.find_child_by_attribute(name, "code", code);
 }
 
-/// What an epoch says, its dates apart.
+/// Returns the content of an epoch without its dates.
 std::string content_of(pugi::xml_node channel) {
     pugi::xml_document copy;
     auto node = copy.append_copy(channel);
@@ -28,7 +28,7 @@ void set_date(pugi::xml_node node, const char* name, UtcTime date) {
     attribute.set_value(to_rfc3339(date, 6).c_str());
 }
 
-/// Channels that go on, and those that the station is to have from `start` on.
+/// Extends a document: unchanged channels continue, others end at `start`, and new ones begin.
 class Extension {
 public:
     Extension(const std::filesystem::path& file, UtcTime start) : file_(file), start_(start) {}
@@ -48,7 +48,7 @@ public:
         }
     }
 
-    /// Ends the epochs of a station that are none of the fresh one.
+    /// Ends the open epochs of a station that the fresh one does not have.
     void end_others(pugi::xml_node station, pugi::xml_node fresh) {
         for (auto channel : station.children("Channel")) {
             if (channel.attribute("endDate") || (fresh && is_among(fresh, channel))) continue;
@@ -79,7 +79,7 @@ private:
         return false;
     }
 
-    /// A host's clock that was ahead began it too late.
+    /// Moves the start date back to `start`: the host's clock may have been ahead at that time.
     void cover_start(pugi::xml_node node) {
         if (date_of(file_, node, "startDate").value_or(start_) <= start_) return;
         set_date(node, "startDate", start_);
@@ -97,7 +97,7 @@ std::optional<std::string> extend_station_xml(const std::filesystem::path& file,
                                               const StationDescription& description) {
     auto document = load_station_document(file);
     auto root = document.child("FDSNStationXML");
-    pugi::xml_document fresh;  // as a file would give it: an empty text is none
+    pugi::xml_document fresh;  // read like a file, where an empty text is absent
     fresh.load_string(to_station_xml(description).c_str());
     const auto fresh_network = fresh.child("FDSNStationXML").child("Network");
     const auto fresh_station = fresh_network.child("Station");

@@ -21,9 +21,9 @@ namespace {
 
 constexpr const char* kAcceleration = "m/s**2";
 constexpr const char* kTemperature = "degC";
-/// The sensitivity is stated at this frequency; the response is flat up to the filter's edge.
+/// Frequency of the sensitivity, Hz; the response is flat up to the edge of the filter.
 constexpr double kReferenceFrequency_hz = 1.0;
-/// That of a slow channel must lie below half its rate.
+/// Rate of a slow channel over the frequency of its sensitivity, which must be below half the rate.
 constexpr double kSlowRatePerReferenceFrequency = 10.0;
 
 std::string to_text(double value) {
@@ -33,7 +33,8 @@ std::string to_text(double value) {
     return {buffer.data(), end.ptr};
 }
 
-/// Device strings come off a wire; XML 1.0 has no place for control characters.
+/// Replaces all characters except printable ASCII: a device may send any byte, and XML 1.0 does not
+/// permit control characters.
 std::string printable(std::string text) {
     std::replace_if(
         text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
@@ -57,7 +58,7 @@ void add_units(pugi::xml_node parent, const char* input) {
     add(parent.append_child("OutputUnits"), "Name", "count");
 }
 
-/// counts = gain x value in `unit`
+/// Adds a flat response: counts = gain x value in `unit`.
 void add_gain_response(pugi::xml_node channel, double gain, const char* unit, double frequency_hz) {
     auto response = channel.append_child("Response");
     auto sensitivity = response.append_child("InstrumentSensitivity");
@@ -76,7 +77,7 @@ void add_gain_response(pugi::xml_node channel, double gain, const char* unit, do
     add(stage_gain, "Frequency", frequency_hz);
 }
 
-/// value = offset + slope x counts
+/// Adds a polynomial response: value = offset + slope x counts.
 void add_polynomial(pugi::xml_node polynomial, double offset, double slope, double rate_hz) {
     add_units(polynomial, kTemperature);
     add(polynomial, "ApproximationType", "MACLAURIN");
@@ -99,7 +100,7 @@ struct Orientation {
     bool is_known = true;
 };
 
-/// By the channel's last letter (SEED reference manual 2.4, appendix A).
+/// Returns the orientation of a channel by its last letter (SEED reference manual 2.4, appendix A).
 Orientation orientation_of(const std::string& suffix) {
     if (suffix == "Z") return {0.0, -90.0, true};
     if (suffix == "N") return {0.0, 0.0, true};
@@ -113,7 +114,7 @@ void add_position(pugi::xml_node parent, const StationDescription& description) 
     add(parent, "Elevation", description.elevation.value());
 }
 
-/// What every channel says, up to its place.
+/// Adds a channel with the attributes that all channels have; add_place() comes later.
 pugi::xml_node add_channel(pugi::xml_node station, const StationDescription& description,
                            std::string_view code) {
     auto channel = station.append_child("Channel");
@@ -139,7 +140,7 @@ void add_sensor(pugi::xml_node channel, const StationDescription& description) {
     add(sensor, "SerialNumber", printable(description.serial_number));
 }
 
-/// Up to its response.
+/// Adds a sampled channel, complete except for its response.
 pugi::xml_node add_sampled_channel(pugi::xml_node station, const StationDescription& description,
                                    const std::string& instrument_and_axis,
                                    const std::string& content, const Orientation& orientation) {
@@ -160,7 +161,7 @@ pugi::xml_node add_sampled_channel(pugi::xml_node station, const StationDescript
     return channel;
 }
 
-/// A derived channel.
+/// Properties of a derived channel.
 struct SlowChannel {
     std::string_view code;
     const char* content;
@@ -208,8 +209,8 @@ std::string to_station_xml(const StationDescription& description) {
     root.append_attribute("xmlns").set_value("http://www.fdsn.org/xml/station/1");
     root.append_attribute("schemaVersion").set_value("1.2");
     add(root, "Source", "a351");
-    // The schema demands an instant of creation; that of the epoch keeps the same input at the
-    // same bytes.
+    // The schema requires a time of creation.  The start of the epoch is used, so that the same
+    // input gives the same bytes.
     add(root, "Created", to_rfc3339(description.start, 6));
     auto network = root.append_child("Network");
     network.append_attribute("code").set_value(description.codes.network.c_str());
@@ -222,7 +223,8 @@ std::string to_station_xml(const StationDescription& description) {
     // Counts per g over m/s2 per g.
     const double gain =
         std::ldexp(1.0, profile->acceleration_fraction_bits) / (kMilliGalPerStandardGravity / 1e5);
-    // The same words in all three: their epochs begin together, so their order is that of the axes.
+    // All three channels have this text: if the letters change, all three begin a new epoch, so
+    // their order stays that of the axes.
     const auto& axes = description.codes.axes;
     const std::string names = "; x, y, z are " + axes[0] + ", " + axes[1] + ", " + axes[2];
     for (std::size_t i = 0; i < axes.size(); ++i) {

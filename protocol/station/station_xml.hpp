@@ -18,8 +18,8 @@ struct StationDescription {
     StationCodes codes;
     Degrees latitude, longitude;
     Metres elevation;
-    UtcTime start;        ///< Of the epoch.
-    std::string profile;  ///< wire::DeviceProfile by name.
+    UtcTime start;        ///< Start of the epoch.
+    std::string profile;  ///< Name of the wire::DeviceProfile.
     bool is_profile_verified = false;
     std::string product_id;
     std::string serial_number;
@@ -28,38 +28,41 @@ struct StationDescription {
     std::string filter;
     Nanoseconds group_delay{0};
     std::optional<double> declared_rate_hz;
-    bool has_oven = false;                  ///< Its channels are in the archive.
-    std::chrono::seconds oven_interval{1};  ///< From sample to sample of them.
+    bool has_oven = false;                  ///< True if the archive has the oven's channels.
+    std::chrono::seconds oven_interval{1};  ///< Sample interval of the oven's channels.
 };
 
-/// With all channels beginning their first epoch at `start`.
+/// Returns the StationXML of a new station: all channels begin their first epoch at `start`.
 /// @throws std::invalid_argument  the profile is unknown.
 [[nodiscard]] std::string to_station_xml(const StationDescription& description);
 
-/// The file, extended: a channel that says something else than the description ends its epoch at
-/// `start` and begins a new one; earlier epochs stay, and so do those of other codes.
-/// @return std::nullopt when the file says all that already.
+/// Returns the content of a file, extended by a description.  A channel that differs from the
+/// description ends its epoch at `start` and begins a new one.  Earlier epochs are kept.  Stations
+/// with other codes are kept too, but their open epochs end at `start`.
+/// @return std::nullopt if the file needs no change.
 /// @throws InputError             as read_station_xml().
 /// @throws std::invalid_argument  the profile is unknown.
 [[nodiscard]] std::optional<std::string> extend_station_xml(const std::filesystem::path& file,
                                                             const StationDescription& description);
 
-/// How counts of a channel become physical values: value = offset + gain x counts.
+/// Conversion of a channel's counts to physical values: value = offset + gain x counts.
 struct ChannelScale {
-    std::string code;   ///< Channel, e.g. BNZ.
-    double gain = 0.0;  ///< Per count, in `unit`.
-    double offset = 0.0;
-    std::string unit;  ///< "m/s**2", "degC", "%" or "s".
+    std::string code;     ///< Channel, e.g. BNZ.
+    double gain = 0.0;    ///< Value of one count, in `unit`.
+    double offset = 0.0;  ///< Value at 0 counts, in `unit`.
+    std::string unit;     ///< "m/s**2", "degC", "%" or "s".
 };
 
 struct StationMetadata {
     StationCodes codes;
     std::vector<ChannelScale> channels;
-    std::string serial_number = {};  ///< Of the sensor; empty: not told.
+    std::string serial_number = {};  ///< Serial number of the sensor; empty if unknown.
 };
 
-/// @param at  of epochs that follow each other those in force then, else those that go on.
-/// @throws InputError  the file is missing, is not StationXML, or lacks a response.
+/// Reads codes, scales and serial number of the station.
+/// @param at  time of the epochs to read; without it, or if none was in force then, the open ones.
+/// @throws InputError  the file is missing, is not StationXML, lacks a response, or does not have
+///                     three acceleration channels.
 [[nodiscard]] StationMetadata read_station_xml(const std::filesystem::path& file,
                                                std::optional<UtcTime> at = std::nullopt);
 

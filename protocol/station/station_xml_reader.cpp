@@ -55,7 +55,7 @@ ChannelScale read_scale(const std::filesystem::path& file, pugi::xml_node channe
     return scale;
 }
 
-/// Without an instant: the epoch that goes on.
+/// Returns true if an epoch is in force at an instant; without one, if the epoch has no end.
 bool is_in_force(const std::filesystem::path& file, pugi::xml_node channel,
                  std::optional<UtcTime> at) {
     const auto end = date_of(file, channel, "endDate");
@@ -78,7 +78,7 @@ StationMetadata channels_in_force(const std::filesystem::path& file,
                     metadata.serial_number =
                         channel.child("Sensor").child("SerialNumber").text().get();
                 auto scale = read_scale(file, channel);
-                // Where a clock was set back, epochs may overlap: the later one counts.
+                // After a clock was set back, epochs may overlap: the later one counts.
                 const auto known =
                     std::ranges::find(metadata.channels, scale.code, &ChannelScale::code);
                 if (known != metadata.channels.end())
@@ -101,7 +101,7 @@ std::optional<UtcTime> date_of(const std::filesystem::path& file, pugi::xml_node
     const auto date = parse_rfc3339(text);
     if (!date) {
         refuse(file, std::string(node.name()) + " " + node.attribute("code").value() + ": " +
-                         attribute + " = " + text + ": no instant");
+                         attribute + " = " + text + ": not an instant");
     }
     return date;
 }

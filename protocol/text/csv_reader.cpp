@@ -37,7 +37,7 @@ CsvReader::CsvReader(std::istream& in, std::filesystem::path origin)
     for (auto cell = cells_.begin(); cell != cells_.end(); ++cell) {
         if (std::find(cells_.begin(), cell, *cell) != cell) {
             throw InputError(origin_.string() + ":" + std::to_string(line_) + ": column " +
-                             std::string(*cell) + " stands twice; allowed: once");
+                             std::string(*cell) + " appears twice; allowed: once");
         }
     }
     columns_.assign(cells_.begin(), cells_.end());
@@ -53,7 +53,7 @@ bool CsvReader::next() {
     return true;
 }
 
-/// Splits the next line that is a row.
+/// Reads the next line that is a row and splits it into cells.
 bool CsvReader::next_line() {
     while (std::getline(in_, text_)) {
         std::string_view content = text_;
@@ -72,8 +72,8 @@ bool CsvReader::next_line() {
     return false;
 }
 
-/// A blank line between the rows of a single column is a cell that is missing: left out, it would
-/// move all rows after it.
+/// Returns true if a line is a row.  In a table of one column, a blank line between rows is a
+/// missing cell; skipping it would shift all later rows.
 bool CsvReader::is_row(std::string_view content) {
     if (!trimmed(content).empty()) return true;
     return columns_.size() == 1 && !in_.eof() && in_.peek() != std::istream::traits_type::eof();

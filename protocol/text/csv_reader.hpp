@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Comma-separated tables a row at a time.  No quoting: a comma always separates.
+/// Comma-separated tables, read row by row.  No quoting: a comma always separates.
 /// Each error is an InputError `file:line: column = value: trouble; allowed: ...`.
 
 #include <filesystem>
@@ -12,26 +12,30 @@
 
 namespace a351::text {
 
-/// Line ends LF or CRLF; a byte-order mark and blank lines are skipped.  In a table of one column a
-/// blank line is a row with an empty cell, but for one that ends the file.
+/// Reads one row at a time.  Lines end with LF or CRLF; a byte-order mark and blank lines are
+/// skipped.  In a table of one column a blank line is a row with an empty cell, except at the end
+/// of the file.
 class CsvReader {
 public:
     /// Reads the header line.
+    /// @param origin  file name shown in messages.
     /// @throws InputError  no header, a repeated column.
     CsvReader(std::istream& in, std::filesystem::path origin);
 
     [[nodiscard]] const std::vector<std::string>& columns() const noexcept { return columns_; }
 
-    /// Goes to the next row; false at the end.
-    /// @throws InputError  a row of another width, a file that cannot be read on.
+    /// Reads the next row; returns false at the end.
+    /// @throws InputError  the row has another width than the header, or the file cannot be read.
     [[nodiscard]] bool next();
 
-    /// Of the current row, counted from 1.
+    /// Returns the line number of the current row, counted from 1.
     [[nodiscard]] std::size_t line() const noexcept { return line_; }
 
-    /// The current row's cells without surrounding blanks; until the next call of next().
+    /// Returns the cells of the current row without surrounding blanks; valid until the next call
+    /// of next().
     [[nodiscard]] const std::vector<std::string_view>& cells() const noexcept { return cells_; }
 
+    /// Throws the InputError about a cell of the current row, for rules that only the caller knows.
     [[noreturn]] void refuse(std::size_t column, std::string_view trouble,
                              std::string_view allowed) const;
 
@@ -47,13 +51,13 @@ private:
     std::vector<std::string_view> cells_;
 };
 
-/// Place of a column in the header of the table `origin`.
-/// @throws InputError  no such column; names those that are there.
+/// Returns the position of a column in the header of the table `origin`, counted from 0.
+/// @throws InputError  there is no such column; names the existing ones.
 [[nodiscard]] std::size_t column_index(const std::vector<std::string>& columns,
                                        std::string_view column,
                                        const std::filesystem::path& origin);
 
-/// A finite number with a dot as decimal point; std::nullopt for any other text.
+/// Returns a finite number written with a dot as decimal point; std::nullopt for any other text.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 
 }  // namespace a351::text

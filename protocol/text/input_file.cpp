@@ -26,7 +26,7 @@ InputFile describe_input(std::string role, const std::filesystem::path& file) {
 std::string sha256_of_file(const std::filesystem::path& file) {
     const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),
                                                                           &EVP_MD_CTX_free);
-    // None of these calls fails for a digest that is built in, but for want of memory.
+    // With a built-in digest these calls fail only if memory runs out.
     const auto require = [](int result) {
         if (result != 1) throw std::bad_alloc();
     };

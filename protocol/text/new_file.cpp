@@ -19,7 +19,7 @@ NewFile::NewFile(std::filesystem::path path)
 
 NewFile::~NewFile() {
     std::error_code ignored;
-    std::filesystem::remove(temporary_, ignored);  // no longer there once published
+    std::filesystem::remove(temporary_, ignored);  // already renamed after publish()
 }
 
 void NewFile::write(std::string_view text) {
@@ -37,7 +37,7 @@ void NewFile::close() {
     if (type != std::filesystem::file_type::not_found &&
         type != std::filesystem::file_type::regular) {
         throw std::system_error(EEXIST, std::generic_category(),
-                                path_.string() + ": is no regular file");
+                                path_.string() + ": is not a regular file");
     }
 }
 

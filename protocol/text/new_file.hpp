@@ -6,12 +6,12 @@
 
 namespace a351::text {
 
-/// A file that appears under its name when it is complete, and leaves nothing behind otherwise.
+/// File that appears under its name only when it is complete, and leaves nothing behind otherwise.
 ///
-/// All members throw std::system_error with the path when the machine fails.
+/// All members throw std::system_error with the path if the operating system reports an error.
 class NewFile {
 public:
-    /// Opens a temporary file beside `path`; the directory exists.
+    /// Opens a temporary file beside `path`; the directory must exist.
     explicit NewFile(std::filesystem::path path);
     NewFile(const NewFile&) = delete;
     NewFile& operator=(const NewFile&) = delete;
@@ -19,7 +19,7 @@ public:
 
     void write(std::string_view text);
 
-    /// The content is complete.  What stands at `path` now must be a regular file or nothing.
+    /// Completes the content.  `path` must be a regular file or must not exist.
     void close();
 
     /// Renames the closed file to `path`.

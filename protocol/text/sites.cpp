@@ -11,9 +11,9 @@
 namespace a351::text {
 namespace {
 
-/// A column of coordinates; its empty cells become the mean of the others, which does not depend on
-/// the order of the rows.
-/// @param turn  difference that makes no difference: 360 for longitudes.
+/// Reads a column of coordinates.  Its empty cells become the mean of the others, which does not
+/// depend on the order of the rows.
+/// @param turn  period of the coordinate: 360 for longitudes.
 std::vector<double> filled_column(const CsvTable& table, std::string_view column, double low,
                                   double high, double turn, std::vector<bool>& is_placed,
                                   const std::filesystem::path& file) {
@@ -58,7 +58,7 @@ std::vector<Site> read_sites(const std::filesystem::path& file) {
         const std::string& name = table.cell(row, "site");
         if (name.empty()) table.refuse(row, "site", "empty", "a name");
         if (find_site(sites, name) != nullptr) {
-            table.refuse(row, "site", "stands twice", "each site once");
+            table.refuse(row, "site", "appears twice", "each site once");
         }
         Site site;
         site.name = name;

@@ -10,23 +10,25 @@
 
 namespace a351::text {
 
-/// A benchmark of `sites.csv`: site,longitude_deg,latitude_deg,altitude_m,gravity_mgal.
+/// Benchmark, a row of `sites.csv`: site,longitude_deg,latitude_deg,altitude_m,gravity_mgal.
 struct Site {
     std::string name;
     Degrees longitude;  ///< East, -180 to 360.
     Degrees latitude;   ///< Geodetic, north.
     Metres altitude;
     std::optional<MilliGal> gravity;  ///< Reference value; absent for an unknown station.
-    /// False: of longitude, latitude and altitude what was empty is the mean of the other sites'.
-    /// Good enough for a tide, which over a survey differs by less than 0.0001 mGal; for no map.
+    /// False if longitude, latitude or altitude was empty and is now the mean of the other sites.
+    /// The mean is good enough for a tide, which differs by less than 0.0001 mGal over a survey,
+    /// but not for a map.
     bool is_placed = true;
 };
 
-/// @throws InputError  a column is missing, a number is not one, a coordinate is empty for every
-///                     site, a site has no name or stands twice.
+/// Reads a table of sites; empty coordinates become the mean of the other sites.
+/// @throws InputError  a column is missing, a number is not one or out of range, a coordinate is
+///                     empty for every site, a site has no name or appears twice.
 [[nodiscard]] std::vector<Site> read_sites(const std::filesystem::path& file);
 
-/// The site of that name, or null.
+/// Returns the site of that name, or null.
 [[nodiscard]] const Site* find_site(const std::vector<Site>& sites, std::string_view name);
 
 }  // namespace a351::text

@@ -17,7 +17,7 @@ namespace {
 std::ifstream open_file(const std::filesystem::path& file) {
     std::error_code error;
     if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
-        throw InputError(file.string() + ": is no regular file; allowed: a readable file");
+        throw InputError(file.string() + ": is not a regular file; allowed: a readable file");
     std::ifstream in(file, std::ios::binary);
     if (!in.is_open()) refuse(file);
     return in;

@@ -8,15 +8,16 @@
 
 namespace a351::text {
 
-/// A file to be read.  Nothing but a regular file: a FIFO would be waited for without end.
+/// Opens a file for reading.  Only regular files are accepted: reading a FIFO could wait forever.
 /// @throws InputError  it cannot be read.
 [[nodiscard]] std::ifstream open_file(const std::filesystem::path& file);
 
-/// The whole content of a file.
+/// Returns the whole content of a file.
 /// @throws InputError  it cannot be read.
 [[nodiscard]] std::string read_text_file(const std::filesystem::path& file);
 
-/// Gives the content of a file of any size piece by piece, in order: memory for one piece.
+/// Passes the content of a file to `take`, in order, in blocks of at most 64 KiB.  Memory does not
+/// grow with the size of the file.
 /// @throws InputError  it cannot be read.
 void read_file_in_blocks(const std::filesystem::path& file,
                          const std::function<void(std::string_view block)>& take);

@@ -9,15 +9,16 @@ namespace {
 using std::chrono::seconds;
 
 constexpr std::int64_t kBlock_s = 2;
-constexpr Nanoseconds kWindow = seconds(900);  // 600 to 1200 s differ little; oscillators wander
+constexpr Nanoseconds kWindow = seconds(900);  // 600 to 1200 s differ little
 
-// 0.4 s of data: what a kernel holds for a host that falls asleep is less, unless that was busy.
+// A fifth of a block: 0.4 s of data.  A kernel buffers less for a host that falls asleep, unless
+// the host was busy.
 constexpr std::int64_t kFewShare = 5;
 
-// Of fewer arrivals in 2 s the largest step says nothing.
+// Arrivals of a block needed for its spacing; the largest step of fewer is not significant.
 constexpr std::size_t kFewestOfBlock = 20;
 
-constexpr double kKeptRate = 10e-6;  // a sensor or host that grew cold meanwhile
+constexpr double kKeptRate = 10e-6;  // change of the rate in a sleep: sensor or host grew cold
 constexpr Nanoseconds kRateKnown = seconds(300);
 
 }  // namespace
@@ -78,7 +79,7 @@ void ArrivalEdge::restart() {
     is_first_block_ = true;
 }
 
-// The newest block may lack its least delayed frame yet.
+// The least delayed frame of the newest block may still be to come.
 std::span<const ArrivalBlock> ArrivalEdge::complete_blocks() const {
     return std::span(blocks_).first(is_settled() ? blocks_.size() - 1 : blocks_.size());
 }
@@ -103,7 +104,7 @@ EdgeLine ArrivalEdge::line_around(std::int64_t index) const {
 
 EdgeLine ArrivalEdge::fit(std::span<const ArrivalBlock> blocks, std::int64_t index) const {
     const Nanoseconds due = period_.of(index);
-    // What was known of the rate before a restart helps until the arrivals tell it better.
+    // The rate known before a restart helps until the arrivals determine it better.
     const bool knows_rate = blocks.back().due - blocks.front().due >= kRateKnown;
     const RateLimits limits = knows_rate ? RateLimits{} : limits_;
     const EdgeFit fit = fit_edge(blocks, due, period_.of(1), limits);

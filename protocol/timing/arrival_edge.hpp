@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Arrivals -> the line of the earliest ones, sample by sample.
+/// Arrival times of frames -> the line of the earliest ones, sample by sample.
 
 #include <cstdint>
 #include <optional>
@@ -14,46 +14,57 @@
 
 namespace a351::timing {
 
-/// When frames would arrive if nothing delayed them: at `arrival` for the sample `index`, and from
-/// there 1 + `skew` seconds of the raw clock per nominal second of data.
+/// Arrival times of frames that nothing delays, as a line over the sample index:
+///
+///     at(k) = arrival + (1 + skew) (k - index) / rate
 struct EdgeLine {
-    std::int64_t index = 0;
-    RawTime arrival;
-    double skew = 0.0;
-    Nanoseconds uncertainty{0};  ///< 95 %, at `index`.
-    double skew_uncertainty = 0.0;
+    std::int64_t index = 0;         ///< Sample at which the line was fitted.
+    RawTime arrival;                ///< Arrival of that sample without delay, on the raw clock.
+    double skew = 0.0;              ///< Raw seconds per nominal second of data, less 1.
+    Nanoseconds uncertainty{0};     ///< Uncertainty of `arrival`, 95 %.
+    double skew_uncertainty = 0.0;  ///< Half the range of `skew` that the arrivals allow.
 
+    /// Returns the arrival of sample `other` without delay.
     [[nodiscard]] RawTime at(std::int64_t other, const SamplePeriod& period) const {
         const Nanoseconds after = period.of(other - index);
         return arrival + after + from_seconds(skew * std::chrono::duration<double>(after).count());
     }
 };
 
-/// Keeps the blocks of the last 900 s, or of all data, and fits lines to them (fit_edge).
-/// A first block of few arrivals takes no part: they may have stood unread through a sleep of the
-/// host, and would be the whole line.
+/// Collects arrivals in blocks of 2 s of data, of the last 900 s or of all data, and fits lines to
+/// the earliest arrival of each block.  Formula, accuracy and source: fit_edge().
+///
+/// A first block of less than 0.4 s of data is ignored: its frames may have waited unread while the
+/// host slept, and would alone determine the line.
 class ArrivalEdge {
 public:
-    enum class Memory { window, all };
+    enum class Memory { window, all };  ///< Blocks that are kept: of the last 900 s, or all.
 
+    /// @param rate  nominal output rate, > 0; not checked.
     explicit ArrivalEdge(Hertz rate, Memory memory = Memory::window);
 
-    /// Indices rise.
+    /// Adds the arrival of a sample.
+    /// @param index    rises from call to call; not checked.
+    /// @param arrival  time of the last byte of the frame on the raw clock.
     void observe(std::int64_t index, RawTime arrival);
 
-    /// Forgets the arrivals; for the first 300 s after it the rate is taken to be within 10 ppm of
-    /// what it was, or within its uncertainty if that was larger.
+    /// Forgets the arrivals.  During the next 300 s of data the rate is limited to its previous
+    /// value +-10 ppm, or +- its uncertainty if that was larger.
     void restart();
 
+    /// Returns true if there is no arrival.  The lines are undefined then.
     [[nodiscard]] bool is_empty() const noexcept { return blocks_.empty(); }
 
-    /// 2 s are complete: an adapter's timer would have been seen.
+    /// Returns true once 2 s of data are complete, so that the timer of an adapter would show.
     [[nodiscard]] bool is_settled() const noexcept { return blocks_.size() > 1; }
 
-    /// At the newest sample when the last 2 s were complete; there is a sample.
+    /// Returns the line at the sample that was the newest when the last block was completed; before
+    /// the first block is complete, at the newest sample.  Precondition: not is_empty().
     [[nodiscard]] const EdgeLine& line();
 
-    /// At any sample, from the 900 s around it that are remembered; there is a sample.
+    /// Returns the line at any sample, fitted to those of the remembered blocks that lie in the
+    /// 900 s around it; near an end of the data, in the first or last 900 s.
+    /// Precondition: not is_empty().
     [[nodiscard]] EdgeLine line_around(std::int64_t index) const;
 
 private:
@@ -67,8 +78,8 @@ private:
     RawTime zero_;
     std::int64_t newest_ = 0;
     std::vector<ArrivalBlock> blocks_;
-    std::vector<Nanoseconds> open_block_;  ///< Every y of the newest block.
-    bool is_first_block_ = true;           // since restart()
+    std::vector<Nanoseconds> open_block_;  ///< All y of the newest block.
+    bool is_first_block_ = true;           ///< No block was completed since restart().
     std::optional<EdgeLine> line_;
 };
 

@@ -6,13 +6,13 @@
 
 namespace a351::timing {
 
-/// What the kernel will do at the end of the UTC day.
+/// Leap second that the kernel will make at the end of the UTC day.
 enum class LeapSecond : std::uint8_t { none = 0, inserted = 1, removed = 2 };
 
-/// The host's clocks read together, and what the kernel says of its synchronisation.
+/// The host's clocks read together, and the state of synchronisation that the kernel reports.
 struct ClockReading {
     RawTime raw;                          ///< CLOCK_MONOTONIC_RAW.
-    Nanoseconds boottime{0};              ///< CLOCK_BOOTTIME: runs through suspend.
+    Nanoseconds boottime{0};              ///< CLOCK_BOOTTIME: also counts while suspended.
     UtcTime realtime;                     ///< CLOCK_REALTIME at the instant `raw`.
     bool is_synchronised = false;         ///< adjtimex: neither TIME_ERROR nor STA_UNSYNC.
     std::int64_t max_error_us = 0;        ///< adjtimex maxerror.

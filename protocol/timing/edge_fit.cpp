@@ -8,36 +8,38 @@
 namespace a351::timing {
 namespace {
 
-// Chosen on seeds 1 to 40 of clock_days_test; the cases tell little between their half and double.
-constexpr double kShortestSpacing_ns = 0.7e6;  // less is jitter
-constexpr double kPolling_ns = 1e6;            // frame of a full-speed USB
+// Chosen on seeds 1 to 40 of clock_days_test; half or double each value gives similar errors.
+constexpr double kShortestSpacing_ns = 0.7e6;  // smaller ones are jitter
+constexpr double kPolling_ns = 1e6;            // frame of a full-speed USB bus
 constexpr double kShortTimer_ns = 1e6;         // latency timer of an FTDI adapter at its shortest
-constexpr double kWander_ns = 0.3e6;           // of the oscillators within 900 s
-constexpr double kSlack_ns = 0.1e6;            // on top of what the points need
-constexpr double kSeenTimer_ns = 0.5e6;        // scatter of the least delays that no jitter makes
-constexpr double kPause_ns = 1e6;              // above all that is hidden
+constexpr double kWander_ns = 0.3e6;           // wander of the oscillators within 900 s
+constexpr double kSlack_ns = 0.1e6;            // added to the least distance that fits the points
+constexpr double kSeenTimer_ns = 0.5e6;        // scatter of the least delays above any jitter
+constexpr double kPause_ns = 1e6;              // distance of pauses above the hidden delay
 
-// Latency timer of an FTDI adapter as delivered (AN232B-04, section 3.3): before it can be seen.
+// Latency timer of an FTDI adapter as delivered (AN232B-04, section 3.3); assumed until the
+// arrivals show a timer.
 constexpr double kUnseenTimer_ns = 16e6;
 
 struct Point {
     double x, y;  // due after `at`, and arrival after due; ns
 };
 
-/// The line y = level at x = 0 with a slope.
+/// Returns the level at x = 0 of the highest line of this slope below all points.
 double level_below(const std::vector<Point>& lower_hull, double slope) {
     double level = std::numeric_limits<double>::infinity();
     for (const Point& p : lower_hull) level = std::min(level, p.y - slope * p.x);
     return level;
 }
 
+/// Returns the level at x = 0 of the lowest line of this slope above all points.
 double level_above(const std::vector<Point>& upper_hull, double slope) {
     double level = -std::numeric_limits<double>::infinity();
     for (const Point& p : upper_hull) level = std::max(level, p.y - slope * p.x);
     return level;
 }
 
-/// Of points by rising x; side 1: lower, -1: upper.
+/// Returns the convex hull of points in rising order of x; side 1: lower, -1: upper.
 std::vector<Point> hull(const std::vector<Point>& points, double side) {
     std::vector<Point> hull;
     for (const Point& p : points) {
@@ -53,10 +55,10 @@ std::vector<Point> hull(const std::vector<Point>& points, double side) {
     return hull;
 }
 
-// Leaves 1e-5 of the interval: 2e-3 ppm, 2 us in the window.
+// Steps that reduce the interval to 1e-5: 2e-3 ppm, 2 us in the window.
 constexpr int kSteps = 24;
 
-/// Where a convex function is least: golden section.
+/// Returns the place where a convex function is least: golden section.
 template <class Convex>
 double argmin(Convex f, double from, double to) {
     constexpr double kGolden = 0.6180339887498949;
@@ -80,8 +82,8 @@ double argmin(Convex f, double from, double to) {
     return at_left <= at_right ? left : right;
 }
 
-/// The last point towards `limit` at which a convex function that is not positive at `inside` is
-/// not.
+/// Returns the last place from `inside` towards `limit` at which a convex function is not positive.
+/// It is not positive at `inside`.
 template <class Convex>
 double last_not_positive(Convex f, double inside, double limit) {
     if (f(limit) <= 0.0) return limit;
@@ -92,14 +94,16 @@ double last_not_positive(Convex f, double inside, double limit) {
     return inside;
 }
 
-/// Lines between an upper and a lower hull.
+/// Set of lines between an upper and a lower hull.
 struct Strip {
     std::vector<Point> lower, upper;
     double least_slope, largest_slope;
 
+    /// Returns the vertical distance of the two lines of this slope that touch the hulls.
     [[nodiscard]] double depth(double slope) const {
         return level_above(upper, slope) - level_below(lower, slope);
     }
+    /// Returns the slope of least depth.
     [[nodiscard]] double flattest() const {
         return argmin([this](double slope) { return depth(slope); }, least_slope, largest_slope);
     }
@@ -108,8 +112,8 @@ struct Strip {
         double top, bottom;  // levels
         double least_slope, largest_slope;
     };
-    /// Of the lines that lie at most `most` below any point; that is at least the depth of the
-    /// flattest one.
+    /// Returns the range of the lines that lie at most `most` below any point.
+    /// @param most  at least the depth at `flattest`.
     [[nodiscard]] Range lines(double most, double flattest) const {
         const auto excess = [&](double slope) { return depth(slope) - most; };
         const double least = last_not_positive(excess, flattest, least_slope);
@@ -123,7 +127,8 @@ struct Strip {
 
 double to_ns(Nanoseconds duration) { return static_cast<double>(duration.count()); }
 
-/// That four blocks in five do not exceed: a busy host fills spacings, it does not widen them.
+/// Returns the spacing that four blocks in five do not exceed: a busy host fills spacings, it does
+/// not widen them.
 std::optional<Nanoseconds> usual_spacing(std::span<const ArrivalBlock> blocks) {
     std::vector<Nanoseconds> spacings;
     for (const ArrivalBlock& block : blocks)
@@ -134,7 +139,8 @@ std::optional<Nanoseconds> usual_spacing(std::span<const ArrivalBlock> blocks) {
     return *usual;
 }
 
-/// Without the host's pauses, which lie far above the line below all points with the least distance.
+/// Returns the points without pauses of the host.  Pauses lie far above the line that is closest
+/// below all points on average.
 std::vector<Point> without_pauses(const std::vector<Point>& points, const Strip& strip,
                                   double most_above) {
     double mean_x = 0.0;
@@ -173,7 +179,7 @@ EdgeFit fit_edge(std::span<const ArrivalBlock> blocks, Nanoseconds at, Nanosecon
     const double needed = strip.depth(flattest) + kSlack_ns;
     const Strip::Range allowed = strip.lines(std::max(hidden, needed), flattest);
 
-    // Points that scatter show a timer or the polling of a bus, without a spacing.
+    // Without a spacing, points that scatter show a timer or the polling of a bus.
     const bool has_short_timer = !has_spacing && needed > kSeenTimer_ns;
     const double likely_hidden = has_short_timer ? kShortTimer_ns + kPolling_ns : 0.0;
     const Strip::Range likely =

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The line that bounds arrivals from below, and how well they determine it.
+/// The line that bounds arrivals from below, and its uncertainty.
 
 #include <cstdint>
 #include <optional>
@@ -10,61 +10,69 @@
 
 namespace a351::timing {
 
-/// What 2 s of data say: y = arrival - due.
+/// Summary of 2 s of data; y = arrival - due, due = index / rate.
 struct ArrivalBlock {
-    std::int64_t number = 0;  ///< Of the 2 s since index 0.
-    Nanoseconds due{0};       ///< index / rate of the sample with the least y.
-    Nanoseconds least_y{0};
-    std::optional<Nanoseconds> spacing{};  ///< Largest step in the sorted y, late ones apart.
+    std::int64_t number = 0;               ///< Number of the block, counted from index 0.
+    Nanoseconds due{0};                    ///< Due time of the sample with the least y.
+    Nanoseconds least_y{0};                ///< Least y of the block.
+    std::optional<Nanoseconds> spacing{};  ///< Largest step in the sorted y, latest tenth excluded.
 };
 
-/// Of the seconds of the raw clock per nominal second of data, less 1.
+/// Limits of the skew: seconds of the raw clock per nominal second of data, less 1.
 struct RateLimits {
-    /// Device 10 ppm (M-A352AD10 data sheet, electrical specifications) + host crystal 100 ppm,
-    /// twice what PC crystals are usually specified to.
+    /// Largest magnitude of the skew: device 10 ppm (M-A352AD10 data sheet, electrical
+    /// specifications) + host crystal 100 ppm, twice the usual specification of PC crystals.
     static constexpr double kLargest = 110e-6;
 
     double least = -kLargest;
     double largest = kLargest;
 };
 
+/// The line at one due time.
 struct EdgeFit {
-    Nanoseconds y{0};  ///< Of a frame that nothing delayed.
-    double skew = 0.0;
-    Nanoseconds uncertainty{0};     ///< 95 %.
-    double skew_uncertainty = 0.0;  ///< Half the range of rates that the arrivals allow.
+    Nanoseconds y{0};               ///< y of a frame that nothing delayed.
+    double skew = 0.0;              ///< Slope of y over due: rate of the raw clock, less 1.
+    Nanoseconds uncertainty{0};     ///< Uncertainty of `y`, 95 %.
+    double skew_uncertainty = 0.0;  ///< Half the range of slopes that the arrivals allow.
 };
 
-/// Delays are never negative, so the truth lies below the cloud of
+/// Estimates the line of arrivals without delay from the least y of each block,
 ///
 ///     y = arrival - index / rate
 ///
-/// and, while the host is not busy, no deeper below its lowest points than the delay that no frame
-/// escapes.  Of every 2 s of data the least y counts.  The true line L is taken to obey
+/// Delays are never negative, so the true line L lies below all points.  While the host is not
+/// busy, it lies at most D below the lowest ones, where D is the delay that no frame escapes:
 ///
-///     y - D <= L <= y   at every point that is kept,   slope of L within limits
+///     y - D <= L <= y   at every point that is kept,   slope of L within `limits`
 ///
-/// and L is estimated as the middle of what these leave; half their distance is the uncertainty.
-/// Both limits are found from the two convex hulls, to 2 us.
+/// The estimate is the middle of all lines that these conditions allow.  The uncertainty is the
+/// distance to the farthest of them + 0.2 ms; it grows by what the points of a busy host exceed D.
+/// Both bounds are found from the two convex hulls of the points, to 2 us over 900 s.
 ///
-/// D.  An adapter that delivers every T delays frames of period P by values spaced by the common
-/// divisor of T and P (16 and 20 ms: 4 ms), whose phase moves only with the drift between the two
-/// oscillators; up to one spacing can stay hidden for hours.  The spacing is seen within each 2 s:
-/// D = its usual value + 1 ms for the polling of a full-speed bus + 0.3 ms for the wander of the
-/// rates.
-/// Without a spacing D is what the points need; the uncertainty then still allows for 1 ms of timer
-/// and 1 ms of polling, which nothing would show if they kept step with the sensor.
+/// The hidden delay D: an adapter that delivers every T delays frames of period P by values spaced
+/// by the common divisor of T and P (16 and 20 ms: 4 ms).  Their phase moves only with the drift
+/// between the two oscillators, so up to one spacing can stay hidden for hours.  The spacing is
+/// visible within each block; D = its usual value + 1 ms for the polling of a full-speed bus +
+/// 0.3 ms for the wander of the rates.
+/// Without a spacing D is the least that fits the points.  The uncertainty then still includes a
+/// timer of 1 ms and a polling of 1 ms, which stay invisible while they are in step with the
+/// sensor.
 ///
-/// Points more than D + 1 ms above the lowest line are the host's pauses and take no part.
+/// Points more than D + 1 ms above the lowest line (3.3 ms without a spacing) are pauses of the
+/// host and are ignored.  As long as no block has a spacing, 16 ms are added to the uncertainty:
+/// the latency timer of an adapter as delivered.
 ///
-/// Accuracy (clock_days_test, 50 Hz, seeds that were not looked at before; of all errors 99 %): 16 ms
-/// timer, after 10 min, 0.47 ms, in step with the sensor 2.1 ms; 1 ms timer 0.26 ms.  The test asks
-/// for 1.0, 2.5 and 0.3 ms, and that the stated uncertainty covers 95 %.
+/// Accuracy (clock_days_test.cpp, 50 Hz, seeds not used in development, 99 % of all errors): behind
+/// a 16 ms timer 0.47 ms after 10 min, 2.1 ms if it is in step with the sensor; behind a 1 ms timer
+/// 0.26 ms.  The test requires 1.0, 2.5 and 0.3 ms, and that the stated uncertainty covers 95 %.
 ///
 /// Source: E. Olson, "A passive solution to the sensor synchronization problem", IROS 2010 (the
-/// bound from one side).  The bound from the other side is ours.
+/// bound from one side).  The bound from the other side is this project's.
 ///
-/// @param blocks  at least one, rising.  @param at  where, on the scale of `due`.
+/// @param blocks         at least one, in rising order of `due`; not checked.
+/// @param at             due time at which the line is given; may lie outside the blocks.
+/// @param sample_period  nominal time from sample to sample.
+/// @param limits         finite, least <= largest; not checked.
 [[nodiscard]] EdgeFit fit_edge(std::span<const ArrivalBlock> blocks, Nanoseconds at,
                                Nanoseconds sample_period, RateLimits limits);
 

@@ -11,10 +11,10 @@ namespace {
 using std::chrono::abs;
 using std::chrono::milliseconds;
 
-// A host's crystal at another temperature: some tenths of a ppm per degC.
+// Change of a host crystal's rate with temperature, relative: some tenths of a ppm per degC.
 constexpr double kHostRateWander = 5e-6;
 
-// As often as a block of arrivals comes to the window's end.
+// Seconds of data from fit to fit: the length of a block of arrivals.
 constexpr std::int64_t kFitEvery_s = 2;
 
 constexpr Nanoseconds kSetBackWithin = std::chrono::seconds(60);
@@ -78,8 +78,8 @@ void UtcHistory::join(Pair& pair) {
     pairs_.erase(begin, pairs_.end());
 }
 
-// On the line through `pair` and the farther end of its stretch: the longer, the less a time service
-// that is still slewing counts.
+// On the line through `pair` and the farther end of its stretch: over a longer line, a time service
+// that is still slewing has less effect.
 UtcHistory::Point UtcHistory::beyond(Pairs::const_iterator pair, RawTime awake,
                                      std::size_t sleeps) const {
     const auto [first, past] =

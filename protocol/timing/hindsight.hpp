@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Times of samples once everything is known: arrivals and clock readings before and after.
+/// Times of samples in hindsight: from the arrivals and clock readings before and after them.
 
 #include <cstdint>
 #include <optional>
@@ -13,42 +13,53 @@
 
 namespace a351::timing {
 
-/// The host's raw clock -> UTC by straight lines between readings.
+/// Maps the host's raw clock to UTC by straight lines between clock readings.
 ///
-/// Where any reading says that the host was synchronised only such readings are used: what lies
-/// before the first or after the last is carried on at the rate of the readings next to it, and a
-/// clock that was wrong until then is mended.  Readings that differ by more than 50 ms + 600 ppm of
-/// the time between are a step; the jump is put at the later one.  A clock that was set and set back
-/// within a minute was not set.
+/// If any reading shows a synchronised host, only such readings are used.  Before the first and
+/// after the last of them, time is extrapolated at the mean rate of their stretch; so a clock that
+/// was wrong before its synchronisation is corrected.  Two readings whose offsets differ by more
+/// than 50 ms + 600 ppm of the time between them are a step; the jump is placed at the later one
+/// and begins a new stretch.  A clock that was set and set back within a minute counts as not set.
+/// A sleep begins a new stretch, too.
 ///
-/// Within 2 minutes of an announced leap second the error is 1 s at least.
+/// The time that the host slept, by CLOCK_BOOTTIME, is added to its raw clock.
 ///
-/// What the host slept, by boottime, is added to its raw clock; a time that a sleep parts from the
-/// reading it rests on is good to 1 s.
+/// Error (95 %): between two readings of a stretch the larger of their maximum errors + 100 ppm of
+/// the time to the nearer one.  Outside, the error of the reading + 5 ppm of the time to it + the
+/// error of the rate of its stretch, together at most 100 ppm.  1 s more if a sleep lies between.
+/// At least 1 s if no reading is synchronised, and within 2 min of an announced leap second.
+///
+/// Accuracy: within 1 ms of the truth after a sleep, and while a clock was set and set back, on
+/// made-up hosts without slewing (hindsight_test.cpp).
 class UtcHistory {
 public:
-    /// In the order of time, of one boot of the host.
+    /// Adds a reading; one that is not later than the previous one is ignored.
+    /// @param reading  all of one boot of the host.
     void observe(const ClockReading& reading);
 
+    /// UTC of one instant.
     struct Point {
         UtcTime utc;
-        Nanoseconds error{0};  ///< Of the host's clock, 95 %.
-        int stretch = 0;       ///< Between two jumps.
+        Nanoseconds error{0};  ///< Error of the host's clock, 95 %.
+        int stretch = 0;       ///< Number of the stretch between two jumps.
     };
-    /// There is a reading.  `sleeps` of the host lie before that instant: raw time does not tell, for
-    /// the reading that shows a sleep is later than what came first after it.
+    /// Returns the UTC of a raw time.  Precondition: not is_empty().
+    /// @param sleeps  number of sleeps of the host before that instant.  It does not follow from
+    ///                `raw`: the reading that shows a sleep is later than the first arrivals after
+    ///                it.
     [[nodiscard]] Point at(RawTime raw, std::size_t sleeps) const;
 
-    /// That the readings so far show.
+    /// Returns the number of sleeps that the readings show.
     [[nodiscard]] std::size_t sleeps() const noexcept { return slept_.size(); }
 
     [[nodiscard]] bool is_empty() const noexcept { return pairs_.empty(); }
+    /// Returns true if any reading showed a synchronised host.
     [[nodiscard]] bool is_synchronised() const noexcept { return is_synchronised_; }
 
 private:
     struct Pair {
-        RawTime awake;          ///< Raw time and what was slept.
-        Nanoseconds offset{0};  ///< UTC since 1970 - awake.
+        RawTime awake;          ///< Raw time plus the time slept before.
+        Nanoseconds offset{0};  ///< UTC since 1970 minus `awake`.
         Nanoseconds error{0};
         std::size_t sleeps = 0;
         int stretch = 0;
@@ -63,27 +74,33 @@ private:
 
     bool is_synchronised_ = false;
     std::optional<ClockReading> last_;
-    std::vector<UtcTime> leaps_;      ///< Midnights announced.
-    std::vector<Nanoseconds> slept_;  ///< Of each sleep, with all before.
+    std::vector<UtcTime> leaps_;      ///< Midnights of announced leap seconds.
+    std::vector<Nanoseconds> slept_;  ///< Time slept up to the end of each sleep.
     Pairs pairs_;
 };
 
-/// One run of a sensor: every second of data from the arrivals within 450 s before and after it.
+/// Computes the times of one run of a sensor afterwards: each second of data from the arrivals
+/// within 450 s before and after it (ArrivalEdge::line_around) and from UtcHistory.
 ///
-/// Accuracy (clock_days_test, out of sample): behind a 16 ms timer that is not in step 99 % within
-/// 0.5 ms.
+/// Accuracy (clock_days_test.cpp, seeds not used in development): behind a 16 ms timer that is not
+/// in step with the sensor, 99 % of the times are within 0.5 ms, and the stated uncertainty covers
+/// at least 95 %.
 class Hindsight {
 public:
-    /// @param sleeps  of the host, by UtcHistory, before the first arrival.
+    /// @param sleeps  UtcHistory::sleeps() before the first arrival.
     Hindsight(SampleClockOptions options, std::size_t sleeps);
 
-    /// As SampleClock::observe.
+    /// Adds an arrival, as SampleClock::observe().
     void observe(std::int64_t index, RawTime arrival);
 
-    /// The host has slept so often, by UtcHistory: the next arrival stands for itself, as does the
-    /// first after more than 24 h of data were lost.
+    /// Separates the next arrival from those before, because the host slept.  A loss of more than
+    /// 24 h of data separates them too.
+    /// @param sleeps  UtcHistory::sleeps() now.
     void host_slept(std::size_t sleeps);
 
+    /// Returns one piece per second of data; its `uncertainty` is that of the line + that of the
+    /// host's clock.  Empty without arrivals.
+    /// @param history  not empty, unless there are no arrivals.
     [[nodiscard]] std::vector<TimePiece> times(const UtcHistory& history) const;
 
 private:

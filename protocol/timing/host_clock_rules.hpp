@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What is held of a host's clocks, live and in hindsight.
+/// Assumptions about a host's clocks, used live and in hindsight.
 
 #include <chrono>
 
@@ -8,41 +8,46 @@
 
 namespace a351::timing {
 
-/// Boottime gains this on the raw clock between readings: the host slept.  Slewing makes 0.6 ms of a
-/// second.
+/// Least gain of CLOCK_BOOTTIME on the raw clock between two readings that means that the host
+/// slept.  Slewing gains 0.6 ms per second.
 inline constexpr Nanoseconds kShortestSleep = std::chrono::milliseconds(100);
 
-/// A clock that departs by more, beyond what slewing explains, was set.
+/// Largest departure of a clock, beyond the possible slewing, that is not a step.
 inline constexpr Nanoseconds kClockStep = std::chrono::milliseconds(50);
 
-/// Where sample times may jump at all, a greater jump is a break; a smaller one is slewed.
+/// Largest jump of sample times that is removed by slewing; a larger one is a break, if there is a
+/// cause for a jump.
 inline constexpr Nanoseconds kBreak = std::chrono::milliseconds(5);
 
-/// After a longer loss sample times begin anew: neither clock keeps a line over more.
+/// Longest loss of data across which sample times are continued; neither clock keeps a line for
+/// longer.
 inline constexpr Nanoseconds kLongestLoss = std::chrono::hours(24);
 
-/// Around the midnight of an announced leap second times may be a second off: in its minute, and in
-/// records, of up to a minute, that reach into it.
+/// Time before and after the midnight of an announced leap second in which times may be 1 s off:
+/// the minute of the leap second, and records of up to a minute that reach into it.
 inline constexpr Nanoseconds kLeapDoubt = std::chrono::minutes(2);
 
-/// The midnight of a leap second, by a reading that announces it.  One across that midnight may be
-/// after it already.
+/// Returns the midnight of a leap second that a reading at `realtime` announces.  A reading taken
+/// across that midnight may already show a later time.
 [[nodiscard]] inline UtcTime announced_midnight(UtcTime realtime) {
     return std::chrono::ceil<std::chrono::days>(realtime - kLeapDoubt);
 }
 
-/// Of a clock that was never synchronised, or that only a battery clock carried through a sleep.
+/// Least error of a clock that was never synchronised, or that only a battery clock kept during a
+/// sleep.
 inline constexpr Nanoseconds kUnknownClockError = std::chrono::seconds(1);
 
-/// 500 ppm of the kernel (MAXFREQ) + a crystal.
+/// Largest rate of a slewed clock, ppm: 500 of the kernel (MAXFREQ) + 100 of a crystal.
 inline constexpr std::int64_t kMostSlew_ppm = 600;
+/// Returns the largest change of a slewed clock within `duration`.
 [[nodiscard]] constexpr Nanoseconds most_slewed(Nanoseconds duration) {
     return duration / 1'000'000 * kMostSlew_ppm;
 }
 
-/// Of a host's crystal without discipline: twice what they are usually specified to.
+/// Largest rate error of a host's undisciplined crystal, ppm: twice the usual specification.
 inline constexpr std::int64_t kHostRateError_ppm = 100;
 inline constexpr double kHostRateError = 1e-6 * kHostRateError_ppm;
+/// Returns the largest drift of such a crystal within `duration`.
 [[nodiscard]] constexpr Nanoseconds host_drift(Nanoseconds duration) {
     return duration / 1'000'000 * kHostRateError_ppm;
 }

@@ -13,10 +13,10 @@ using std::chrono::abs;
 using std::chrono::milliseconds;
 
 constexpr Nanoseconds kLargestPull = std::chrono::microseconds(200);  // per second of data
-constexpr Nanoseconds kUnlocked = std::chrono::seconds(60);
-constexpr Nanoseconds kLocked = milliseconds(3);
-constexpr Nanoseconds kRemembered = std::chrono::hours(24);
-constexpr Nanoseconds kShortestSpan = std::chrono::minutes(1);
+constexpr Nanoseconds kUnlocked = std::chrono::seconds(60);           // data before any other state
+constexpr Nanoseconds kLocked = milliseconds(3);                // uncertainty of a locked line
+constexpr Nanoseconds kRemembered = std::chrono::hours(24);     // data whose times are kept
+constexpr Nanoseconds kShortestSpan = std::chrono::minutes(1);  // for a measured rate
 
 }  // namespace
 
@@ -55,7 +55,7 @@ void SampleClock::observe(std::int64_t index, RawTime arrival) {
         return;
     }
     if (is_far) may_jump_ = true;
-    // The first after a sleep, or after such a loss: none has a time between.
+    // First arrival after a sleep or a long loss: no sample in between gets a time.
     if (edge_.is_empty() || is_far) fixed_until_ = std::max(fixed_until_, index);
     edge_.observe(index, awake(arrival));
     fix_until(index);
@@ -119,7 +119,7 @@ UtcTime SampleClock::on(const TimePiece& piece, std::int64_t index) const {
            samples % period_.per_second() * piece.step / period_.per_second();
 }
 
-// The first one also holds for samples before it.
+// The first piece also holds for samples before it.
 const TimePiece& SampleClock::piece_of(std::int64_t index) const {
     const auto after =
         std::upper_bound(pieces_.begin() + 1, pieces_.end(), index,

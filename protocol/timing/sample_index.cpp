@@ -9,18 +9,19 @@ namespace a351::timing {
 namespace {
 
 constexpr std::int64_t kCounterRange = 65536;
-constexpr double kAgreement_s = 1.0;  // a wrong choice is a whole period away: 16 s or more
+constexpr double kAgreement_s = 1.0;  // a wrong choice is off by a period: 16 s or more
 
-// Device 10 ppm (M-A352AD10 data sheet, electrical specifications) and a host crystal.
+// Relative rate error: device 10 ppm (M-A352AD10 data sheet, electrical specifications) and a host
+// crystal.
 constexpr double kRateError = 100e-6;
 
-// A counter that steps back by up to a second is corrupt, not nearly a wrap further.
+// Ticks, about a second: a counter that steps back by no more is corrupt, not almost a wrap ahead.
 constexpr std::int64_t kJumpBack = 4096;
 
-// No adapter delays a frame so long: it lay in a buffer.
+// Delay that no adapter causes: such a frame was in a buffer.
 constexpr Nanoseconds kLate = std::chrono::seconds(10);
 
-// Long enough to hold frames that came without delay, short enough for kRateError not to matter.
+// Long enough to include frames without delay, short enough for kRateError to be negligible.
 constexpr double kWindow_s = 512.0;
 
 double in_seconds(Nanoseconds duration) { return std::chrono::duration<double>(duration).count(); }
@@ -36,7 +37,7 @@ RawTime SampleIndex::start_of(std::int64_t index, RawTime arrival) const {
     return arrival - from_seconds(static_cast<double>(index) / rate_hz_);
 }
 
-/// The last placed frame.
+/// Returns true if the last placed frame came more than kLate after its time.
 bool SampleIndex::was_late() const {
     return start_of(*last_index_, last_arrival_) - earliest_start_ > kLate;
 }
@@ -70,7 +71,7 @@ Placement SampleIndex::place(std::uint16_t count, bool contiguous, RawTime arriv
     return {Placement::Kind::new_session, 0, 0};
 }
 
-// The advance > 0 that fits the counter and is nearest to elapsed time, if it agrees with it.
+// Returns the advance > 0 that matches the counter and is nearest to elapsed time, if both agree.
 std::optional<std::int64_t> SampleIndex::advance_by_time(std::uint16_t difference,
                                                          RawTime arrival) const {
     const std::int64_t divisor = kCounterRange / period_;
@@ -114,10 +115,10 @@ Placement SampleIndex::accept(std::int64_t advance, std::uint16_t count, RawTime
 }
 
 Placement SampleIndex::refuse(std::uint16_t count) {
-    const bool goes_on =
+    const bool continues =
         anomalous_count_ && static_cast<std::uint16_t>(count - *anomalous_count_) == count_step_;
     anomalous_count_ = count;
-    return {goes_on ? Placement::Kind::new_session : Placement::Kind::anomaly, 0, 0};
+    return {continues ? Placement::Kind::new_session : Placement::Kind::anomaly, 0, 0};
 }
 
 }  // namespace a351::timing

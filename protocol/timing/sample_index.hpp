@@ -1,8 +1,8 @@
 #pragma once
 /// @file
-/// The 16-bit COUNT of the frames -> an index that never wraps.  While bytes are contiguous,
-/// continuity decides, never elapsed time; after a loss, elapsed time chooses among the indices
-/// that fit the counter.
+/// The 16-bit COUNT of the frames -> an index that never wraps.  While bytes are contiguous, the
+/// counter alone decides; after a loss, elapsed time chooses among the indices that match the
+/// counter.
 
 #include <cstdint>
 #include <optional>
@@ -12,50 +12,58 @@
 
 namespace a351::timing {
 
-/// Where a frame stands in its session.
+/// Position of a frame in its session.
 struct Placement {
     enum class Kind {
         first,        ///< First frame of the session: index 0.
-        next,         ///< One after the frame before.
+        next,         ///< Directly after the frame before.
         after_gap,    ///< `missing` samples were lost before it.
         duplicate,    ///< Same counter as the frame before: not a new sample.
-        anomaly,      ///< The counter fits no sample of this session; the frame is not placed.
+        anomaly,      ///< The counter matches no sample of this session; the frame is not placed.
         new_session,  ///< The counter disagrees with elapsed time: the device restarted.
     };
     Kind kind = Kind::first;
-    std::int64_t index = 0;    ///< Meaningful for first, next, after_gap.
+    std::int64_t index = 0;    ///< Sample index from 0; defined for first, next, after_gap.
     std::int64_t missing = 0;  ///< Samples lost before this one; > 0 only for after_gap.
 };
 
-/// COUNT rises by `count_step` a frame, modulo 65536.  An index is therefore known from it modulo
-/// the period 65536 / gcd(count_step, 65536): 4096 samples at 50 Hz.
+/// Gives each frame its sample index.  COUNT rises by `count_step` per frame, modulo 65536, so it
+/// determines the index modulo the period 65536 / gcd(count_step, 65536): 4096 samples at 50 Hz.
 ///
-/// Elapsed time is measured from the least delayed frame of the last minutes, not from the frame
-/// before, which may have come late.  An index agrees with it within 1 s + 100 ppm of the time
+/// Elapsed time is measured from the least delayed frame of the last minutes, because the frame
+/// before may have come late.  An index agrees with elapsed time within 1 s + 100 ppm of the time
 /// since the last placed frame.
 ///
-/// Contiguous: the difference to the last placed frame decides.  One that is no multiple of the
-/// step, or a step back by up to 4096 ticks, is a loss longer than a wrap if that agrees with
-/// elapsed time, else an anomaly.  A loss right behind frames that came more than 10 s late is what
-/// a receiver dropped while the host did not read: there elapsed time decides first, if it agrees.
+/// Contiguous frames: the difference to the last placed frame decides.  If it is not a multiple of
+/// the step, or a step back by up to 4096 ticks, the loss is longer than a wrap if that agrees with
+/// elapsed time, else an anomaly.  After frames that came more than 10 s late, a loss is one of the
+/// receiver while the host did not read: there elapsed time decides first, if it agrees.
 ///
-/// Not contiguous: of the indices that fit the counter, the one nearest the prediction, if it
-/// agrees; otherwise, when the counter goes on with at most 1 s missing, the bytes were merely late
-/// (on scaled time a host's pause is minutes); otherwise a new session.  A counter that goes on
-/// exactly is always next: one outage in `period` that is longer than the period is misread so.
+/// Other frames: of the indices that match the counter, the one nearest to elapsed time, if it
+/// agrees.  Otherwise, if the counter continues with at most 1 s missing, the bytes were only late
+/// (on scaled time a pause of the host is minutes).  Otherwise it is a new session.
 ///
-/// After an anomaly or a duplicate the state is what it was; a second anomalous frame that follows
+/// A counter that continues exactly is always `next`.  So one in `period` outages longer than the
+/// period is not seen.
+///
+/// After an anomaly or a duplicate the state is unchanged.  A second anomalous frame that follows
 /// the first by one step is a new session, so that a restarted counter cannot block for ever.
-/// After new_session the caller starts with a new SampleIndex.
+/// After new_session the caller must start with a new SampleIndex.
+///
+/// Accuracy (sample_index_test.cpp): the index is exact after outages of up to 10 h at 50 to 1000
+/// Hz with arrivals up to 0.8 s late, and with an oscillator 10 ppm off.  A counter that restarted
+/// at random is taken for a gap in 2.4 to 3.7 % of all cases at 50 Hz.
 class SampleIndex {
 public:
-    /// @param count_step  ticks per frame, > 0.  @param rate  nominal output rate, > 0.
+    /// @param count_step  COUNT increment per frame, > 0; not checked.
+    /// @param rate        nominal output rate, > 0; not checked.
     SampleIndex(std::uint16_t count_step, Hertz rate);
 
-    /// @param count       the frame's COUNT.
-    /// @param contiguous  too few bytes were skipped, and too short a silence passed since the
-    ///                    last frame, for the counter to wrap.
-    /// @param arrival     host time of the frame's last byte.
+    /// Returns the position of the next frame.
+    /// @param count       COUNT of the frame.
+    /// @param contiguous  true if the bytes skipped and the silence since the last frame are too
+    ///                    short for the counter to wrap.
+    /// @param arrival     host time of the last byte of the frame.
     [[nodiscard]] Placement place(std::uint16_t count, bool contiguous, RawTime arrival);
 
 private:
@@ -68,14 +76,14 @@ private:
 
     std::uint16_t count_step_;
     double rate_hz_;
-    std::int64_t period_;  // samples after which index and counter agree again
+    std::int64_t period_;  ///< Samples after which the counter repeats.
     std::optional<std::int64_t> last_index_;
     std::uint16_t last_count_ = 0;
     RawTime last_arrival_;
     std::optional<std::uint16_t> anomalous_count_;
-    RawTime earliest_start_;         // of the window before this one and this one
-    RawTime window_earliest_start_;  // of this one
-    std::int64_t window_first_ = 0;
+    RawTime earliest_start_;         ///< Least start in this window and the one before.
+    RawTime window_earliest_start_;  ///< Least start in this window.
+    std::int64_t window_first_ = 0;  ///< First sample of this window.
 };
 
 }  // namespace a351::timing

@@ -13,8 +13,8 @@ using std::chrono::abs;
 using std::chrono::microseconds;
 using std::chrono::seconds;
 
-constexpr Nanoseconds kTrustedAfter = seconds(60);
-constexpr Nanoseconds kSlopeOver = seconds(3);  // a reading is good to microseconds
+constexpr Nanoseconds kTrustedAfter = seconds(60);  // after a step, and after waking up
+constexpr Nanoseconds kSlopeOver = seconds(3);      // a reading is accurate to microseconds
 
 Nanoseconds max_error(const ClockReading& reading) { return microseconds(reading.max_error_us); }
 
@@ -31,7 +31,7 @@ std::optional<Nanoseconds> UtcMapping::observe(const ClockReading& reading) {
         follow(reading, offset);
         return std::nullopt;
     }
-    // In its sleep the host's clock and the count of it are one.
+    // While the host slept, one clock kept both UTC and boottime, so their offset did not drift.
     const Nanoseconds departure = offset - (slept ? recent_.back().offset : offset_at(reading.raw));
     const Nanoseconds slewed =
         doubted_ || slept ? Nanoseconds(0) : most_slewed(reading.raw - last_->raw);
@@ -60,7 +60,7 @@ std::optional<Nanoseconds> UtcMapping::observe(const ClockReading& reading) {
     return departure;
 }
 
-/// Announced by the last reading: this one comes after it.
+/// Returns true if the last reading announced the leap second that `departure` shows.
 bool UtcMapping::is_leap(const ClockReading& reading, Nanoseconds departure) const noexcept {
     if (last_->leap == LeapSecond::none || abs(reading.realtime - *leap_at_) > kLeapDoubt)
         return false;

@@ -11,7 +11,8 @@
 namespace a351::corrector {
 namespace {
 
-/// Of any covariance here; beyond, it says nothing.
+/// Largest magnitude of a covariance, squares of the values' units; a larger one has no
+/// information.
 constexpr double kGreatestCovariance = 1e12;
 constexpr double kLongestWarmUp_h = 1000.0;
 
@@ -19,11 +20,12 @@ struct Range {
     double low, high;
 };
 
-/// A tenth of g along the axis, fifty times what was seen.
+/// Range of axis biases, mGal per g: a tenth of g along the axis, fifty times the observed values.
 constexpr Range kBiasRange{-1e5, 1e5};
 constexpr std::array<Range, 2> kAxisBiasRanges{kBiasRange, kBiasRange};
 
-/// A thousand times what was seen; lags from 1 s to two days.
+/// Ranges of slopes, mGal/degC or mGal/(degC/h), a thousand times the observed values; and of
+/// logarithms of lags in seconds, from 1 s to two days.
 constexpr Range kSlopeRange{-1e4, 1e4}, kLagRange{0.0, 12.0};
 constexpr std::array<Range, 5> kThermalRanges{kSlopeRange, kSlopeRange, kSlopeRange, kLagRange,
                                               kLagRange};
@@ -93,7 +95,8 @@ std::optional<CalibratedCoefficients<kCount>> coefficients_of(
     part.covariance = Eigen::Map<const Matrix>(covariance.data());
     if (part.covariance != part.covariance.transpose() ||
         !Cholesky(part.covariance).is_positive_definite())
-        table.refuse("covariance", "no covariance", "a symmetric, positive definite matrix");
+        table.refuse("covariance", "not a covariance matrix",
+                     "a symmetric, positive definite matrix");
     return part;
 }
 
@@ -104,7 +107,7 @@ std::vector<CalibrationData> data_of(text::TomlTable& document) {
         CalibrationData data{required(table, "name"), required(table, "sha256")};
         if (data.sha256.size() != kDigits ||
             data.sha256.find_first_not_of("0123456789abcdef") != std::string::npos)
-            table.refuse("sha256", "no SHA-256", "64 lower-case hexadecimal digits");
+            table.refuse("sha256", "not a SHA-256", "64 lower-case hexadecimal digits");
         table.require_all_read();
         list.push_back(std::move(data));
     }
@@ -138,8 +141,8 @@ Calibration parse_calibration(std::string_view text, std::filesystem::path origi
     }
     document.require_all_read();
     if (!calibration.axis_bias && !calibration.thermal && !calibration.warm_up)
-        document.refuse("axis_bias", "missing, and so are the other parts",
-                        "axis_bias, thermal or warm_up");
+        document.refuse("axis_bias", "missing, and so are thermal and warm_up",
+                        "at least one of axis_bias, thermal or warm_up");
     return calibration;
 }
 

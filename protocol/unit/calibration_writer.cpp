@@ -6,7 +6,7 @@
 namespace a351::corrector {
 namespace {
 
-/// A TOML string: JSON's escapes are TOML's, but DEL has to be escaped too.
+/// Returns a TOML string: the escapes of JSON are valid in TOML, but DEL must be escaped too.
 std::string quoted(const std::string& text) {
     std::string result;
     for (const char c :

@@ -30,7 +30,7 @@ std::uint16_t count_of(const BurstLayout& layout, Bytes frame) noexcept {
     return read_u16(frame, frame.size() - tail_size(layout) - 2);
 }
 
-/// What is wrong with `frame` taken by itself, if anything.
+/// Returns the fault of a single frame, if it has one; other frames are not considered.
 std::optional<Reason> find_fault(const BurstLayout& layout, Bytes frame) noexcept {
     if (frame.front() != kStartByte) return Reason::no_start_byte;
     if (frame.back() != kEndByte) return Reason::bad_end_byte;
@@ -72,7 +72,7 @@ BurstDecoder::BurstDecoder(BurstLayout layout, std::uint16_t count_step) noexcep
 }
 
 std::optional<DecoderEvent> BurstDecoder::next(Bytes& input) noexcept {
-    if (pending_size_ == 0 && is_behind_frame_ && input.size() >= frame_size_) {
+    if (pending_size_ == 0 && follows_frame_ && input.size() >= frame_size_) {
         const Bytes frame = input.first(frame_size_);
         if (!find_fault(layout_, frame)) {
             input = input.subspan(frame_size_);
@@ -92,7 +92,7 @@ std::optional<DecoderEvent> BurstDecoder::next(Bytes& input) noexcept {
                 break;
             }
             case Verdict::Kind::accept: {
-                if (run_.byte_count > 0) return take_run();  // The next call judges the same.
+                if (run_.byte_count > 0) return take_run();  // The next call accepts it.
                 const BurstFrame frame = accept(Bytes(pending_).first(frame_size_));
                 drop_front(frame_size_);
                 return frame;
@@ -100,7 +100,7 @@ std::optional<DecoderEvent> BurstDecoder::next(Bytes& input) noexcept {
             case Verdict::Kind::reject: {
                 if (run_.byte_count == 0) run_.reason = verdict.reason;
                 ++run_.byte_count;
-                is_behind_frame_ = false;
+                follows_frame_ = false;
                 drop_front(1);
                 if (run_.byte_count == frame_size_) return take_run();
                 break;
@@ -111,8 +111,8 @@ std::optional<DecoderEvent> BurstDecoder::next(Bytes& input) noexcept {
 
 std::size_t BurstDecoder::pending_bytes() const noexcept { return run_.byte_count + pending_size_; }
 
-/// Whether a frame starts at the front of `bytes`.  More bytes may decide what was undecided but
-/// never change a decision: that is what makes the events indifferent to cutting.
+/// Decides if a frame starts at the front of `bytes`.  More bytes may settle an undecided case but
+/// never change a decision, so the events do not depend on how the stream is cut.
 BurstDecoder::Verdict BurstDecoder::judge(Bytes bytes) const noexcept {
     if (!bytes.empty() && bytes.front() != kStartByte) {
         return {.kind = Verdict::Kind::reject, .reason = Reason::no_start_byte};
@@ -124,7 +124,7 @@ BurstDecoder::Verdict BurstDecoder::judge(Bytes bytes) const noexcept {
     if (const auto fault = find_fault(layout_, frame)) {
         return {.kind = Verdict::Kind::reject, .reason = *fault};
     }
-    if (is_behind_frame_) return {.kind = Verdict::Kind::accept};
+    if (follows_frame_) return {.kind = Verdict::Kind::accept};
     if (!layout_.has_checksum()) return confirm_in_a_row(bytes);
     if (has_accepted_ &&
         (!layout_.has_count() || is_count_ahead(count_of(layout_, frame), last_count_))) {
@@ -173,7 +173,7 @@ bool BurstDecoder::is_count_ahead(std::uint16_t count, std::uint16_t previous) c
 
 BurstFrame BurstDecoder::accept(Bytes frame) noexcept {
     const BurstValues values = read_values(layout_, frame);
-    is_behind_frame_ = true;
+    follows_frame_ = true;
     has_accepted_ = true;
     last_count_ = values.count;
     return BurstFrame(values);

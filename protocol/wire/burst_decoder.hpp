@@ -15,30 +15,32 @@
 
 namespace a351::wire {
 
-/// A run of bytes that belongs to no valid frame.  Loss is an event like any other:
-/// the caller counts it and says so; it is never swallowed here.
+/// Run of bytes that belongs to no valid frame.  Every loss is reported as such an event; the
+/// caller counts and reports it.
 struct Discarded {
     enum class Reason { no_start_byte, bad_checksum, bad_end_byte, unconfirmed };
-    Reason reason = Reason::no_start_byte;  ///< Why the first byte of the run was given up.
-    std::size_t byte_count = 0;  ///< 1 ... frame size; a longer run comes as several events.
+    Reason reason = Reason::no_start_byte;  ///< Reason for rejecting the first byte of the run.
+    std::size_t byte_count = 0;  ///< 1 ... frame size; a longer run gives several events.
 };
 
 using DecoderEvent = std::variant<BurstFrame, Discarded>;
 
-/// Events come in the order of the bytes they cover, and each byte ends up in exactly one, so the
-/// position of an event in the stream is the sum of the sizes before it.
+/// Splits a byte stream into frames and discarded bytes.  Events come in the order of the bytes
+/// they cover, and each byte belongs to exactly one event.  The position of an event in the stream
+/// is therefore the sum of the sizes before it.
 ///
-/// What counts as a frame (every rule looks at the stream only, never at how it was cut):
-/// - Directly behind an accepted frame: start byte, end byte and, where present, checksum are right.
-/// - After a loss, with checksum: the same, and COUNT lies ahead of the last accepted frame by a
-///   multiple of the step and at most half a wrap.  A layout without COUNT has nothing to disagree.
-/// - Anywhere else with checksum (start of the stream, implausible COUNT): the frame is held until a
-///   second right frame with such a COUNT ends within kLookAheadFrames frame lengths of its start.
-/// - Anywhere else without checksum: three right frames in a row, each COUNT ahead of the one before.
-/// A frame refused costs one byte; the search goes on at the next one, inside the frame refused.
+/// Rules for accepting a frame (they depend on the stream only, not on how it was cut):
+/// - Directly after an accepted frame: start byte, end byte and, if present, checksum are right.
+/// - After a loss, with checksum: the same, and COUNT is ahead of the last accepted frame by a
+///   multiple of the step, at most half a wrap.  A layout without COUNT needs the checksum only.
+/// - Anywhere else with checksum (start of the stream, implausible COUNT): a second right frame
+///   with such a COUNT must end within kLookAheadFrames frame lengths of the start of the first
+///   one.
+/// - Anywhere else without checksum: three right frames in a row, each COUNT ahead of the previous.
+/// A rejected frame costs one byte; the search continues at its second byte.
 class BurstDecoder {
 public:
-    /// @param count_step  COUNT increment between frames; plausibility of a first frame.
+    /// @param count_step  COUNT increment between frames, > 0.
     BurstDecoder(BurstLayout layout, std::uint16_t count_step) noexcept;
 
     /// Takes bytes from the front of `input` until one event is complete; std::nullopt means
@@ -46,10 +48,10 @@ public:
     ///
     ///     while (auto event = decoder.next(input)) std::visit(handle, *event);
     ///
-    /// Where the caller cuts the stream changes no event.
+    /// The events do not depend on where the caller cuts the stream.
     [[nodiscard]] std::optional<DecoderEvent> next(std::span<const std::byte>& input) noexcept;
 
-    /// Bytes taken so far that no event covers yet.
+    /// Returns the number of bytes taken that no event covers yet.
     [[nodiscard]] std::size_t pending_bytes() const noexcept;
 
     [[nodiscard]] const BurstLayout& layout() const noexcept { return layout_; }
@@ -59,8 +61,8 @@ private:
 
     struct Verdict {
         enum class Kind { accept, reject, undecided } kind;
-        Discarded::Reason reason = Discarded::Reason::no_start_byte;  ///< For reject.
-        std::size_t bytes_needed = 0;                                 ///< For undecided.
+        Discarded::Reason reason = Discarded::Reason::no_start_byte;  ///< If rejected.
+        std::size_t bytes_needed = 0;                                 ///< If undecided.
     };
 
     [[nodiscard]] Verdict judge(std::span<const std::byte> bytes) const noexcept;
@@ -76,9 +78,9 @@ private:
     std::size_t frame_size_;
     std::array<std::byte, kLookAheadFrames * kLargestFrame> pending_{};
     std::size_t pending_size_ = 0;
-    Discarded run_;                 ///< Bytes given up, before `pending_`, not yet reported.
-    bool is_behind_frame_ = false;  ///< The last byte decided on ended an accepted frame.
-    bool has_accepted_ = false;     ///< `last_count_` is known.
+    Discarded run_;               ///< Bytes given up, before `pending_`, not yet reported.
+    bool follows_frame_ = false;  ///< True if the last decided byte ended an accepted frame.
+    bool has_accepted_ = false;   ///< True once `last_count_` is known.
     std::uint16_t last_count_ = 0;
 };
 

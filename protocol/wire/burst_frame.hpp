@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The content of a burst frame, its checksum and its encoder: protocol/wire/burst-format.md.
+/// Content of a burst frame, its checksum and its encoder: protocol/wire/burst-format.md.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace a351::wire {
 
-/// The fields of a frame as raw counts.  Fields that the layout lacks are zero; ask the layout.
+/// Fields of a frame as raw counts.  Fields that the layout lacks are zero.
 struct BurstValues {
     std::uint16_t flag = 0;
     std::int32_t temperature = 0;
@@ -26,7 +26,7 @@ inline constexpr std::uint16_t kFlagError = 0x0001;     ///< EA: a bit of DIAG_S
 inline constexpr std::uint16_t kFlagAliasing = 0x0002;  ///< ALIASI_ERR: rate and filter do not fit.
 inline constexpr std::uint16_t kFlagAlarms = 0x001C;    ///< X/Y/ZALARM_ERR: output clamped.
 
-/// A frame whose markers and, where the layout has one, checksum were verified.
+/// Frame whose markers and, if the layout has one, checksum were verified.
 class BurstFrame {
 public:
     [[nodiscard]] const BurstValues& values() const noexcept { return values_; }
@@ -37,8 +37,8 @@ private:
     BurstValues values_;
 };
 
-/// Sum of the 16-bit big-endian words of `payload`, modulo 65536 (data sheet 6.2.4).
-/// `payload` is what lies between the start byte and the checksum; its size is even.
+/// Returns the sum of the 16-bit big-endian words of `payload`, modulo 65536 (data sheet 6.2.4).
+/// @param payload  the bytes between the start byte and the checksum; an even number.
 [[nodiscard]] std::uint16_t burst_checksum(std::span<const std::byte> payload) noexcept;
 
 /// Appends the frame that carries `values` in `layout`.

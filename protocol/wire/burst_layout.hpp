@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The shape of a burst frame: protocol/wire/burst-format.md.
+/// Layout of a burst frame: protocol/wire/burst-format.md.
 
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +23,7 @@ inline constexpr std::uint16_t kZOut = 0x0100;
 inline constexpr std::uint16_t kCountOut = 0x0002;
 inline constexpr std::uint16_t kChecksumOut = 0x0001;
 
-/// Which fields a burst frame carries, as set in BURST_CTRL (M-A352AD10 data sheet 5.10, 6.2.2):
+/// Set of fields in a burst frame, as set in BURST_CTRL (M-A352AD10 data sheet 5.10, 6.2.2):
 ///
 ///     0x80 | FLAG 2 | TEMP 4 | X 4 | Y 4 | Z 4 | COUNT 2 | CHKSM 2 | 0x0D
 ///
@@ -31,11 +31,12 @@ inline constexpr std::uint16_t kChecksumOut = 0x0001;
 /// of axes, every other field optional.
 class BurstLayout {
 public:
+    /// Returns the layout that a value of BURST_CTRL selects.
     /// @return std::nullopt when no axis is set, or a bit outside FLAG_OUT, TEMP_OUT, ACCX/Y/Z_OUT,
     ///         COUNT_OUT, CHKSM_OUT.
     [[nodiscard]] static std::optional<BurstLayout> from_burst_ctrl(std::uint16_t value) noexcept;
 
-    /// FLAG, TEMP, three axes, COUNT, CHKSM (0xC703): what the daemon records.
+    /// Returns the layout that the daemon records: FLAG, TEMP, three axes, COUNT, CHKSM (0xC703).
     [[nodiscard]] static BurstLayout recommended() noexcept;
 
     [[nodiscard]] std::uint16_t burst_ctrl() const noexcept { return burst_ctrl_; }
@@ -47,7 +48,7 @@ public:
     [[nodiscard]] bool has_count() const noexcept { return has(kCountOut); }
     [[nodiscard]] bool has_checksum() const noexcept { return has(kChecksumOut); }
 
-    [[nodiscard]] std::size_t frame_size() const noexcept;  ///< Bytes, markers included.
+    [[nodiscard]] std::size_t frame_size() const noexcept;  ///< In bytes, markers included.
 
     bool operator==(const BurstLayout&) const = default;
 

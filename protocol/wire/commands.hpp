@@ -21,30 +21,34 @@ namespace a351::wire {
 /// Address, value, CR.
 using Command = std::array<std::byte, 3>;
 
-/// Sent one by one, kCommandSpacing apart.  Each sequence starts by selecting its window: `83 01`
-/// starts sampling in window 0 but a self test in window 1.
+/// Commands to be sent one by one, kCommandSpacing apart.  Each sequence starts by selecting its
+/// window: `83 01` starts sampling in window 0 but a self test in window 1.
 using CommandSequence = std::vector<Command>;
 
-/// Start of one command to start of the next: 0.66 ms at 115200 baud, less above (table 6.9).
+/// Time from the start of one command to the start of the next.  The device needs 0.66 ms at 115200
+/// baud, less at higher rates (table 6.9).
 inline constexpr std::chrono::milliseconds kCommandSpacing{1};
 
-/// Commands to go to configuration mode, right in any mode and window; the answer is silence.
+/// Returns the commands that switch to configuration mode.  They are valid in any mode and window;
+/// the device does not answer them and falls silent.
 [[nodiscard]] CommandSequence stop_sampling();
 
-/// Commands to ask for MODE_CTRL, the one register worth reading before the mode is known.
+/// Returns the commands that read MODE_CTRL, the only useful register before the mode is known.
 [[nodiscard]] CommandSequence read_mode();
 
 inline constexpr std::size_t kAnswerSize = 4;  ///< Address, high byte, low byte, CR.
 
-/// The value in the answer to a read of `reg`.  Taken by length, for CR may be part of the value.
-/// @return std::nullopt unless it is four bytes, the first the address asked, the last CR.
+/// Returns the value in the answer to a read of `reg`.  The answer is recognised by its length,
+/// because CR may be part of the value.
+/// @return std::nullopt unless it is four bytes, the first the address of `reg`, the last CR.
 [[nodiscard]] std::optional<std::uint16_t> parse_answer(const Register& reg,
                                                         std::span<const std::byte> answer) noexcept;
 
-/// The device is sampling: nothing may be asked or written.
+/// State of a device that is sampling: no register may be read or written.
 class SamplingMode {
 public:
-    /// The device is in configuration mode again once MODE_CTRL says so.
+    /// Returns the commands that stop sampling.  The device is in configuration mode again when
+    /// MODE_CTRL says so.
     [[nodiscard]] CommandSequence stop() &&;
 
 private:
@@ -52,16 +56,18 @@ private:
     SamplingMode() = default;
 };
 
-/// The device has said that it is in configuration mode.
+/// State of a device that has reported configuration mode.
 class ConfigMode {
 public:
+    /// Returns the state if MODE_CTRL reports configuration mode, else std::nullopt.
     /// @param mode_ctrl  as read from the device.
     [[nodiscard]] static std::optional<ConfigMode> from_mode_ctrl(std::uint16_t mode_ctrl) noexcept;
 
     [[nodiscard]] CommandSequence read(const Register& reg) const;
 
-    /// Writes those bytes of `reg` that hold a bit of `mask`, reserved bits as 0.  Never
-    /// acknowledged: read back.  A byte that the device does not let write is a broken promise.
+    /// Returns the commands that write those bytes of `reg` that hold a bit of `mask`; reserved
+    /// bits are written as 0.  The device does not acknowledge a write: read the register back.
+    /// Precondition: the device permits writing these bytes.
     [[nodiscard]] CommandSequence write(const Register& reg, std::uint16_t value,
                                         std::uint16_t mask) const;
 

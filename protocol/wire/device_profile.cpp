@@ -8,14 +8,15 @@
 namespace a351::wire {
 namespace {
 
-// Output rates a filter may be used at: data sheet table 5.4, "recommended" and "restricted".
+// Output rates at which a filter may be used: data sheet table 5.4, "recommended" and "restricted".
 constexpr std::array kRatesFrom50{50, 100, 200, 500, 1000};
 constexpr auto kRatesFrom100 = std::span(kRatesFrom50).subspan(1);
 constexpr auto kRatesFrom200 = std::span(kRatesFrom50).subspan(2);
 constexpr auto kRatesFrom500 = std::span(kRatesFrom50).subspan(3);
 constexpr auto kRates1000 = std::span(kRatesFrom50).subspan(4);
 
-// Data sheet tables 5.3 and 5.4, 7.12.  User filters: their stop band is their author's business.
+// Data sheet tables 5.3 and 5.4, 7.12.  User filters are allowed at every rate: their author is
+// responsible for the stop band.
 constexpr std::array kFilters{
     FilterSpec{0x1, "k64_fc83", 64, kRatesFrom500},
     FilterSpec{0x2, "k64_fc220", 64, kRates1000},

@@ -20,7 +20,7 @@ constexpr int kWrites = 2;  // the write and one retry
 constexpr milliseconds kStartUpPoll{50};
 constexpr milliseconds kStartUpLimit{3000};
 
-// Taking over a filter lasts 4 ms for a built-in one, 100 ms for the user's (data sheet table 2.2).
+// Setting a filter takes 4 ms for a built-in one, 100 ms for a user filter (data sheet table 2.2).
 constexpr milliseconds kFilterPoll{5};
 constexpr milliseconds kFilterLimit{500};
 
@@ -67,8 +67,8 @@ Handshake::Handshake(const DeviceProfile& profile, SensorSettings settings,
         throw std::invalid_argument("Handshake: profile " + std::string(profile.name) +
                                     " has no filter coded " + hex(settings.filter_code));
     }
-    // SIG_CTRL: TEMP_STABIL and MESMOD_SEL stay as found, and so does the unused EXT_POL of
-    // MSC_CTRL, whose high byte would start self tests.
+    // TEMP_STABIL and MESMOD_SEL of SIG_CTRL stay as found.  So does the unused EXT_POL of
+    // MSC_CTRL, because its high byte would start self tests.
     targets_ = {
         {&kSigCtrl, kSigNewDataEnables, kSigNewDataEnables | kSigTiltSelects},
         {&kMscCtrl, kMscDataReady, kMscExternalTrigger | kMscDataReady},
@@ -78,7 +78,7 @@ Handshake::Handshake(const DeviceProfile& profile, SensorSettings settings,
         {&kBurstCtrl, settings.layout.burst_ctrl(), kBurstCtrl.defined_bits},
     };
     silence();
-    queue_.push_back(Transmit{{kEndByte}});  // completes a command that was cut short
+    queue_.push_back(Transmit{{kEndByte}});  // completes an interrupted command
     silence();
     ask(Stage::mode, kModeCtrl);
 }
@@ -143,7 +143,7 @@ void Handshake::fail(std::string reason) {
 
 void Handshake::take_answer(std::span<const std::byte> answer) {
     const auto value = parse_answer(*asked_, answer);
-    if (stage_ == Stage::id) {  // for information: Epson's other devices say 0x5345 here
+    if (stage_ == Stage::id) {  // not required: Epson's other devices answer 0x5345
         if (!value) queue_.push_back(kShortDrain);
         return ask_target();
     }

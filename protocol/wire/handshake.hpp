@@ -1,8 +1,9 @@
 #pragma once
 /// @file
-/// Bringing the sensor from any state into sampling, as a state machine without I/O: it says what
-/// to do next, a driver does it and hands back what the device answered.  Sequence and time-outs:
-/// M-A352AD10 data sheet 8.2; every register written is read back under a mask of its defined bits.
+/// Brings the sensor from any state into sampling, as a state machine without I/O: it returns the
+/// next step, a driver carries it out and passes back the answer of the device.  Sequence and
+/// time-outs: M-A352AD10 data sheet 8.2.  Every register written is read back and compared under a
+/// mask of its defined bits.
 
 #include <chrono>
 #include <cstddef>
@@ -30,20 +31,21 @@ struct DeviceIdentity {
     std::string product_id;                ///< Eight characters, as read.
     std::string serial_number;             ///< Eight characters, as read.
     std::uint16_t firmware = 0;            ///< VERSION.
-    std::uint16_t diag_stat = 0;           ///< As found before configuration; reading cleared it.
-    bool has_expected_product_id = false;  ///< Starts with the profile's prefix.
+    std::uint16_t diag_stat = 0;           ///< DIAG_STAT before configuration; reading clears it.
+    bool has_expected_product_id = false;  ///< True if it starts with the profile's prefix.
 };
 
-/// What the driver has to do next.  Times are real time.
+// Steps that the driver has to carry out.  Times are real time.
+
 struct Transmit {
     std::vector<std::byte> bytes;
-    std::chrono::milliseconds pause_after{1};  ///< Device needs 0.2-0.66 ms between commands.
+    std::chrono::milliseconds pause_after{1};  ///< The device needs 0.2-0.66 ms between commands.
 };
 struct Receive {
     std::size_t byte_count = 0;
     std::chrono::milliseconds timeout{100};
 };
-struct DrainUntilSilent {  ///< Discard input until none came for `quiet`, at most `limit`.
+struct DrainUntilSilent {  ///< Discard input until none came for `quiet`, but not beyond `limit`.
     std::chrono::milliseconds quiet{50};
     std::chrono::milliseconds limit{2000};
 };
@@ -51,25 +53,26 @@ struct Sampling {  ///< Done: frames follow.
     DeviceIdentity identity;
 };
 struct HandshakeFailure {
-    std::string reason;          ///< One line naming the register, expected and found.
-    bool is_unanswered = false;  ///< Nothing that can be understood came at all.
+    std::string reason;          ///< One line: register, expected and found value.
+    bool is_unanswered = false;  ///< True if no valid answer came at all.
 };
 using HandshakeStep = std::variant<Transmit, Receive, DrainUntilSilent, Sampling, HandshakeFailure>;
 
-/// Sequence: stop and drain twice, prove configuration mode, wait for start-up, diagnosis, identity,
-/// registers (only those that differ are written), rate and filter, window, start.  A read without
-/// a valid answer is repeated; flash is never touched, the baud rate never changed.
+/// Sequence: stop and drain twice, check configuration mode, wait for start-up, check diagnosis,
+/// read identity, set registers (only those that differ are written), check rate against filter,
+/// check window, start.  A read without a valid answer is repeated.  Flash is never written and the
+/// baud rate is never changed.
 class Handshake {
 public:
-    /// @param profile        outlives this object.
-    /// @param serial_number  the only one accepted: another instrument is not configured; empty: any.
+    /// @param profile        must outlive this object.
+    /// @param serial_number  only this instrument is configured; empty: any.
     /// @throws std::invalid_argument  the profile lacks the rate or the filter.
     Handshake(const DeviceProfile& profile, SensorSettings settings,
               std::string serial_number = {});
 
-    /// @param answer  bytes that came for the last Receive, fewer than asked after a time-out;
+    /// Returns the next step.  After Sampling or HandshakeFailure it returns the same step again.
+    /// @param answer  bytes received for the last Receive, fewer than requested after a time-out;
     ///                empty for every other step.
-    /// After Sampling or HandshakeFailure the same step comes again.
     [[nodiscard]] HandshakeStep next(std::span<const std::byte> answer);
 
 private:

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// The register map as data.  Seiko Epson, M-A352AD10 data sheet, rev. 20251023, table 7.1 and
-/// sections 7.1-7.30; W0:4C is not in it, but in the maker's public Python driver (py_esensorlib).
+/// Register map as data.  Seiko Epson, M-A352AD10 data sheet, rev. 20251023, table 7.1 and
+/// sections 7.1-7.30; W0:4C is only in the maker's public Python driver (py_esensorlib).
 
 #include <array>
 #include <cstdint>
@@ -11,12 +11,12 @@ namespace a351::wire {
 
 enum class Window : std::uint8_t { w0 = 0, w1 = 1 };
 
-/// One 16-bit register: low byte at the even `address`, high byte behind it.
+/// 16-bit register: low byte at the even `address`, high byte at the next one.
 struct Register {
     Window window = Window::w0;
     std::uint8_t address = 0;
     std::string_view name;
-    std::uint16_t default_value = 0;   ///< After reset, flash untouched; 0 where units differ.
+    std::uint16_t default_value = 0;   ///< After reset with factory flash; 0 if devices differ.
     std::uint16_t defined_bits = 0;    ///< The others are reserved: write 0, ignore when read.
     std::uint16_t writable_bytes = 0;  ///< 0x00FF low byte, 0xFF00 high byte.
     bool is_saved_in_flash = false;
@@ -26,7 +26,7 @@ inline constexpr std::uint16_t kLowByte = 0x00FF;
 inline constexpr std::uint16_t kHighByte = 0xFF00;
 inline constexpr std::uint16_t kBothBytes = 0xFFFF;
 
-/// In order of window and address.  WIN_CTRL is the same register in both windows.
+/// All registers, in order of window and address.  WIN_CTRL is the same register in both windows.
 inline constexpr std::array kRegisters{
     Register{Window::w0, 0x00, "BURST", 0xFFFF, 0x00FF, kLowByte, false},
     Register{Window::w0, 0x02, "MODE_CTRL", 0x0400, 0x0F00, kHighByte, false},
@@ -82,7 +82,7 @@ inline constexpr std::array kRegisters{
     Register{Window::w1, 0x7E, "WIN_CTRL", 0x0000, 0x00FF, kLowByte, false},
 };
 
-/// The register at an even address, or null.
+/// Returns the register at an even address, or null.
 [[nodiscard]] constexpr const Register* register_at(Window window, std::uint8_t address) noexcept {
     for (const Register& candidate : kRegisters) {
         if (candidate.window == window && candidate.address == address) return &candidate;
@@ -90,7 +90,7 @@ inline constexpr std::array kRegisters{
     return nullptr;
 }
 
-/// Does not compile for an address without a register.
+/// Returns the register at an even address; does not compile if there is none.
 [[nodiscard]] consteval const Register& require_register(Window window, std::uint8_t address) {
     return *register_at(window, address);
 }
@@ -108,7 +108,7 @@ inline constexpr const Register& kUartCtrl = require_register(Window::w1, 0x08);
 inline constexpr const Register& kGlobCmd = require_register(Window::w1, 0x0A);
 inline constexpr const Register& kBurstCtrl = require_register(Window::w1, 0x0C);
 
-// MODE_CTRL (7.2): what the device is doing, and the commands that change it.
+// MODE_CTRL (7.2): state of the device, and the commands that change it.
 inline constexpr std::uint16_t kModeStat = 0x0C00;
 inline constexpr std::uint16_t kModeStatConfig = 0x0400;
 inline constexpr std::uint16_t kModeCmdSampling = 0x0100;

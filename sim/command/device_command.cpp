@@ -37,7 +37,8 @@ FlashMemory flash_of(const DeviceCommand& command) {
     return read_flash_file(command.state, profile_of(command.unit.profile));
 }
 
-/// What cannot be kept is the device's own trouble: FLASH_BU_ERR.
+/// Returns a store that writes the flash memory to `file`; the device reports a failure as
+/// FLASH_BU_ERR.
 RegisterMachine::FlashStore store_in(const std::string& file) {
     return [file](const FlashMemory& memory) {
         try {
@@ -49,7 +50,7 @@ RegisterMachine::FlashStore store_in(const std::string& file) {
     };
 }
 
-/// Before anything is made.
+/// Checks every path before any file, socket or terminal is made.
 void check_paths(const DeviceCommand& command) {
     Pty::require_place(command.link);
     if (!command.oven_link.empty()) Pty::require_place(command.oven_link);
@@ -60,7 +61,7 @@ void check_paths(const DeviceCommand& command) {
     if (!command.truth.empty()) TruthWriter::require_own(command.truth);
 }
 
-/// Takes every step, whatever becomes of the others; then throws the first trouble.
+/// Runs every step even if others fail; then throws the first error.
 void take_all(std::initializer_list<std::function<void()>> steps) {
     std::exception_ptr trouble;
     for (const auto& step : steps) {
@@ -78,25 +79,42 @@ void say(const std::string& trouble) { std::cerr << "a351-sim: " << trouble << s
 }  // namespace
 
 CLI::App* add_device(CLI::App& app, DeviceCommand& command) {
-    CLI::App* device = app.add_subcommand("device", "Serve the sensor on a pseudo-terminal");
+    CLI::App* device =
+        app.add_subcommand("device", "Serve the emulated sensor on a pseudo-terminal");
     add_day(*device, command.day);
     add_unit(*device, command.unit);
     device->add_option("--firmware", command.firmware, "Firmware version")->capture_default_str();
     device->add_flag("--no-id", command.lacks_id_register,
-                     "Answer 0 where the data sheet has no register");
-    device->add_option("--state", command.state, "TOML file that keeps the flash memory");
-    device->add_option("--link", command.link, "Symbolic link that names the terminal")->required();
-    device->add_option("--oven-link", command.oven_link,
-                       "Symbolic link that names the terminal of the oven's controller");
+                     "Register W0:4C, which the data sheet does not have, reads 0");
+    device
+        ->add_option("--state", command.state, "TOML file that keeps the flash memory between runs")
+        ->type_name("FILE");
+    device
+        ->add_option("--link", command.link,
+                     "Symbolic link to make to the sensor's pseudo-terminal")
+        ->type_name("PATH")
+        ->required();
+    device
+        ->add_option("--oven-link", command.oven_link,
+                     "Symbolic link to make to the pseudo-terminal of the oven's controller")
+        ->type_name("PATH");
     CLI::Option* clock = add_clock(*device, command.clock);
-    device->add_option("--speed", command.speed, "Simulated seconds per second from now on")
+    device
+        ->add_option("--speed", command.speed,
+                     "Simulated seconds per real second, from the start of the scenario on")
         ->check(CLI::Range(1e-3, 1e6))
         ->excludes(clock)
         ->capture_default_str();
-    device->add_option("--truth", command.truth, "File for the frames as sent");
-    device->add_option("--report", command.report, "JSON file written at the end");
-    device->add_option("--faults", command.faults, "TOML file: which faults happen when");
-    device->add_option("--control", command.control, "Unix socket that takes faults and orders");
+    device->add_option("--truth", command.truth, "File to write: every frame and what became of it")
+        ->type_name("FILE");
+    device->add_option("--report", command.report, "JSON file to write at the end")
+        ->type_name("FILE");
+    device->add_option("--faults", command.faults, "TOML file of the faults and their times")
+        ->type_name("FILE");
+    device
+        ->add_option("--control", command.control,
+                     "Unix socket to make; it takes faults and orders while the emulator runs")
+        ->type_name("PATH");
     return device;
 }
 
@@ -152,7 +170,7 @@ void run(const DeviceCommand& command, const std::function<bool()>& should_stop)
     std::optional<ControlSocket> control;
     if (!command.control.empty()) {
         control.emplace(command.control,
-                        [&](const std::string& order) { return obey(order, actions, rules); });
+                        [&](const std::string& order) { return execute(order, actions, rules); });
     }
 
     if (!command.truth.empty()) truth.emplace(command.truth);

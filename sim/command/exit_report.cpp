@@ -61,7 +61,7 @@ ordered_json to_json(const OvenReport& oven) {
             {"broadcasts", oven.broadcasts},
             {"for_other_units", oven.for_other_units},
             {"unreadable", oven.unreadable},
-            {"unheard", oven.unheard},
+            {"unheard", oven.ignored},
             {"faults", faults}};
 }
 
@@ -107,7 +107,7 @@ std::string to_json(const ExitReport& report, int indent) {
         {"faults_refused", refused(report.faults)},
     };
     if (report.oven) json["oven"] = to_json(*report.oven);
-    // A file name of the scenario may be any bytes.
+    // The scenario may be a file whose name is not UTF-8: JSON cannot hold such bytes.
     return json.dump(indent, ' ', false, ordered_json::error_handler_t::replace);
 }
 

@@ -10,22 +10,22 @@
 
 namespace a351::sim {
 
-/// What the emulator did, for tests to hold against what a host counted.
+/// Counts of what the emulator did; tests compare them with the counts of a host.
 struct ExitReport {
     std::string scenario;
     std::uint64_t seed = 0;
-    double speed = 1.0;         ///< Simulated seconds per second.
-    double real_seconds = 0.0;  ///< From the first frame handed over to the last.
+    double speed = 1.0;         ///< Simulated seconds per real second.
+    double real_seconds = 0.0;  ///< Real time from the first frame handed over to the last.
     std::uint64_t commands = 0;
-    bool was_drained = false;      ///< At the end the host had read everything.
-    std::size_t bytes_unread = 0;  ///< When the port was pulled out, and at the end.
+    bool was_drained = false;      ///< Nothing was under way at the end, and the host had read all.
+    std::size_t bytes_unread = 0;  ///< Not read by the host at hang-ups and at the end.
     LineReport line;
     FaultReport faults;
-    std::optional<OvenReport> oven;  ///< If it was served.
+    std::optional<OvenReport> oven;  ///< Empty: the oven was not served.
 };
 
-/// One JSON object; keys: a351-sim(1), REPORT.
-/// @param indent  spaces; negative: all in one line.
+/// Returns the report as one JSON object; keys: a351-sim(1), REPORT.
+/// @param indent  spaces per level; negative: everything in one line.
 [[nodiscard]] std::string to_json(const ExitReport& report, int indent);
 
 }  // namespace a351::sim

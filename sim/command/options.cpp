@@ -18,13 +18,15 @@ CLI::Validator eight_characters() {
 }  // namespace
 
 void add_day(CLI::App& command, DayOptions& day) {
-    command.add_option("--scenario", day.scenario, "A named scenario, or a TOML file")
+    command.add_option("--scenario", day.scenario, "Name of a scenario, or a TOML file")
+        ->type_name("NAME|FILE")
         ->capture_default_str();
-    command.add_option("--seed", day.seed, "Of all random numbers")->capture_default_str();
+    command.add_option("--seed", day.seed, "Seed of all random numbers")->capture_default_str();
 }
 
 void add_profile(CLI::App& command, std::string& profile, const std::string& used_for) {
     command.add_option("--profile", profile, used_for + "Kind of device")
+        ->type_name("NAME")
         ->check(CLI::IsMember({"A351", "A352AD10"}))
         ->capture_default_str();
 }
@@ -32,8 +34,10 @@ void add_profile(CLI::App& command, std::string& profile, const std::string& use
 void add_unit(CLI::App& command, UnitOptions& unit, const std::string& used_for) {
     add_profile(command, unit.profile, used_for);
     command.add_option("--product", unit.product, used_for + "Product identifier")
+        ->type_name("ID")
         ->check(eight_characters());
     command.add_option("--serial", unit.serial, used_for + "Serial number")
+        ->type_name("ID")
         ->check(eight_characters())
         ->capture_default_str();
 }
@@ -45,7 +49,11 @@ std::string product_of(const UnitOptions& unit) {
 }
 
 CLI::Option* add_clock(CLI::App& command, std::string& clock) {
-    return command.add_option("--clock", clock, "Simulated time, scaled:FACTOR@UTC[,HOST]");
+    return command
+        .add_option("--clock", clock,
+                    "Simulated time, scaled:FACTOR@UTC[,HOST]: it is UTC at the host time HOST "
+                    "(default: now)")
+        ->type_name("SCALE");
 }
 
 ClockScale clock_of(const std::string& clock, double factor, UtcTime start) {

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Options that several commands of a351-sim have.
+/// Options shared by the commands of a351-sim.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -11,32 +11,37 @@
 
 namespace a351::sim {
 
-/// A scenario and the day that the seed makes of it.
+/// Scenario and seed, which together determine a simulated day.
 struct DayOptions {
     std::string scenario = "tsukuba";
     std::uint64_t seed = 1;
 };
+
+/// Adds --scenario and --seed.
 void add_day(CLI::App& command, DayOptions& day);
 
-/// Which unit is emulated.
+/// The emulated unit.
 struct UnitOptions {
     std::string profile = "A351";
-    std::string product;  ///< Empty: what the profile calls itself.
+    std::string product;  ///< Empty: the identifier of the profile, product_id_of().
     std::string serial = "00000001";
 };
 
-/// @param used_for  what of the command the options are for; begins their descriptions.
+/// Adds --profile.
+/// @param used_for  begins the description: the inputs to which the option applies.
 void add_profile(CLI::App& command, std::string& profile, const std::string& used_for = {});
+/// Adds --profile, --product and --serial.
 void add_unit(CLI::App& command, UnitOptions& unit, const std::string& used_for = {});
 
 [[nodiscard]] const wire::DeviceProfile& profile_of(const std::string& name);
 [[nodiscard]] std::string product_of(const UnitOptions& unit);
 
-/// `--clock`, in the words of parse_clock_scale().
+/// Adds --clock; its syntax is that of parse_clock_scale().
 CLI::Option* add_clock(CLI::App& command, std::string& clock);
 
-/// The clock of that option; if it is empty, one that leaves `start` now at `factor`.
-/// @throws InputError  it is no clock.
+/// Returns the clock of that option.  If `clock` is empty, simulated time begins now at `start` and
+/// runs at `factor`.
+/// @throws InputError  `clock` is neither empty nor a clock scale.
 [[nodiscard]] ClockScale clock_of(const std::string& clock, double factor, UtcTime start);
 
 }  // namespace a351::sim

@@ -19,7 +19,7 @@ double factor_of(const std::string& speed) {
     const char* const end = speed.data() + speed.size();
     const auto parsed = std::from_chars(speed.data(), end, factor);
     if (parsed.ec != std::errc() || parsed.ptr != end || factor < kSlowest || factor > kFastest) {
-        throw InputError("--speed " + speed + ": no speed; allowed: max, or 0.001 ... 1000000");
+        throw InputError("--speed " + speed + ": not a speed; allowed: max, or 0.001 ... 1000000");
     }
     return factor;
 }
@@ -28,7 +28,7 @@ std::array<std::string, 3> axes_of(const std::string& text) {
     if (text.size() != 5 || text[1] != ',' || text[3] != ',') {
         throw InputError("--axes " + text +
                          ": not three letters; allowed: the last letters of the channels of x, y "
-                         "and z, as in 1,2,Z");
+                         "and z, such as 1,2,Z");
     }
     return {text.substr(0, 1), text.substr(2, 1), text.substr(4, 1)};
 }
@@ -49,16 +49,29 @@ ReplayTiming timing_of(const ReplayCommand& command) {
 
 CLI::App* add_replay(CLI::App& app, ReplayCommand& command) {
     CLI::App* replay = app.add_subcommand("replay", "Serve a recording on a pseudo-terminal");
-    replay->add_option("FILE", command.files, "Journal segments, or miniSEED files of a data root")
+    replay
+        ->add_option("FILE", command.files,
+                     "Journal segments, or miniSEED files of a data root, or their directories")
+        ->type_name("")
         ->required();
-    replay->add_option("--link", command.link, "Symbolic link that names the terminal")->required();
+    replay
+        ->add_option("--link", command.link,
+                     "Symbolic link to make to the sensor's pseudo-terminal")
+        ->type_name("PATH")
+        ->required();
     CLI::Option* clock = add_clock(*replay, command.clock);
-    replay->add_option("--speed", command.speed, "Recorded seconds per second, or max")
+    replay
+        ->add_option("--speed", command.speed,
+                     "Recorded seconds per real second; max: as fast as the host reads")
+        ->type_name("X|max")
         ->excludes(clock)
         ->capture_default_str();
-    replay->add_option("--axes", command.axes, "miniSEED: last letters of the channels of x, y, z")
+    replay
+        ->add_option("--axes", command.axes,
+                     "For miniSEED only: last letters of the channels of x, y and z")
+        ->type_name("X,Y,Z")
         ->capture_default_str();
-    add_unit(*replay, command.unit, "miniSEED: ");
+    add_unit(*replay, command.unit, "For miniSEED only.  ");
     return replay;
 }
 
@@ -73,11 +86,12 @@ void run(const ReplayCommand& command, const std::function<bool()>& should_stop)
     attend(services, clock, [&] { return should_stop() || port.is_finished(); });
     for (const RecordingDamage& damage : device.recording().damage()) {
         std::cerr << "a351-sim: " << damage.file.string() << ": " << damage.byte_count
-                  << " bytes from offset " << damage.offset << " on not replayed: " << damage.reason
-                  << '\n';
+                  << " bytes from offset " << damage.offset
+                  << " on were not replayed: " << damage.reason << '\n';
     }
     if (const auto left_out = device.recording().incomplete_samples(); left_out > 0) {
-        std::cerr << "a351-sim: " << left_out << " samples not replayed: a channel lacks them\n";
+        std::cerr << "a351-sim: " << left_out
+                  << " samples were not replayed, because a channel lacks them\n";
     }
 }
 

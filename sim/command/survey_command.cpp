@@ -9,10 +9,13 @@
 namespace a351::sim {
 
 CLI::App* add_survey(CLI::App& app, SurveyCommand& command) {
-    CLI::App* survey = app.add_subcommand("survey", "Write a day straight to a data root");
+    CLI::App* survey =
+        app.add_subcommand("survey", "Write a simulated day directly to a data root");
     add_day(*survey, command.day);
     add_profile(*survey, command.profile);
-    survey->add_option("--out", command.out, "Directory for the data root: new, or without a record")->required();
+    survey->add_option("--out", command.out, "Directory to write: new, or without a simulated day")
+        ->type_name("DIR")
+        ->required();
     return survey;
 }
 
@@ -23,9 +26,12 @@ void run(const SurveyCommand& command) {
 }
 
 CLI::App* add_plan(CLI::App& app, PlanCommand& command) {
-    CLI::App* plan = app.add_subcommand("plan", "Write sites, schedule and truth of a day");
+    CLI::App* plan =
+        app.add_subcommand("plan", "Write sites, schedule and truth of a simulated day");
     add_day(*plan, command.day);
-    plan->add_option("--out", command.out, "Directory for the tables")->required();
+    plan->add_option("--out", command.out, "Directory for the tables; made if it does not exist")
+        ->type_name("DIR")
+        ->required();
     return plan;
 }
 

@@ -6,7 +6,7 @@
 
 namespace a351::sim {
 
-/// `a351-sim survey`: a day straight to a data root.
+/// Options of `a351-sim survey`, which writes a simulated day directly to a data root.
 struct SurveyCommand {
     DayOptions day;
     std::string profile = "A351";
@@ -14,17 +14,17 @@ struct SurveyCommand {
 };
 CLI::App* add_survey(CLI::App& app, SurveyCommand& command);
 
-/// Says on stderr how much there is.  @throws  as write_survey.
+/// Writes the day, and the numbers of frames and records to stderr.  @throws  as write_survey().
 void run(const SurveyCommand& command);
 
-/// `a351-sim plan`: sites, schedule and truth of a day.
+/// Options of `a351-sim plan`, which writes sites, schedule and truth of a simulated day.
 struct PlanCommand {
     DayOptions day;
     std::string out;
 };
 CLI::App* add_plan(CLI::App& app, PlanCommand& command);
 
-/// Prints first and last instant of the day.  @throws  as write_plan.
+/// Writes the tables and prints first and last instant of the day.  @throws  as write_plan().
 void run(const PlanCommand& command);
 
 }  // namespace a351::sim

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Bytes from the host -> commands.  M-A352AD10 data sheet, rev. 20251023, 6.2.1-6.2.3.
+/// Parser of the host's commands.  M-A352AD10 data sheet, rev. 20251023, 6.2.1-6.2.3.
 
 #include <chrono>
 #include <cstddef>
@@ -17,22 +17,23 @@ struct HostCommand {
     std::uint8_t value = 0;
 };
 
-/// Every command is address, value, CR.  What the data sheet leaves open is decided so that a lone
-/// CR, as hosts send it, ends whatever was half received: a CR at a command's start is skipped;
-/// if the third byte is no CR, the first is dropped and the rest looked at again; a partial command
-/// is forgotten after kPartialCommandLife.
+/// Every command is address, value, CR.  The data sheet does not define damaged commands.  The
+/// rules here let a lone CR, as hosts send it, end a partial command:
+/// - A CR at the start of a command is skipped.
+/// - If the third byte is not CR, the first byte is dropped and the rest is parsed again.
+/// - A partial command is forgotten after kPartialCommandLife.
 class CommandParser {
 public:
     static constexpr std::chrono::milliseconds kPartialCommandLife{100};  ///< Assumed.
 
-    /// @return the command that `byte` completes.
+    /// Takes a byte.  @return the command that `byte` completes, if any.
     [[nodiscard]] std::optional<HostCommand> next(std::byte byte, Nanoseconds now);
 
     void forget() { partial_.clear(); }
 
 private:
     std::vector<std::byte> partial_;
-    Nanoseconds since_{0};  ///< Its first byte arrived.
+    Nanoseconds since_{0};  ///< Arrival of its first byte.
 };
 
 }  // namespace a351::sim

@@ -5,7 +5,7 @@
 namespace a351::sim {
 namespace {
 
-/// Whoever has fallen behind by hours must still answer commands at once while catching up.
+/// Most samples in one call: a device that is hours behind must still answer commands at once.
 constexpr int kMostAtOnce = 1024;
 
 }  // namespace

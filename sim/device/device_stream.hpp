@@ -1,8 +1,7 @@
 #pragma once
 /// @file
-/// The emulated sensor on the axis of simulated time: takes samples from their source at their
-/// instants, hands them to the register machine and sends its bytes when they are due.  No I/O and
-/// no clock.
+/// The emulated sensor in simulated time: takes samples from their source at their instants, hands
+/// them to the register machine and sends its bytes when they are due.  No I/O and no clock.
 
 #include <cstdint>
 #include <optional>
@@ -15,16 +14,16 @@
 
 namespace a351::sim {
 
-/// The grid of samples is fixed in simulated time.  A sample that falls due in sampling mode is
-/// sent; outside it, the grid goes on unheard.  Where the source's index jumps, COUNT goes on by
-/// the samples that are missing.
+/// The grid of samples is fixed in simulated time.  A sample due in sampling mode is sent; in other
+/// modes samples are taken but not sent.  If the source's index jumps, COUNT advances by the
+/// missing samples too.
 ///
-/// Output rates above the source's hold each sample; below it, those samples are taken whose index
-/// is a multiple of the ratio.  The greater rate is expected to be a multiple of the other.  A new
-/// output rate starts with the source's next sample.
+/// If the output rate is above the source's, each sample is repeated.  If it is below, only samples
+/// whose index is a multiple of the ratio are sent.  The greater rate must be a multiple of the
+/// other.  A new output rate starts with the source's next sample.
 class DeviceStream final : public LineDevice {
 public:
-    /// Both must outlive this.
+    /// Both arguments must outlive this.
     DeviceStream(SampleSource& source, RegisterMachine& machine);
 
     void receive(std::span<const std::byte> bytes, const Instant& now, LineSink& line) override;
@@ -42,11 +41,11 @@ private:
 
     SampleSource& source_;
     RegisterMachine& machine_;
-    std::optional<TimedSample> held_;  ///< Sample whose repeats are not all sent ...
-    int held_rate_hz_ = 0;             ///< ... at this output rate; void at any other.
-    int repeat_ = 0;                   ///< Next repeat of it.
-    std::int64_t next_index_ = 0;      ///< Expected of the source.
-    std::vector<std::byte> bytes_;     ///< Kept to keep its memory.
+    std::optional<TimedSample> held_;  ///< Sample whose repeats are not all sent.
+    int held_rate_hz_ = 0;             ///< Output rate for which held_ is valid.
+    int repeat_ = 0;                   ///< Next repeat of held_.
+    std::int64_t next_index_ = 0;      ///< Index expected next from the source.
+    std::vector<std::byte> bytes_;     ///< A member to reuse its memory.
 };
 
 }  // namespace a351::sim

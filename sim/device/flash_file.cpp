@@ -29,7 +29,7 @@ std::size_t written_bytes(const FlashMemory& memory) {
 
 std::string to_toml(const FlashMemory& memory) {
     std::string text =
-        "# What the emulated sensor keeps without power.\nformat = " + std::to_string(kFormat) +
+        "# Flash memory of the emulated sensor.\nformat = " + std::to_string(kFormat) +
         "\n\n[registers]\n";
     std::size_t i = 0;
     for (const wire::Register& reg : wire::kRegisters) {
@@ -53,7 +53,7 @@ void read_coefficients(text::TomlTable& table, FlashMemory& memory) {
     if (digits.size() % 2 != 0 || digits.size() / 2 > memory.coefficients.size()) {
         table.refuse(
             "bytes", "wrong number of digits",
-            "two a byte, at most " + std::to_string(memory.coefficients.size()) + " bytes");
+            "two per byte, at most " + std::to_string(memory.coefficients.size()) + " bytes");
     }
     for (std::size_t i = 0; i < digits.size(); i += 2) {
         const char* end = digits.data() + i + 2;
@@ -80,7 +80,7 @@ FlashMemory read_flash_file(const std::filesystem::path& file, const wire::Devic
         const auto value =
             static_cast<std::uint16_t>(registers.integer_or(reg.name, 0, 0, wire::kBothBytes));
         if ((value & ~reg.defined_bits) != 0 || !may_hold(profile, reg, value)) {
-            registers.refuse(reg.name, "reserved", "a value that the device takes");
+            registers.refuse(reg.name, "reserved", "a value that the device accepts");
         }
         memory.settings[i++] = held.at(reg) = value;
     }

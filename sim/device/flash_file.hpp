@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The flash memory of the emulated sensor as a TOML file, so that settings outlive the program:
+/// The flash memory of the emulated sensor as a TOML file, which keeps settings between runs:
 ///
 ///     format = 1
 ///     [registers]
@@ -15,13 +15,14 @@
 
 namespace a351::sim {
 
-/// @return factory state when there is no such file.
-/// @throws InputError  the file is damaged: names file, key and what is allowed.
+/// Reads the file.
+/// @return the factory state if the file does not exist.
+/// @throws InputError  the file is damaged; names file, key and allowed values.
 [[nodiscard]] FlashMemory read_flash_file(const std::filesystem::path& file,
                                           const wire::DeviceProfile& profile);
 
-/// Replaces the file as a whole: at any instant it holds the old content or the new.
-/// @throws std::system_error  with the path.
+/// Replaces the whole file: at any instant it holds the old or the new content.
+/// @throws std::system_error  the file cannot be replaced; names the path.
 void write_flash_file(const std::filesystem::path& file, const FlashMemory& memory);
 
 }  // namespace a351::sim

@@ -1,7 +1,8 @@
 #pragma once
 /// @file
-/// What the emulated sensor keeps without power: registers marked "Flash Backup" in table 7.1 of
-/// the M-A352AD10 data sheet (rev. 20251023) and the coefficients of the user's filter (5.17.2).
+/// Memory that the emulated sensor keeps without power: the registers marked "Flash Backup" in
+/// table 7.1 of the M-A352AD10 data sheet (rev. 20251023) and the coefficients of the user filter
+/// (5.17.2).
 
 #include <algorithm>
 #include <array>
@@ -15,9 +16,9 @@ struct FlashMemory {
     static constexpr auto kSavedCount = static_cast<std::size_t>(
         std::ranges::count(wire::kRegisters, true, &wire::Register::is_saved_in_flash));
     static constexpr std::size_t kCoefficientBytes = 2048;  ///< 512 taps (table 5.2).
-    static constexpr std::uint8_t kErased = 0xFF;           ///< "No specific values" (5.17.2).
+    static constexpr std::uint8_t kErased = 0xFF;  ///< Erased; "No specific values" (5.17.2).
 
-    /// In the order of wire::kRegisters.
+    /// Values of the saved registers in the order of wire::kRegisters.
     using Settings = std::array<std::uint16_t, kSavedCount>;
     using Coefficients = std::array<std::uint8_t, kCoefficientBytes>;
 

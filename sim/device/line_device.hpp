@@ -9,8 +9,8 @@
 
 namespace a351::sim {
 
-/// One moment on both of the emulator's clocks: the scenario's, on which samples are taken, and the
-/// host's steady clock, on which the device boots and answers, as hosts wait in real time.
+/// One moment on both clocks of the emulator.  Samples follow the scenario's clock.  Start-up and
+/// answers follow the host's steady clock, because hosts wait in real time.
 struct Instant {
     UtcTime simulated;
     Nanoseconds steady{0};
@@ -21,32 +21,32 @@ class LineSink {
 public:
     virtual ~LineSink() = default;
 
-    /// Bytes that the device sends in one go; the last of them leaves it at `leaves`.  `frame`: what
-    /// they stand for; null for an answer to a command.
+    /// Sends bytes without a pause; the last one leaves the device at `leaves`.
+    /// @param frame  the frame's content; null for an answer to a command.
     virtual void send(std::span<const std::byte> bytes, UtcTime leaves,
                       const TruthRecord* frame) = 0;
 
-    /// So much waits to be read that the device had better pause: nothing is lost by sending, but
-    /// memory grows.
+    /// Returns true if so many bytes wait to be read that the device should pause.  Sending more
+    /// loses nothing but uses memory.
     [[nodiscard]] virtual bool is_full() const = 0;
 };
 
-/// Anything that speaks the sensor's protocol at the far end of a line.  No I/O and no clock.
+/// A device that speaks the sensor's protocol at the far end of a line.  No I/O and no clock.
 class LineDevice {
 public:
     virtual ~LineDevice() = default;
 
-    /// Commands from the host.
+    /// Takes bytes of commands from the host.
     virtual void receive(std::span<const std::byte> bytes, const Instant& now, LineSink& line) = 0;
 
-    /// Sends what is due, as long as the line is not full and it takes no time to speak of: what is
-    /// left stays due.
+    /// Sends the bytes that are due.  It may stop early, because the line is full or the call would
+    /// take long; the rest stays due.
     virtual void advance_to(const Instant& now, LineSink& line) = 0;
 
-    /// When the next sample falls due; std::nullopt after the last.
+    /// Returns when the next sample is due; std::nullopt after the last.
     [[nodiscard]] virtual std::optional<UtcTime> next_due() const = 0;
 
-    /// Of its UART, at this moment.
+    /// Returns the present baud rate of its UART.
     [[nodiscard]] virtual int baud() const = 0;
 };
 

@@ -9,21 +9,22 @@
 
 namespace a351::sim {
 
-/// Low-pass: two moving averages one behind the other; high-pass: the sample less one average.
+/// Low-pass: two moving averages in series.  High-pass: the sample minus one moving average.
 /// Averages start filled with zeros, so the transient lasts N samples (high-pass) or 2 N
-/// (low-pass), as in table 5.5; its samples are sent: the data sheet suppresses only those of the
-/// FIR filter.
+/// (low-pass), as in table 5.5.  Samples of the transient are sent, because the data sheet
+/// suppresses only those of the FIR filter.
 class LongTermFilter {
 public:
     enum class Kind { off, low_pass, high_pass };
 
-    static constexpr int kHighestRateHz = 500;  ///< With the filter on (5.17.4).
+    static constexpr int kHighestRateHz = 500;  ///< Highest rate with the filter on (5.17.4).
 
-    /// Starts anew with N = 2^log2_taps, 1 ... 12.
+    /// Restarts with N = 2^log2_taps; log2_taps is 1 ... 12.
     void start(Kind kind, int log2_taps);
 
-    /// @param axes_counts  The next sample, any unit.
-    /// @return             The filtered sample, each average rounded towards minus infinity.
+    /// Filters the next sample.
+    /// @param axes_counts  the sample, in any unit.
+    /// @return             the filtered sample; each average is rounded towards minus infinity.
     [[nodiscard]] std::array<std::int32_t, 3> next(const std::array<std::int32_t, 3>& axes_counts);
 
 private:
@@ -40,7 +41,7 @@ private:
     };
 
     Kind kind_ = Kind::off;
-    std::vector<MovingAverage> averages_;  ///< Per axis one (high-pass) or two.
+    std::vector<MovingAverage> averages_;  ///< One per axis (high-pass) or two (low-pass).
 };
 
 }  // namespace a351::sim

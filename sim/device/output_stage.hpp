@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// What the emulated sensor does to a filtered sample before it is read: user's offset, alarm
-/// limits, the tilt.  M-A352AD10 data sheet, rev. 20251023, 5.8, 5.12, 5.13, 7.7, 7.8, 7.21-7.26.
+/// Steps of the emulated sensor between filter and output: the user's offset, alarm limits, tilt.
+/// M-A352AD10 data sheet, rev. 20251023, 5.8, 5.12, 5.13, 7.7, 7.8, 7.21-7.26.
 
 #include <cstdint>
 
@@ -10,24 +10,24 @@
 namespace a351::sim {
 
 struct AxisSettings {
-    std::int32_t offset_counts = 0;  ///< Added; format of the acceleration.
+    std::int32_t offset_counts = 0;  ///< Offset to add, in the format of the acceleration.
     std::int8_t upper_limit_g = 15;
     std::int8_t lower_limit_g = -15;
 };
 
 struct LimitedAxis {
-    std::int32_t acceleration_counts = 0;  ///< Beyond a limit, that limit.
-    bool is_alarmed = false;               ///< Beyond, not at a limit.
+    std::int32_t acceleration_counts = 0;  ///< Limited to the two limits.
+    bool is_alarmed = false;               ///< The value was beyond a limit, not just at it.
 };
 
-/// counts + offset, held within the limits.
+/// Returns counts + offset, kept within the limits.
 [[nodiscard]] LimitedAxis limited_axis(std::int32_t counts, const AxisSettings& settings,
                                        const wire::DeviceProfile& profile) noexcept;
 
-/// Tilt of +60 degrees as the device sends it (7.8).
+/// Tilt of +60 degrees, in counts as the device sends it (7.8).
 inline constexpr std::int32_t kLargestTiltCounts = 0x2182A470;
 
-/// asin(acceleration / 1 g), at most 60 degrees either way.
+/// Returns asin(acceleration / 1 g), limited to +-60 degrees.
 [[nodiscard]] std::int32_t tilt_counts(std::int32_t acceleration_counts,
                                        const wire::DeviceProfile& profile) noexcept;
 

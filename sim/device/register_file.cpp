@@ -24,7 +24,7 @@ bool may_hold(const wire::DeviceProfile& profile, const wire::Register& reg, std
     const unsigned high = value >> 8U;
     if (&reg == &wire::kSmplCtrl) return decoded(profile.output_rates_hz, high).has_value();
     if (&reg == &wire::kUartCtrl) return decoded(profile.baud_rates, high).has_value();
-    if (&reg == &wire::kMscCtrl) return high == 0;  // Tests start, they are not kept.
+    if (&reg == &wire::kMscCtrl) return high == 0;  // A write starts tests and is not stored.
     if (&reg == &wire::kFilterCtrl) {
         if ((value & wire::kFilterBusy) != 0) return false;
         return profile.filter_coded(static_cast<std::uint8_t>(value & wire::kFilterSelect)) !=

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The registers of the emulated sensor as memory, and which values they may hold.
+/// The registers of the emulated sensor as memory, and the values that they may hold.
 /// M-A352AD10 data sheet, rev. 20251023, table 7.1 and sections 7.11-7.20.
 
 #include <array>
@@ -35,26 +35,27 @@ inline constexpr const wire::Register& kSerial = wire::require_register(wire::Wi
 
 inline constexpr std::uint16_t kLongFilterOn = 0x0001;  ///< LONGFILT_CTRL: FILT_EN (7.19).
 
-/// The value of a configuration field with that code.
+/// Returns the value of a configuration field with this code; std::nullopt for an unknown code.
 [[nodiscard]] std::optional<int> decoded(std::span<const wire::Coded> table, unsigned code);
 
-/// Not a value that the data sheet reserves or does not use, nor one that only tells a state.
+/// Returns true if the register may hold the value: the data sheet neither reserves it nor leaves
+/// it unused, and it does not only report a state.
 [[nodiscard]] bool may_hold(const wire::DeviceProfile& profile, const wire::Register& reg,
                             std::uint16_t value);
 
 class RegisterFile {
 public:
-    RegisterFile();  ///< With the factory's values.
+    RegisterFile();  ///< Starts with the factory values.
 
-    /// A register, or that many further on.
+    /// Return a register.  @param further  number of registers after it.
     [[nodiscard]] std::uint16_t& at(const wire::Register& reg);
     [[nodiscard]] std::uint16_t at(const wire::Register& reg, std::size_t further = 0) const;
 
-    /// Axis 0 ... 2 of a 32-bit quantity whose first high word is `first`.
+    /// Read or write axis 0 ... 2 of a 32-bit quantity; `first` is the high word of axis 0.
     [[nodiscard]] std::int32_t get32(const wire::Register& first, std::size_t axis = 0) const;
     void put32(const wire::Register& first, std::int32_t value, std::size_t axis = 0);
 
-    /// Two characters a register, the first in the low byte (7.27).
+    /// Writes two characters per register, the first in the low byte (7.27).
     void put_text(const wire::Register& first, std::string_view text);
 
 private:
@@ -62,7 +63,7 @@ private:
     std::array<Bank, 2> banks_{};
 };
 
-/// The long-term filter is off, or SMPL_CTRL is at a rate that it works at (5.17.4).
+/// Returns true if the long-term filter is off or works at the rate of SMPL_CTRL (5.17.4).
 [[nodiscard]] bool has_rate_for_long_filter(const wire::DeviceProfile& profile,
                                             const RegisterFile& registers);
 

@@ -25,7 +25,7 @@ std::uint16_t with(std::uint16_t value, bool is_high_byte, std::uint8_t byte) {
 }  // namespace
 
 std::string product_id_of(const wire::DeviceProfile& profile) {
-    // The identifier of the A351 is not public; the letters follow the family's naming.
+    // The identifier of the A351 is not public; the suffix follows the names of the family.
     std::string id(profile.product_id_prefix);
     if (id == "A351") id += "AU10";
     return id;
@@ -101,7 +101,7 @@ void RegisterMachine::end_start_up() {
     }
 }
 
-/// While the device starts up or wakes only GLOB_CMD answers.
+/// Answers a read.  While the device starts up or wakes, only GLOB_CMD answers.
 void RegisterMachine::read(std::uint8_t address, std::vector<std::byte>& answers) {
     const Register* reg = wire::register_at(window_, address & kEvenAddress);
     if (now_ < ready_at_ && reg != &wire::kGlobCmd) return;
@@ -125,7 +125,7 @@ std::uint16_t RegisterMachine::answer_of(const Register& reg) const {
     return value;
 }
 
-/// GLOB_CMD: a command reads 1 while it runs.
+/// Returns GLOB_CMD; the bit of a command reads 1 while the command runs.
 std::uint16_t RegisterMachine::command_state() const {
     unsigned state = flash_job_ ? flash_job_->command : 0U;
     if (now_ < ready_at_) state |= wire::kGlobNotReady;
@@ -200,7 +200,7 @@ void RegisterMachine::write_flash(const FlashMemory& content) {
     flash_ = content;
 }
 
-/// A value that the data sheet reserves is not taken.
+/// Writes one byte of a register.  A value that the data sheet reserves is ignored.
 void RegisterMachine::write_register(const Register& reg, bool is_high_byte, std::uint8_t value) {
     if (&reg == &kFirCommand) return user_filter_.start(value & 0x03U, now_);
     if (&reg == &kFirData) return user_filter_.set_data(value);
@@ -241,7 +241,7 @@ void RegisterMachine::put_gain_in_force() {
     user_gain_ = is_user ? constant_gain(coefficients_, filter().taps) : 1.0;
 }
 
-/// Whatever the filter, the external trigger may be used with it (note at table 5.4).
+/// Updates is_aliased_.  The external trigger may be used with any filter (note at table 5.4).
 void RegisterMachine::check_aliasing() {
     const auto rates = filter().allowed_rates_hz;
     is_aliased_ = !has(wire::kMscCtrl, wire::kMscExternalTrigger) &&

@@ -1,22 +1,22 @@
 #pragma once
 /// @file
-/// The sensor as a machine of bytes in and bytes out: windows, registers, modes, frames; no I/O and
-/// no clock; time is an argument.
+/// The sensor as a machine that takes and gives bytes: windows, registers, modes, frames.  No I/O
+/// and no clock: time is an argument.
 ///
 /// Rules, times: M-A352AD10 data sheet, rev. 20251023, sections 5.2-5.17, 6.2, 7, tables 2.2, 2.4.
-/// What it leaves open is decided where it is done: damaged commands (command_parser.hpp), frames
-/// faster than the line (transmit_buffer.hpp), and here:
+/// It leaves some cases open.  See command_parser.hpp for damaged commands and transmit_buffer.hpp
+/// for frames faster than the line.  The others are decided here:
 /// - A frame that carries FLAG counts as a read of FLAG: alarm bits show in one frame per excess.
-///   Without FLAG in the frames they stand until FLAG is read.
-/// - ACCL registers hold the acceleration whatever OUTPUT_SEL says; the tilt is in TILT (5.13).
-///   Either is read with the same ND bit.
-/// - Coefficients of the user's filter enter the flash when a user filter is selected; until then
-///   power or a reset loses them.
-/// - A backup or reset of the flash that power or a reset interrupts leaves it as it was.
-/// - Rate 1000/s and the long-term filter together are not taken, whichever is written second.
-/// - Sleep is entered from configuration mode only; start of sampling does not wait for anything.
+///   If frames do not carry FLAG, the bits stay set until FLAG is read.
+/// - ACCL registers hold the acceleration for any OUTPUT_SEL; the tilt is in TILT (5.13).
+///   Reading either clears the same ND bit.
+/// - Coefficients of the user filter enter the flash when a user filter is selected; until then
+///   a power failure or a reset loses them.
+/// - A backup or reset of the flash that a power failure or a reset interrupts changes nothing.
+/// - Rate 1000/s and the long-term filter exclude each other; the second setting is ignored.
+/// - Sleep is entered from configuration mode only; the start of sampling does not wait.
 /// - Samples come filtered: of the FIR filters only the start, the delay and a user filter's gain
-///   are emulated.  MESMOD and TEMP_STABIL are kept and shown, but change no sample.
+///   are emulated.  MESMOD and TEMP_STABIL are stored and shown, but change no sample.
 
 #include <chrono>
 #include <cstdint>
@@ -45,13 +45,13 @@ struct MachineIdentity {
     std::string product_id = "A351AU10";     ///< Eight characters; the suffix is an assumption.
     std::string serial_number = "00000001";  ///< Eight characters.
     std::uint16_t firmware = 1;
-    bool has_id_register = true;  ///< W0:4C, which the data sheet lacks, answers 5345.
+    bool has_id_register = true;  ///< W0:4C, not in the data sheet, reads 5345 hexadecimal.
 };
 
-/// What the emulated device of a profile calls itself unless told otherwise.
+/// Returns the default product identifier of an emulated device with this profile.
 [[nodiscard]] std::string product_id_of(const wire::DeviceProfile& profile);
 
-/// Other content of a register that holds settings.
+/// A change of a register that holds settings.
 struct RegisterChange {
     const wire::Register& reg;
     std::uint16_t value = 0;
@@ -60,68 +60,69 @@ struct RegisterChange {
 
 class RegisterMachine {
 public:
-    /// The maxima of table 2.4 for power-on (900 ms), reset (970 ms) and wake-up (16 ms), less a
-    /// margin: a host that waits for just the maximum must find the device ready, however late the
-    /// command before its wait was looked at.
+    /// Start-up times: the maxima of table 2.4 for power-on (900 ms), reset (970 ms) and wake-up
+    /// (16 ms), minus a margin.  A host that waits for just the maximum must find the device ready,
+    /// even if the emulator handled the command before that wait late.
     static constexpr std::chrono::milliseconds kPowerOnTime{880};
     static constexpr std::chrono::milliseconds kResetTime{950};
     static constexpr std::chrono::milliseconds kWakeTime{10};
 
-    /// Maxima of the same table; hosts ask whether it is done.
+    /// Times of commands: maxima of the same table, without a margin, as hosts ask for the end.
     static constexpr std::chrono::milliseconds kFilterTime{4};
     static constexpr std::chrono::milliseconds kUserFilterTime{100};
     static constexpr std::chrono::milliseconds kFlashBackupTime{310};
     static constexpr std::chrono::milliseconds kFlashResetTime{1900};
 
-    /// Output of all axes while rate and filter do not fit: 100 g (7.7).
+    /// Output of all axes while rate and filter do not fit, counts: 100 g (7.7).
     static constexpr std::int32_t kAliasedCounts = 0x64000000;
 
-    /// Told of the new content of the flash; false: it could not be kept, which FLASH_BU_ERR says.
+    /// Stores the new content of the flash.  If it returns false, FLASH_BU_ERR is raised.
     using FlashStore = std::function<bool(const FlashMemory&)>;
 
-    /// Switched on at `power_on`; every later time is on the same clock and never before the last.
+    /// Switches the device on at `power_on`.  All later times are on the same clock and must not
+    /// run backwards.
     RegisterMachine(const wire::DeviceProfile& profile, MachineIdentity identity,
                     Nanoseconds power_on, const FlashMemory& flash = {});
 
-    /// Called after FLASH_BACKUP and FLASH_RST, and when a user filter is chosen whose coefficients
-    /// are new.
+    /// Sets the store that is called after FLASH_BACKUP and FLASH_RST, and when a user filter with
+    /// new coefficients is selected.
     void on_flash_written(FlashStore store) { flash_store_ = std::move(store); }
 
-    /// Takes bytes from the host, appends the answers.  Where the host cuts its bytes is
-    /// indifferent.
+    /// Takes bytes from the host and appends the answers.  A command may be split over calls.
     void receive(std::span<const std::byte> bytes, Nanoseconds now,
                  std::vector<std::byte>& answers);
 
-    /// What ends by itself until `now` ends: start-up (with AUTO_START, in sampling), tests, flash.
+    /// Ends everything that is finished by `now`: start-up (with AUTO_START, in sampling mode),
+    /// tests, flash commands.
     void pass_time(Nanoseconds now);
 
-    /// One sample of the output rate.  In sampling mode it goes to the registers and, with
-    /// UART_AUTO, as a frame to `frames`; otherwise nothing happens.  With EXT_SEL only the sample
-    /// after an external_edge() counts; COUNT goes on in between.
-    /// @return the values of the frame that was appended.
+    /// Takes one sample at the output rate.  In sampling mode it is put into the registers and,
+    /// with UART_AUTO, appended to `frames` as a frame; otherwise nothing happens.  With EXT_SEL
+    /// only the sample after an external_edge() is used; COUNT advances in between.
+    /// @return the values of the frame that was appended, if any.
     std::optional<wire::BurstValues> sample(const SensorSample& sample,
                                             std::vector<std::byte>& frames);
 
-    /// A sample of the output rate that nobody hears, as when the line is cut: COUNT goes on.
+    /// Skips one sample at the output rate, as when the line is cut: only COUNT advances.
     void skip_sample();
 
-    // What can happen to a device from outside; every time is on the clock of receive().
-    void power_cycle(Nanoseconds now);        ///< Off and on again: boots for kPowerOnTime.
-    void spontaneous_reset(Nanoseconds now);  ///< As SOFT_RST.
-    void external_edge(Nanoseconds now);      ///< At pin EXT, of the polarity of EXT_POL; wakes.
-    void fall_back_to_configuration();        ///< Stops sampling unasked.
+    // Events from outside; every time is on the clock of receive().
+    void power_cycle(Nanoseconds now);        ///< Switches off and on: start-up of kPowerOnTime.
+    void spontaneous_reset(Nanoseconds now);  ///< Acts as SOFT_RST.
+    void external_edge(Nanoseconds now);      ///< Edge at pin EXT, polarity of EXT_POL; wakes it.
+    void fall_back_to_configuration();        ///< Stops sampling without a command.
     void raise_diagnostics(std::uint16_t diag_stat_bits);
     void clear_diagnostics();
     void jump_counter(std::uint16_t ticks);
 
-    /// Goes to sampling with these settings changed; not while it starts up or sleeps.
+    /// Changes these settings and starts sampling; does nothing during start-up or sleep.
     void apply_settings(std::span<const RegisterChange> changes, Nanoseconds now);
 
-    /// From now on these bits of DIAG_STAT are what their test finds: self tests, FLASH_BU_ERR of
-    /// flash commands, HARD_ERR and FLASH_ERR of every start-up; 0 heals.
+    /// Sets the bits of DIAG_STAT that tests raise from now on: self tests, flash commands
+    /// (FLASH_BU_ERR) and every start-up (HARD_ERR, FLASH_ERR).  0 ends this.
     void fail_tests(std::uint16_t diag_stat_bits) { failing_ = diag_stat_bits; }
 
-    void rename(MachineIdentity identity);  ///< Another unit in its place, with equal settings.
+    void rename(MachineIdentity identity);  ///< Replaces the unit by one with equal settings.
 
     [[nodiscard]] int baud() const;
     [[nodiscard]] bool is_sampling() const noexcept { return is_sampling_; }
@@ -129,24 +130,24 @@ public:
     [[nodiscard]] int output_rate_hz() const;
     [[nodiscard]] const FlashMemory& flash() const noexcept { return flash_; }
 
-    /// From the instant a sample stands for to the last byte of its frame on the line: group delay,
-    /// internal delay, wait for earlier frames, frame length at the baud rate.
+    /// Returns the time from the instant that a sample represents to the last byte of its frame on
+    /// the line: group delay, internal delay, wait for earlier frames, length at the baud rate.
     [[nodiscard]] Nanoseconds frame_delay() const;
 
-    /// Counts the entries into sampling mode: 0 before the first.
+    /// Returns the number of entries into sampling mode so far.
     [[nodiscard]] int sampling_run() const noexcept { return sampling_run_; }
 
-    /// What a register holds, without what reading it would change.
+    /// Returns the content of a register without the side effects of a read.
     [[nodiscard]] std::uint16_t value_of(const wire::Register& reg) const {
         return registers_.at(reg);
     }
 
-    /// Whole commands of the host, understood since the machine was made.
+    /// Returns the number of complete commands received since the machine was made.
     [[nodiscard]] std::uint64_t command_count() const noexcept { return command_count_; }
 
 private:
     struct FlashJob {
-        std::uint16_t command = 0;  ///< Its bit of GLOB_CMD.
+        std::uint16_t command = 0;  ///< Bit of GLOB_CMD.
         FlashMemory::Settings settings{};
         Nanoseconds ends_at{0};
     };
@@ -200,17 +201,17 @@ private:
     Nanoseconds ready_at_{0};
     Nanoseconds filter_ready_at_{0};
     bool is_starting_ = true;
-    bool is_soft_reset_ = false;  ///< The start-up was asked for by SOFT_RST.
+    bool is_soft_reset_ = false;  ///< SOFT_RST caused the start-up.
     bool is_asleep_ = false;
     bool is_reduced_noise_ = false;
     SelfTest tests_;
     UserFilter user_filter_;
-    FlashMemory::Coefficients coefficients_{};  ///< As written; in flash once selected.
+    FlashMemory::Coefficients coefficients_{};  ///< Written by the host; in flash once selected.
     std::optional<FlashJob> flash_job_;
 
     bool is_sampling_ = false;
     bool is_aliased_ = false;
-    bool is_triggered_ = false;   ///< An external edge waits for its sample.
+    bool is_triggered_ = false;   ///< An external edge has occurred; its sample is next.
     std::uint16_t new_data_ = 0;  ///< ND bits of FLAG.
     std::uint16_t alarms_ = 0;    ///< ALARM bits of FLAG.
     int transient_left_ = 0;      ///< Samples still to suppress.
@@ -218,7 +219,7 @@ private:
     double user_gain_ = 1.0;
     LongTermFilter long_filter_;
     TransmitBuffer transmit_;
-    std::optional<SensorSample> latest_;  ///< What the sensor feels, in any mode.
+    std::optional<SensorSample> latest_;  ///< Newest sample of the sensor, in any mode.
 };
 
 }  // namespace a351::sim

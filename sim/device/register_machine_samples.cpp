@@ -12,18 +12,19 @@ namespace {
 
 constexpr std::size_t kAxes = 3;
 
-// FLAG (7.4): X; Y and Z follow, each one bit lower.  SIG_CTRL enables ND with the same bits (7.9).
+// FLAG (7.4): bits of X; those of Y and Z are one and two bits lower.  SIG_CTRL enables ND with the
+// same bits (7.9).
 constexpr std::uint16_t kNewTemperature = 0x8000;
 constexpr unsigned kNewX = 0x0800;
 constexpr unsigned kAlarmX = 0x0010;
-constexpr unsigned kTiltX = 0x0080;  // SIG_CTRL: OUTPUT_SEL_X; likewise.
+constexpr unsigned kTiltX = 0x0080;  // SIG_CTRL: OUTPUT_SEL_X; Y and Z likewise.
 
 constexpr std::uint16_t kLongFilterHigh = 0x0002;  // LONGFILT_CTRL: FILT_SEL.
 
-constexpr std::int64_t kBitsPerByte = 10;  // Start, eight, stop (table 6.7).
+constexpr std::int64_t kBitsPerByte = 10;  // Start bit, eight bits, stop bit (table 6.7).
 
-/// Samples that fill the FIR filter and are not sent: the numbers of table 5.3, all of which are
-/// 2^n - 1 with 2^n the next power of two to taps / decimation.
+/// Returns the number of samples that fill the FIR filter and are not sent.  All numbers of table
+/// 5.3 are 2^n - 1, where 2^n is the next power of two at or above taps / decimation.
 int suppressed_samples(int taps, int decimation) {
     const auto filled = static_cast<unsigned>((taps + decimation - 1) / decimation);
     return static_cast<int>(std::bit_ceil(filled)) - 1;
@@ -67,7 +68,7 @@ void RegisterMachine::start_sampling() {
     new_data_ = alarms_ = 0;
     is_triggered_ = false;
     transmit_.clear();
-    // Only with the internal timer are the registers not updated meanwhile (5.17.3).
+    // Registers are not updated during the transient only with the internal timer (5.17.3).
     transient_left_ =
         has(wire::kMscCtrl, wire::kMscExternalTrigger)
             ? 0
@@ -84,7 +85,7 @@ void RegisterMachine::advance_counter(unsigned ticks) {
 
 void RegisterMachine::jump_counter(std::uint16_t ticks) { advance_counter(ticks); }
 
-/// One period of the output rate; false while nothing comes of it.
+/// Passes one period of the output rate; returns false if it gives no sample.
 bool RegisterMachine::begin_sample() {
     if (!is_sampling_) return false;
     transmit_.pass_period(baud());
@@ -158,7 +159,7 @@ std::uint16_t RegisterMachine::flag() const {
     return static_cast<std::uint16_t>(flag);
 }
 
-/// The frame of the sample in the registers; sending a field is reading it.
+/// Returns the values of the frame for the sample in the registers; each field counts as read.
 wire::BurstValues RegisterMachine::take_values(const wire::BurstLayout& layout) {
     wire::BurstValues values;
     if (layout.has_flag()) values.flag = flag();
@@ -175,7 +176,7 @@ wire::BurstValues RegisterMachine::take_values(const wire::BurstLayout& layout) 
     return values;
 }
 
-/// Table 7.1 and 7.3, 7.4: what reading a register of window 0 clears.
+/// Clears the bits that a read of a register of window 0 clears (table 7.1; 7.3, 7.4).
 void RegisterMachine::clear_after_read(std::uint8_t address) {
     if (address == wire::kDiagStat.address) clear_diagnostics();
     if (address == wire::kFlag.address) alarms_ = 0;

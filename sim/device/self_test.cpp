@@ -16,7 +16,7 @@ constexpr unsigned kTemperatureTest = 0x02;
 constexpr unsigned kSupplyTest = 0x01;
 constexpr unsigned kTogether = kAccelerationTest | kTemperatureTest | kSupplyTest;
 
-constexpr double kLeastVector_g = 0.8;  // 5.7.
+constexpr double kLeastVector_g = 0.8;  // Section 5.7.
 constexpr double kLargestVector_g = 1.2;
 
 bool is_resting(const SensorSample& sample, const wire::DeviceProfile& profile) {

@@ -13,7 +13,7 @@
 
 namespace a351::sim {
 
-// DIAG_STAT (7.3): the results of tests, and the one of FLASH_BACKUP and FLASH_RST.
+// DIAG_STAT (7.3): the results of tests, and of FLASH_BACKUP and FLASH_RST.
 inline constexpr std::uint16_t kDiagAccelerationVector = 0x8000;
 inline constexpr std::uint16_t kDiagAxes = 0x7000;  ///< X, Y, Z.
 inline constexpr std::uint16_t kDiagSensitivity = 0x0C00;
@@ -26,20 +26,21 @@ class SelfTest {
 public:
     static constexpr std::chrono::milliseconds kFlashTestTime{5};
     static constexpr std::chrono::milliseconds kShortTestTime{200};  ///< ACC, TEMP, VDD.
-    static constexpr std::chrono::seconds kSensitivityTestTime{10};  ///< An axis, typical.
+    static constexpr std::chrono::seconds kSensitivityTestTime{10};  ///< Per axis, typical.
 
-    /// @param high_byte  of MSC_CTRL as written.  Not taken while a test runs, nor a combination
-    ///                   other than ACC, TEMP and VDD, as only these may run together (7.10).
+    /// Starts tests.  Ignored while a test runs, and for a combination other than of ACC, TEMP and
+    /// VDD, because only these may run together (7.10).
+    /// @param high_byte  high byte of MSC_CTRL as written.
     void start(std::uint8_t high_byte, Nanoseconds now);
 
-    /// High byte of MSC_CTRL: the tests that run.
+    /// Returns the running tests as the high byte of MSC_CTRL.
     [[nodiscard]] std::uint8_t running() const noexcept { return running_; }
 
     /// Ends the tests whose time is over.
-    /// @param failing  DIAG_STAT bits that their test raises whatever it finds.
-    /// @param sample   What the sensor feels; the test of the acceleration finds the length of the
-    ///                 vector outside 0.8 ... 1.2 g.  Absent: not looked at.
-    /// @return         The DIAG_STAT bits that the ended tests raise.
+    /// @param failing  DIAG_STAT bits that their test raises in any case.
+    /// @param sample   newest sample: the acceleration test fails if the length of the vector is
+    ///                 outside 0.8 ... 1.2 g.  Without a sample the length is not tested.
+    /// @return         DIAG_STAT bits that the ended tests raise.
     [[nodiscard]] std::uint16_t end_due(Nanoseconds now, std::uint16_t failing,
                                         const std::optional<SensorSample>& sample,
                                         const wire::DeviceProfile& profile);

@@ -8,24 +8,25 @@
 
 namespace a351::sim {
 
-/// Holds the frame on the line and one that waits; a frame that comes while both are taken is
-/// dropped whole.  Below capacity nothing ever waits.  M-A352AD10 data sheet, rev. 20251023, 7.3:
-/// UART_OVF says that frames come faster than the baud rate; which are lost it does not say.
+/// Holds the frame on the line and one that waits.  A frame that comes while both places are taken
+/// is dropped whole.  If the baud rate suffices, no frame waits.  M-A352AD10 data sheet, rev.
+/// 20251023, 7.3: UART_OVF means that frames come faster than the baud rate allows; the data sheet
+/// does not say which frames are lost.
 class TransmitBuffer {
 public:
-    /// One period of the output rate goes by.
+    /// Passes one period of the output rate.
     void pass_period(int baud);
 
-    /// @return  False: there is no room, the frame is dropped.
+    /// Takes a frame.  @return false if there is no room: the frame is dropped.
     [[nodiscard]] bool take(std::int64_t frame_bits, int rate_hz);
 
-    /// How long a frame waits that comes after one more period.
+    /// Returns how long a frame that comes after one more period has to wait.
     [[nodiscard]] Nanoseconds next_wait(int baud, int rate_hz) const;
 
     void clear() { backlog_ = 0; }
 
 private:
-    std::int64_t backlog_ = 0;  ///< Bits times rate in hertz: exact at any rate.
+    std::int64_t backlog_ = 0;  ///< Bits times output rate in Hz: an integer at any rate.
 };
 
 }  // namespace a351::sim

@@ -5,9 +5,9 @@
 namespace a351::sim {
 namespace {
 
-constexpr double kBitsPerByte = 10.0;  ///< Start, eight from the lowest on, stop.
+constexpr double kBitsPerByte = 10.0;  ///< Start bit, eight bits from the lowest on, stop bit.
 
-/// Level of the line at a time in bits of the sender; idle is high.
+/// Returns the level of the line; the time is in bits of the sender.  The idle line is high.
 bool level(std::span<const std::byte> bytes, double bit) {
     const auto index = static_cast<std::size_t>(bit / kBitsPerByte);
     if (bit < 0.0 || index >= bytes.size()) return true;
@@ -19,11 +19,14 @@ bool level(std::span<const std::byte> bytes, double bit) {
 
 }  // namespace
 
-std::vector<std::byte> as_heard(std::span<const std::byte> bytes, int sent_baud, int heard_baud) {
-    const double ratio = static_cast<double>(sent_baud) / heard_baud;  ///< Sender's bits per own.
+std::vector<std::byte> received_at_baud(std::span<const std::byte> bytes, int sent_baud,
+                                        int heard_baud) {
+    // In bits of the sender: length of a receiver's bit, end of the bytes, present position, which
+    // is the start of a bit or the end of a stop bit within it.
+    const double ratio = static_cast<double>(sent_baud) / heard_baud;
     const double end = kBitsPerByte * static_cast<double>(bytes.size());
     std::vector<std::byte> heard;
-    double at = 0.0;  // Start of the sender's bit looked at, or later when a stop bit ended in it.
+    double at = 0.0;
     while (at < end) {
         if (level(bytes, at)) {
             at = std::floor(at) + 1.0;

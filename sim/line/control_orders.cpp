@@ -2,7 +2,8 @@
 
 namespace a351::sim {
 
-std::string obey(const std::string& line, const ControlActions& actions, const FaultRules& rules) {
+std::string execute(const std::string& line, const ControlActions& actions,
+                    const FaultRules& rules) {
     if (line == "status") return actions.status();
     if (line == "edge") {
         actions.edge();

@@ -7,19 +7,19 @@
 
 namespace a351::sim {
 
-/// What can be ordered through the control socket.
+/// Actions for the orders of the control socket.
 struct ControlActions {
-    std::function<std::string()> status;      ///< The report so far, in one line.
-    std::function<void()> edge;               ///< At the device's pin EXT.
-    std::function<void()> quit;               ///< As SIGTERM.
-    std::function<void(const Fault&)> fault;  ///< Now.
+    std::function<std::string()> status;      ///< Returns the report so far, in one line.
+    std::function<void()> edge;               ///< Gives an edge at the device's pin EXT.
+    std::function<void()> quit;               ///< Ends the emulator, as SIGTERM does.
+    std::function<void(const Fault&)> fault;  ///< Applies the fault now.
 };
 
-/// Does what the line says: `status`, `edge`, `quit`, or a fault in the words of a script,
+/// Executes an order: `status`, `edge`, `quit`, or a fault with the names of a script, such as
 /// `flip_bit count=3`.
-/// @return what there is to say about it.
-/// @throws InputError  as parse_fault, or thrown by the action.
-[[nodiscard]] std::string obey(const std::string& line, const ControlActions& actions,
-                               const FaultRules& rules);
+/// @return the answer of `status`, otherwise empty.
+/// @throws InputError  as parse_fault(); also every exception of the action.
+[[nodiscard]] std::string execute(const std::string& line, const ControlActions& actions,
+                                  const FaultRules& rules);
 
 }  // namespace a351::sim

@@ -48,8 +48,8 @@ bool is_listened_to(const sockaddr_un& address) {
     return !refused;
 }
 
-/// One that may be replaced.
-/// @throws InputError  as ControlSocket::require_place.
+/// Returns true if a socket that may be replaced is at `path`.
+/// @throws InputError  as ControlSocket::require_place().
 bool has_stale_socket(const fs::path& path) {
     const fs::file_status status = require_directory(path, "a socket");
     const sockaddr_un address = address_of(path);
@@ -58,7 +58,8 @@ bool has_stale_socket(const fs::path& path) {
         throw InputError(path.string() + ": exists and is no socket; allowed: a new path");
     }
     if (is_listened_to(address)) {
-        throw InputError(path.string() + ": somebody listens there; allowed: a new path");
+        throw InputError(path.string() +
+                         ": another program listens on this socket; allowed: a new path");
     }
     return true;
 }
@@ -134,7 +135,7 @@ bool ControlSocket::read(Client& client) const {
         client.in.erase(0, end + 1);
     }
     if (client.in.size() <= kLongestLine) return client.out.size() <= kMostUnread;
-    client.out += "error line too long; allowed: ";  // A sum of the three makes g++ 14 warn.
+    client.out += "error line too long; allowed: ";  // A single expression makes g++ 14 warn.
     client.out += std::to_string(kLongestLine) + " bytes\n";
     return false;
 }
@@ -167,7 +168,7 @@ void ControlSocket::watch(std::vector<pollfd>& descriptors) const {
 }
 
 Nanoseconds ControlSocket::patience(const Instant&, const ClockScale&) const {
-    return std::chrono::seconds(1);  // Everything it waits for stirs a descriptor.
+    return std::chrono::seconds(1);  // All its events wake a descriptor.
 }
 
 }  // namespace a351::sim

@@ -12,26 +12,28 @@
 namespace a351::sim {
 
 /// A Unix stream socket that takes orders: one line in, one line out, `ok ...` or `error ...`.
-/// A client that misbehaves (endless line, no reading, too many) is dropped and harms nobody else.
+/// A client that misbehaves (endless line, answers not read, too many clients) is disconnected; the
+/// other clients are not affected.
 ///
-/// The socket's file is removed at the end, if it is still ours.  A socket in its place that
-/// refuses connections is replaced, which one that is bound but not yet listened to does too;
-/// anything else there stays.
+/// The socket's file is removed at the end, if it is still the one made here.  An existing socket
+/// that refuses connections is replaced.  A socket that another program has bound but does not
+/// listen on yet refuses them too, and is replaced.  Anything else at the path is kept.
 class ControlSocket final : public Service {
 public:
-    /// What a line asks for.  Returns what follows `ok`; what it throws follows `error`.
+    /// Executes the order of a line.  The answer is `ok` and its result, or `error` and the message
+    /// of its exception.
     using Handler = std::function<std::string(const std::string& line)>;
 
     static constexpr std::size_t kLongestLine = 4096;
     static constexpr std::size_t kMostClients = 8;
     static constexpr std::size_t kMostUnread = 1U << 20U;  ///< Bytes kept for one client.
 
-    /// A socket can be bound there, as far as can be told without doing anything.
-    /// @throws InputError  the path is taken, too long, or in no directory.
+    /// Checks, without changing anything, that a socket can be bound at `path`.
+    /// @throws InputError  the path is taken, too long, or not in a directory.
     static void require_place(const std::filesystem::path& path);
 
-    /// @throws InputError         as require_place; the socket cannot be bound.
-    /// @throws std::system_error  naming the path.
+    /// @throws InputError         as require_place(); the socket cannot be bound.
+    /// @throws std::system_error  no socket can be made; names the path.
     ControlSocket(std::filesystem::path path, Handler handler);
     ~ControlSocket() override;
     ControlSocket(const ControlSocket&) = delete;
@@ -47,7 +49,7 @@ private:
         std::string in, out;
     };
     void greet();
-    [[nodiscard]] bool attend(Client& client) const;  ///< False: it is gone.
+    [[nodiscard]] bool attend(Client& client) const;  ///< Returns false when it is gone.
     [[nodiscard]] bool read(Client& client) const;
     [[nodiscard]] bool write(Client& client) const;
     [[nodiscard]] std::string answer(const std::string& line) const;
@@ -55,7 +57,7 @@ private:
     std::filesystem::path path_;
     Handler handler_;
     int listener_ = -1;
-    dev_t device_ = 0;  ///< With inode_: the file that is ours.
+    dev_t device_ = 0;  ///< With inode_: identity of the file made here.
     ino_t inode_ = 0;
     std::vector<Client> clients_;
 };

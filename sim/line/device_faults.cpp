@@ -6,7 +6,7 @@
 namespace a351::sim {
 namespace {
 
-/// Code of a value in the high byte of its register.
+/// Returns the code of a value, shifted to the high byte of its register.
 std::uint16_t high_code(std::span<const wire::Coded> values, int value) {
     const auto found = std::ranges::find(values, value, &wire::Coded::value);
     return static_cast<std::uint16_t>(found->code << 8U);

@@ -5,9 +5,9 @@
 
 namespace a351::sim {
 
-/// Changes settings of a device and puts it into sampling, as if it had come back with them.  What
-/// the host has said so far, its window and half a command, stays.
-/// @param now  on the machine's clock.
+/// Changes settings of a device and starts sampling, as if it had restarted with them.  The window
+/// that the host selected and a partial command are kept.
+/// @param now  time on the machine's clock.
 void change_settings(RegisterMachine& machine, const wire::DeviceProfile& profile,
                      const Fault& fault, Nanoseconds now);
 

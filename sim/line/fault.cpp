@@ -10,7 +10,7 @@
 namespace a351::sim {
 namespace {
 
-/// In the order of FaultKind.
+/// Names in the order of FaultKind.
 constexpr std::array<std::string_view, 24> kNames{
     "flip_bit",    "bad_checksum",    "drop_bytes",     "insert_bytes",
     "garbage",     "duplicate_frame", "reorder_frames", "truncate_frame",
@@ -39,14 +39,14 @@ std::string list_of_kinds(const FaultRules& rules) {
     return list;
 }
 
-/// A number that is one of the table's values; absent: `fallback`.
+/// Returns a number that is one of `values`; if it is absent, `fallback`.
 int coded(text::TomlTable& table, std::string_view key, int fallback,
           std::span<const wire::Coded> values) {
     const int value = integer(table, key, fallback, 1, kMostBytes);
     if (!table.has(key) || std::ranges::count(values, value, &wire::Coded::value) > 0) return value;
     std::string allowed;
     for (const wire::Coded& each : values) add_to(allowed, std::to_string(each.value));
-    table.refuse(key, "the device has no such", allowed);
+    table.refuse(key, "the device has no such value", allowed);
 }
 
 void read_settings(text::TomlTable& table, const FaultRules& rules, Fault& fault) {
@@ -55,12 +55,12 @@ void read_settings(text::TomlTable& table, const FaultRules& rules, Fault& fault
     if (!fault.filter.empty() && rules.profile.filter_named(fault.filter) == nullptr) {
         std::string allowed;
         for (const wire::FilterSpec& filter : rules.profile.filters) add_to(allowed, filter.name);
-        table.refuse("filter", "the device has no such", allowed);
+        table.refuse("filter", "the device has no such filter", allowed);
     }
     fault.burst_ctrl = integer(table, "burst_ctrl", 0, 1, 0xFFFF);
     if (table.has("burst_ctrl") &&
         !wire::BurstLayout::from_burst_ctrl(static_cast<std::uint16_t>(fault.burst_ctrl))) {
-        table.refuse("burst_ctrl", "no layout",
+        table.refuse("burst_ctrl", "not a layout",
                      "FLAG_OUT 0x8000, TEMP_OUT 0x4000, an axis of "
                      "0x0700, COUNT_OUT 0x0002, CHKSM_OUT 0x0001");
     }
@@ -77,14 +77,14 @@ void read_serial_number(text::TomlTable& table, Fault& fault) {
     fault.when_unplugged = table.boolean_or("when_unplugged", false);
 }
 
-/// A setting as it may be written in a command: strings need no quotes there.
+/// Returns a setting of a command as a TOML line; strings have no quotes in a command.
 std::string as_toml(std::string_view key, std::string_view value) {
     const bool is_text = key == "kind" || key == "serial_number" || key == "filter";
     return std::string(key) + " = " +
            (is_text ? '"' + std::string(value) + '"' : std::string(value)) + '\n';
 }
 
-/// Nothing that TOML would take for more than a value.
+/// Returns true if TOML reads the word as a value and nothing else.
 bool is_plain(std::string_view word) {
     return !word.empty() && word.find_first_of("\"'\\[]{}#") == std::string_view::npos;
 }
@@ -169,11 +169,12 @@ Fault read_fault(text::TomlTable& table, const std::string& kind, const FaultRul
             fault.loses_power = table.boolean_or("loses_power", false);
             break;
         case FaultKind::oven:
-            fault.count = integer(table, "count", 1, -1, kMostFrames);  // What -1 means: OvenPort.
+            fault.count = integer(table, "count", 1, -1, kMostFrames);  // -1: see OvenPort.
             break;
         case FaultKind::overrun:
             if (rules.speed > FaultRules::kFastestOverrun) {
-                table.refuse("kind", "too fast for it", "up to 50 simulated seconds per second");
+                table.refuse("kind", "the emulator runs too fast for it",
+                             "up to 50 simulated seconds per second");
             }
             seconds(0.0);
             break;

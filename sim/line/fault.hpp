@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// What can go wrong with the sensor and its line, as written in a fault script or said through
-/// the control socket.  Kinds and keys: a351-sim(1), FAULTS.
+/// Faults of the sensor and its line, as written in a fault script or sent through the control
+/// socket.  Kinds and keys: a351-sim(1), FAULTS.
 
 #include <array>
 #include <cstdint>
@@ -17,7 +17,7 @@
 namespace a351::sim {
 
 enum class FaultKind {
-    // Of single frames: each spoils the next `count` frames, one fault a frame.
+    // Faults of frames: each damages the next `count` frames; a frame has one fault at most.
     flip_bit,
     bad_checksum,
     drop_bytes,
@@ -27,7 +27,7 @@ enum class FaultKind {
     reorder_frames,
     truncate_frame,
     lose_frames,
-    // Of the device.
+    // Faults of the device.
     counter_jump,
     counter_stuck,
     counter_reset,
@@ -39,60 +39,61 @@ enum class FaultKind {
     change_settings,
     change_baud,
     failing_tests,
-    // Of the line.
+    // Faults of the line.
     silence,
     stall,
     hang_up,
     overrun,
-    // Of the oven, which has kinds of its own.
+    // Faults of the oven, whose kinds OvenPort knows by name.
     oven,
 };
 
 /// A number for each kind.
 using FaultCounts = std::array<std::int64_t, static_cast<std::size_t>(FaultKind::oven) + 1>;
 
-/// Which of the members mean something is the kind's business; the others keep their defaults.
+/// A fault.  Its kind determines which members are used; the others keep their defaults.
 struct Fault {
     FaultKind kind = FaultKind::flip_bit;
-    std::string name;      ///< As written; of an oven fault, all that is known.
-    int count = 1;         ///< Frames; counter_jump: samples; reorder_frames: pairs.
-    int bits = 1;          ///< Flipped per frame, all in one 16-bit word or marker.
-    int bytes = 1;         ///< Dropped or inserted per frame; of garbage.
-    int ticks = 0;         ///< Of a counter_jump by no whole number of samples; 0: `count` samples.
-    double seconds = 0.0;  ///< Simulated; 0 of an overrun: to the end.
-    int diag_stat = 0;     ///< Bits of DIAG_STAT raised, or found by tests.
-    bool loses_power = false;     ///< While unplugged.
-    bool when_unplugged = false;  ///< Another unit comes with the next hang_up only.
+    std::string name;             ///< Name as written; the only identification of an oven fault.
+    int count = 1;                ///< Frames; counter_jump: samples; reorder_frames: pairs.
+    int bits = 1;                 ///< Flipped per frame, all in one 16-bit word or marker.
+    int bytes = 1;                ///< Dropped or inserted per frame, or length of the garbage.
+    int ticks = 0;                ///< Length of a counter_jump, 250 us each; 0: `count` samples.
+    double seconds = 0.0;         ///< Simulated; 0 for overrun: to the end.
+    int diag_stat = 0;            ///< Bits of DIAG_STAT to raise, or that tests find.
+    bool loses_power = false;     ///< The device has no power while unplugged.
+    bool when_unplugged = false;  ///< The other unit comes with the next hang_up.
     std::string serial_number;
-    int output_rate_hz = 0;  ///< 0: as it is.  So with the next two.
+    int output_rate_hz = 0;  ///< 0, as empty or 0 in the next three: unchanged.
     std::string filter;
     int burst_ctrl = 0;
     int baud = 0;
 };
 
-/// What faults are possible here.
+/// Limits on the faults of one run.
 struct FaultRules {
     const wire::DeviceProfile& profile;
-    double speed = 1.0;                             ///< Simulated seconds per second.
-    std::vector<std::string_view> oven_kinds = {};  ///< Names that are taken as oven faults.
+    double speed = 1.0;                             ///< Simulated seconds per real second.
+    std::vector<std::string_view> oven_kinds = {};  ///< Names accepted as oven faults.
 
-    /// An overrun needs a host that gets along at this speed.
+    /// Highest speed at which an overrun is accepted: the host must be able to keep up.
     static constexpr double kFastestOverrun = 50.0;
 };
 
-/// Reads the fault of a table; `kind` is its name, and the keys of other kinds are not asked for.
-/// @throws InputError  unknown kind; a value out of range, or that the device does not know.
+/// Reads the fault of a table.  Keys of other kinds are left for require_all_read() to refuse.
+/// @param kind  name of the fault.
+/// @throws InputError  unknown kind; a value that is out of range or unknown to the device.
 [[nodiscard]] Fault read_fault(text::TomlTable& table, const std::string& kind,
                                const FaultRules& rules);
 
-/// The same from one line of words: `flip_bit count=3`.
-/// @throws InputError  as read_fault; a word that is no key=value; an unknown key.
+/// Reads a fault from one line of words, such as `flip_bit count=3`.
+/// @throws InputError  as read_fault(); a word that is not key=value; an unknown key.
 [[nodiscard]] Fault parse_fault(std::string_view words, const FaultRules& rules);
 
-/// `seconds` from then, >= 0; UtcTime::max() when that is later than any run of the emulator.
+/// Returns `then` plus `seconds`, >= 0; UtcTime::max() if the wait is longer than any run.
 [[nodiscard]] UtcTime later_by(double seconds, UtcTime then);
 
-/// All but the oven's.
+/// Returns the names of all faults except those of the oven.
 [[nodiscard]] std::span<const std::string_view> fault_kinds() noexcept;
 
 }  // namespace a351::sim

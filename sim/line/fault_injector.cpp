@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Without a frame for so long, none is on its way to take a fault.
+/// Time without a frame after which no frame is expected to take a fault, simulated.
 constexpr Nanoseconds kNoFrames = 1s;
 
 }  // namespace
@@ -33,7 +33,7 @@ FaultInjector::FaultInjector(const FaultScript& script, UtcTime start, Line& lin
       overrun_until_(start),
       run_faults_(machine, profile, report_.by_kind) {}
 
-/// By itself, that is.
+/// Returns true if the device sends frames without being asked.
 bool FaultInjector::sends_frames() const {
     return machine_.is_sampling() && (machine_.value_of(wire::kUartCtrl) & wire::kUartAuto) != 0;
 }
@@ -60,7 +60,7 @@ void FaultInjector::send_answer(std::span<const std::byte> bytes, UtcTime leaves
     }
 }
 
-/// No frame comes that the answers could cut.
+/// Sends the held answers separately, because no frame comes that they could cut.
 void FaultInjector::release_answer(UtcTime leaves) {
     if (held_answer_.empty()) return;
     if (leaves >= muted_until_) line_.send(held_answer_, leaves, nullptr);
@@ -153,7 +153,7 @@ void FaultInjector::put_other_unit() {
 
 void FaultInjector::apply(const Fault& fault, UtcTime simulated) {
     if (fault.kind == FaultKind::oven && !(oven_ && oven_(fault.name, fault.count))) {
-        throw InputError(fault.name + ": no oven takes it; allowed: with --oven-link");
+        throw InputError(fault.name + ": no oven takes this fault; allowed: with --oven-link");
     }
     report_.applied.push_back({fault.name, simulated, frames_made_});
     const UtcTime end = later_by(fault.seconds, simulated);
@@ -246,7 +246,7 @@ std::optional<FaultInjector::HangUp> FaultInjector::take_hang_up() {
     return std::exchange(hang_up_, std::nullopt);
 }
 
-void FaultInjector::came_back(const HangUp& hang_up, const Instant& now) {
+void FaultInjector::end_hang_up(const HangUp& hang_up, const Instant& now) {
     steady_ = now.steady;
     line_.plug_in();
     if (is_unit_waiting_) return put_other_unit();

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// Between device and line: does to frames, device and line what a script or somebody asks for,
-/// and keeps count of it.  No I/O and no clock.
+/// Stage between device and line: applies and counts the faults of frames, device and line that a
+/// script or the control socket asks for.  No I/O and no clock.
 
 #include <cstdint>
 #include <functional>
@@ -21,10 +21,10 @@ namespace a351::sim {
 struct AppliedFault {
     std::string name;
     UtcTime at;                    ///< Simulated.
-    std::int64_t frames_made = 0;  ///< By the device until then.
+    std::int64_t frames_made = 0;  ///< Frames that the device had made by then.
 };
 
-/// A fault of the script that could not be had.
+/// A fault of the script that could not be applied.
 struct RefusedFault {
     std::string name;
     UtcTime at;  ///< Simulated.
@@ -32,30 +32,30 @@ struct RefusedFault {
 };
 
 struct FaultReport {
-    /// Frames that each kind touched, by FaultKind; of kinds that touch none, how often it happened.
+    /// Frames that each kind affected, by FaultKind; for kinds without frames, number of faults.
     FaultCounts by_kind{};
     std::int64_t bytes_dropped = 0;
     std::int64_t bytes_inserted = 0;
     std::int64_t bytes_garbage = 0;
-    std::int64_t frames_cut = 0;  ///< By answers.
+    std::int64_t frames_cut = 0;  ///< Frames cut by answers.
     std::vector<AppliedFault> applied;
     std::vector<RefusedFault> refused;
 };
 
-/// A frame suffers one fault at most: those that wait take the next frames in turn.  What happens
-/// to the device because of a frame shows from the next one on.
+/// A frame has one fault at most: waiting faults take the next frames in turn.  A fault of the
+/// device that is triggered by a frame shows from the next frame on.
 class FaultInjector final : public LineSink {
 public:
-    /// Takes an oven fault by name; false when the oven knows none such.
+    /// Applies an oven fault by name; returns false if the oven does not know it.
     using OvenHandler = std::function<bool(std::string_view kind, int count)>;
 
-    /// The port is pulled out until then.
+    /// A request to pull the port out until an instant.
     struct HangUp {
         UtcTime until;
         bool loses_power = false;
     };
 
-    /// `line`, `machine` and `profile` must outlive this.  @param start  of the simulation.
+    /// `line`, `machine` and `profile` must outlive this.  @param start  start of the simulation.
     FaultInjector(const FaultScript& script, UtcTime start, Line& line, RegisterMachine& machine,
                   const wire::DeviceProfile& profile, MachineIdentity identity, OvenHandler oven);
     FaultInjector(const FaultInjector&) = delete;
@@ -64,24 +64,24 @@ public:
     void send(std::span<const std::byte> bytes, UtcTime leaves, const TruthRecord* frame) override;
     [[nodiscard]] bool is_full() const override { return line_.is_full(); }
 
-    /// To be called before the device is served: faults of the device happen at this steady time.
+    /// Sets the steady time of the next faults of the device.  Call it before the device is served.
     void begin(const Instant& now) { steady_ = now.steady; }
 
-    /// To be called after it was: faults that are due although no frames come.
+    /// Applies faults that are due although no frames come.  Call it after the device was served.
     void catch_up(const Instant& now);
 
-    /// One more fault, now.
-    /// @throws InputError         the oven knows no such fault, or its link is taken.
-    /// @throws std::system_error  the oven's terminal.
+    /// Applies a fault now.
+    /// @throws InputError         the oven does not know the fault, or its link is taken.
+    /// @throws std::system_error  an operation on the oven's terminal failed.
     void apply(const Fault& fault, UtcTime simulated);
 
-    /// What the port has to do, once.
+    /// Returns a new request to pull the port out; each request is returned once.
     [[nodiscard]] std::optional<HangUp> take_hang_up();
 
-    /// The port has done it and is plugged in again.
-    void came_back(const HangUp& hang_up, const Instant& now);
+    /// Ends a hang-up: the port has been out as requested and is plugged in again.
+    void end_hang_up(const HangUp& hang_up, const Instant& now);
 
-    /// The receiver loses what it has no room for.
+    /// Returns true while the receiver loses bytes for which it has no room.
     [[nodiscard]] bool is_overrun(UtcTime now) const noexcept { return now < overrun_until_; }
 
     [[nodiscard]] const FaultReport& report() const noexcept { return report_; }
@@ -89,7 +89,7 @@ public:
 private:
     struct Waiting {
         Fault fault;
-        int frames = 0;  ///< Still to suffer it.
+        int frames = 0;  ///< Frames still to damage.
     };
     struct HeldFrame {
         Bytes bytes;
@@ -117,10 +117,10 @@ private:
     RandomStream places_;
     Nanoseconds steady_{0};
     std::int64_t frames_made_ = 0;
-    UtcTime last_frame_;  ///< When the last one left.
+    UtcTime last_frame_;  ///< Instant at which the last frame left.
 
     std::vector<Waiting> waiting_;
-    std::optional<HeldFrame> held_frame_;  ///< To be sent behind its successor.
+    std::optional<HeldFrame> held_frame_;  ///< To be sent after the next frame.
     Bytes held_answer_;                    ///< To be sent within the next frame.
     UtcTime muted_until_, overrun_until_;
     std::optional<HangUp> hang_up_;

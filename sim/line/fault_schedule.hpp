@@ -9,15 +9,15 @@
 
 namespace a351::sim {
 
-/// The faults of a script in the order in which they fall due.  Random ones are a Poisson process
-/// per kind, from the seed and the start alone.
+/// The faults of a script in the order in which they are due.  Random faults are one Poisson
+/// process per kind, which depends on the seed and the start only.
 class FaultSchedule {
 public:
     FaultSchedule(const FaultScript& script, UtcTime start);
 
-    /// The next fault that is due, until there is none.
-    /// @param now          simulated.
-    /// @param frames_made  by the device so far.
+    /// Returns the next fault that is due, each once; std::nullopt if none is.
+    /// @param now          simulated time.
+    /// @param frames_made  frames that the device has made so far.
     [[nodiscard]] std::optional<Fault> take_due(UtcTime now, std::int64_t frames_made);
 
 private:
@@ -32,8 +32,8 @@ private:
 
     std::vector<PlannedFault> planned_;  ///< Not yet taken.
     std::vector<RandomKind> random_;
-    UtcTime next_at_ = UtcTime::max();  ///< Earliest of those with an instant.
-    std::int64_t next_frame_ = 0;       ///< Least of those with a frame.
+    UtcTime next_at_ = UtcTime::max();  ///< Earliest instant of a fault not yet taken.
+    std::int64_t next_frame_ = 0;       ///< Smallest at_frame not yet taken.
 };
 
 }  // namespace a351::sim

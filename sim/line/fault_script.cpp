@@ -11,7 +11,7 @@ constexpr double kLatest_s = 1e9;
 constexpr double kMostPerHour = 1e6;
 constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
 
-/// Kinds that happen without a setting that only the writer knows.
+/// Returns true for kinds that need no setting by the author of the script.
 bool can_be_random(std::string_view kind) {
     return kind != "other_unit" && kind != "change_settings" && kind != "overrun";
 }
@@ -31,7 +31,7 @@ PlannedFault read_planned(text::TomlTable& table, UtcTime start, const FaultRule
     if (const std::string text = table.string_or("at_utc", ""); table.has("at_utc")) {
         planned.at = parse_rfc3339(text);
         if (!planned.at)
-            table.refuse("at_utc", "not an instant", "RFC 3339, as 2017-07-16T00:00:00Z");
+            table.refuse("at_utc", "not an instant", "RFC 3339, such as 2017-07-16T00:00:00Z");
     }
     if (table.has("at_frame")) planned.at_frame = table.integer_or("at_frame", 0, 0, kMost);
     planned.fault = read_fault(table, kind, rules);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A fault script: which faults happen when.  Strict TOML; config/faults/example.toml shows it all.
+/// A fault script: faults and their times.  Strict TOML; config/faults/example.toml shows all keys.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,29 +16,30 @@ namespace a351::sim {
 
 struct PlannedFault {
     Fault fault;
-    std::optional<UtcTime> at;  ///< Simulated; for frames: of the instant they stand for.
-    std::optional<std::int64_t> at_frame;  ///< Frames the device made before, else.
+    std::optional<UtcTime> at;             ///< Simulated; compared with the instants of frames.
+    std::optional<std::int64_t> at_frame;  ///< Without `at`: frames that the device makes before.
 };
 
 /// Faults of one kind at random instants.
 struct RandomFaults {
-    Fault fault;  ///< With the defaults of its keys.
+    Fault fault;  ///< All keys at their defaults.
     double per_h = 0.0;
 };
 
 struct FaultScript {
-    std::vector<PlannedFault> planned;  ///< As written.
+    std::vector<PlannedFault> planned;  ///< In the order written.
     std::vector<RandomFaults> random;
-    std::uint64_t seed = 1;           ///< Of everything that is drawn, places of damage included.
-    bool answers_cut_frames = false;  ///< Answers while frames stream come in the midst of one.
+    std::uint64_t seed = 1;           ///< Seed of all draws, including the places of damage.
+    bool answers_cut_frames = false;  ///< Answers are put into the middle of streamed frames.
 };
 
-/// @param start  simulated instant that `at_s` counts from.
-/// @throws InputError  the file cannot be read; a fault without or with two instants; as read_fault.
+/// Reads a fault script.
+/// @param start  simulated instant from which `at_s` counts.
+/// @throws InputError  the file cannot be read; a fault has no instant or several; as read_fault().
 [[nodiscard]] FaultScript read_fault_script(const std::filesystem::path& file, UtcTime start,
                                             const FaultRules& rules);
 
-/// The same from text; `origin` stands for the file name in messages.
+/// Reads a fault script from text; messages use `origin` as the file name.
 [[nodiscard]] FaultScript parse_fault_script(std::string_view toml,
                                              const std::filesystem::path& origin, UtcTime start,
                                              const FaultRules& rules);

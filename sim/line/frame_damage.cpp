@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kTail = 3;  ///< Checksum and end marker.
 
-/// In 0 ... count - 1.
+/// Returns a number from 0 to count - 1.
 std::size_t draw(std::size_t count, RandomStream& random) {
     return static_cast<std::size_t>(random.bits() % count);
 }
@@ -21,7 +21,8 @@ std::uint16_t word_at(std::span<const std::byte> bytes, std::size_t at) {
                                       std::to_integer<unsigned>(bytes[at + 1]));
 }
 
-/// A whole frame of `size` bytes, checked by markers and, if it has one, checksum, is in there.
+/// Returns true if `bytes` contain a whole frame of `size` bytes, judged by its markers and, with
+/// `has_checksum`, its checksum.
 bool holds_frame(std::span<const std::byte> bytes, std::size_t size, bool has_checksum) {
     for (std::size_t at = 0; at + size <= bytes.size(); ++at) {
         const auto frame = bytes.subspan(at, size);

@@ -20,7 +20,7 @@ Nanoseconds wire_time(std::size_t bytes, int baud) {
     return Nanoseconds(1s) * static_cast<std::int64_t>(bytes) * kLineBitsPerByte / baud;
 }
 
-/// Forgets the first `start` elements once they are the greater part.
+/// Removes the first `start` elements when they are at least half of the queue.
 template <class T>
 void compact(std::vector<T>& queue, std::size_t& start) {
     if (2 * start < queue.size()) return;
@@ -69,7 +69,7 @@ void Line::put(std::span<const std::byte> bytes, UtcTime leaves, Mark mark) {
         queue_.insert(queue_.end(), bytes.begin(), bytes.end());
     } else if (!bytes.empty()) {
         std::vector<std::byte> heard;
-        if (host_baud_ > 0) heard = as_heard(bytes, device_baud_, host_baud_);
+        if (host_baud_ > 0) heard = received_at_baud(bytes, device_baud_, host_baud_);
         queue_.insert(queue_.end(), heard.begin(), heard.end());
         mark.truth.fate = heard.empty() ? Fate::lost : Fate::damaged;
     }
@@ -77,7 +77,7 @@ void Line::put(std::span<const std::byte> bytes, UtcTime leaves, Mark mark) {
     marks_.push_back(mark);
     carry(static_cast<std::size_t>(mark.end - mark.begin), leaves);
     if (!is_plugged_in_) return unplug(leaves);
-    // What has no bytes is settled with what was sent before it.
+    // A frame without bytes is settled together with the bytes sent before it.
     if (is_empty()) remove(0, Way::handed_over, leaves);
 }
 
@@ -135,7 +135,7 @@ void Line::settle(Mark& mark, Way way, UtcTime simulated, UtcTime shown) {
     if (mark.content == Content::answer) report_.bytes_of_answers += arrived;
     if (mark.content != Content::frame) return;
     Fate& fate = mark.truth.fate;
-    if (fate == Fate::lost) {  // On purpose, before it came here.
+    if (fate == Fate::lost) {  // Lost on purpose, before it came here.
         ++report_.frames_lost;
     } else if (mark.bytes_lost > 0 && arrived == 0) {
         fate = Fate::lost;

@@ -1,7 +1,8 @@
 #pragma once
 /// @file
-/// The line from the device to the host's terminal: keeps what was sent, in order, until the host
-/// may see it and the terminal has taken it, and what became of every frame.  No I/O and no clock.
+/// The line from the device to the host's terminal.  It keeps sent bytes in order until the host
+/// may see them and the terminal has taken them, and records the fate of every frame.  No I/O and
+/// no clock.
 
 #include <cstdint>
 #include <functional>
@@ -14,78 +15,79 @@
 
 namespace a351::sim {
 
-/// Counts of frames as they were settled: handed over or lost.
+/// Counts of frames whose fate is settled: handed over or lost.
 struct LineReport {
     struct Run {
-        std::int64_t first_index = 0;  ///< On the source's grid.
+        std::int64_t first_index = 0;  ///< Index on the source's grid.
         std::int64_t frames = 0;
     };
-    std::int64_t frames_made = 0;       ///< By the device; a second copy is none.
-    std::int64_t frames_sent = 0;       ///< Arrived whole, second copies included.
-    std::int64_t frames_damaged = 0;    ///< Arrived, but of no use.
-    std::int64_t frames_lost = 0;       ///< Nothing of them arrived, for whatever reason ...
-    std::int64_t lost_by_overrun = 0;   ///< ... the terminal was full,
-    std::int64_t lost_unplugged = 0;    ///< ... nothing was plugged in.
-    std::int64_t frames_pending = 0;    ///< Nothing of them had arrived at the end.
-    std::int64_t frames_repeated = 0;   ///< Of those sent.
-    std::int64_t frames_misplaced = 0;  ///< Of those sent.
-    std::int64_t frames_flagged = 0;    ///< Of those sent: EA, ALIASI_ERR or an alarm in FLAG.
+    std::int64_t frames_made = 0;       ///< Made by the device, without second copies.
+    std::int64_t frames_sent = 0;       ///< Arrived whole, including second copies.
+    std::int64_t frames_damaged = 0;    ///< Arrived damaged.
+    std::int64_t frames_lost = 0;       ///< No byte of them arrived, for any reason.
+    std::int64_t lost_by_overrun = 0;   ///< Part of frames_lost: the terminal was full.
+    std::int64_t lost_unplugged = 0;    ///< Part of frames_lost: the port was pulled out.
+    std::int64_t frames_pending = 0;    ///< No byte of them had arrived at the end.
+    std::int64_t frames_repeated = 0;   ///< Part of frames_sent.
+    std::int64_t frames_misplaced = 0;  ///< Part of frames_sent.
+    std::int64_t frames_flagged = 0;    ///< Part of frames_sent: EA, ALIASI_ERR or alarm in FLAG.
     std::int64_t bytes_handed_over = 0;
-    std::int64_t bytes_of_answers = 0;  ///< Of those handed over.
-    std::int64_t bytes_of_frames = 0;   ///< Of those handed over: in frames that arrived whole.
-    std::vector<Run> runs;              ///< One per stay in sampling mode, of frames sent.
-    Nanoseconds largest_lateness{0};    ///< Simulated time from when it might to when it was sent.
-    /// Largest least lateness of 50 frames: no receiver can tell that much from a delay of the line.
+    std::int64_t bytes_of_answers = 0;  ///< Part of bytes_handed_over.
+    std::int64_t bytes_of_frames = 0;  ///< Part of bytes_handed_over: in frames that arrived whole.
+    std::vector<Run> runs;             ///< Frames sent, one entry per run of sampling.
+    Nanoseconds largest_lateness{0};   ///< Largest delay after the due time, simulated.
+    /// Largest, over all blocks of 50 frames sent, of the least lateness in a block.  A receiver
+    /// cannot distinguish it from a delay of the line.
     Nanoseconds steady_lateness{0};
-    std::int64_t frames_late = 0;  ///< Sent more than 1 ms (simulated) after they might.
+    std::int64_t frames_late = 0;  ///< Sent more than 1 ms (simulated) after the due time.
 };
 
 class Line final : public LineSink {
 public:
-    /// Called for every frame once its last byte has gone or was lost.
+    /// Takes each frame once its last byte has been handed over or lost.
     using SettledHandler = std::function<void(const TruthRecord&)>;
 
-    /// @param start  no byte is sent before it.
+    /// @param start  start of the simulation; no byte is sent before it.
     Line(const LineParameters& parameters, std::uint64_t seed, UtcTime start,
          SettledHandler on_settled);
 
     void send(std::span<const std::byte> bytes, UtcTime leaves, const TruthRecord* frame) override;
 
-    /// Bytes that no device made.
+    /// Sends bytes that do not come from the device.
     void send_garbage(std::span<const std::byte> bytes, UtcTime leaves);
 
     static constexpr std::size_t kMostPending = 16384;
     [[nodiscard]] bool is_full() const override { return pending_size() >= kMostPending; }
 
-    /// How long before its last byte leaves the device a frame must be sent here: bytes that take
-    /// their time on the wire are seen one by one.
+    /// Returns how long before its last byte leaves the device a frame must be sent here.  With
+    /// is_paced the host sees the first bytes of a frame before the last one.
     [[nodiscard]] Nanoseconds lead() const;
 
-    /// Bytes that the host may see by now, in order; one at a time if they come bytewise.
+    /// Returns the bytes that the host may see by now, in order; with is_bytewise one at a time.
     [[nodiscard]] std::span<const std::byte> shown(UtcTime now) const;
 
-    /// When the host may see more than it has taken.
+    /// Returns when the host may see more bytes than it has taken.
     [[nodiscard]] std::optional<UtcTime> next_shown() const { return transport_.next_shown(); }
 
     [[nodiscard]] bool is_empty() const noexcept { return pending_size() == 0; }
 
-    /// The terminal took the first `byte_count` bytes shown.
+    /// Removes the first `byte_count` bytes shown, which the terminal took.
     void handed_over(std::size_t byte_count, UtcTime simulated);
 
-    /// The first `byte_count` bytes found the terminal full and are lost.
+    /// Removes the first `byte_count` bytes, which are lost because the terminal was full.
     void overrun(std::size_t byte_count, UtcTime simulated);
 
-    /// Nothing more is shown before `end`.
+    /// Shows nothing more before `end`.
     void hold_until(UtcTime end) { transport_.hold_until(end); }
 
-    /// Speeds of the device and of the host's terminal.  Where they differ, what is sent from now on
-    /// arrives as other bytes.
+    /// Sets the baud rates of the device and of the host's terminal.  If they differ, bytes sent
+    /// from now on arrive as other bytes.
     void set_speeds(int device_baud, int host_baud) noexcept;
 
-    /// What is under way and all that is sent until plug_in() is lost.
+    /// Loses all bytes under way and all that are sent until plug_in().
     void unplug(UtcTime simulated);
 
-    /// The end: what is still under way will never arrive.
+    /// Ends the line: bytes still under way never arrive.
     void abandon(UtcTime simulated) { remove(pending_size(), Way::abandoned, simulated); }
     void plug_in() noexcept { is_plugged_in_ = true; }
 
@@ -94,10 +96,10 @@ public:
 private:
     enum class Content { answer, frame, garbage };
 
-    /// In which bytes leave the line.
+    /// Ways in which bytes leave the line.
     enum class Way { handed_over, overrun, unplugged, abandoned };
 
-    /// Bytes that were sent together, by their place in the whole stream.
+    /// Bytes that were sent together; their places count from the start of the whole stream.
     struct Mark {
         std::uint64_t begin = 0, end = 0;
         std::uint64_t bytes_lost = 0;
@@ -119,12 +121,12 @@ private:
     bool is_plugged_in_ = true;
     std::vector<std::byte> queue_;
     std::size_t queue_start_ = 0;  ///< Bytes before it are gone.
-    std::uint64_t gone_ = 0;       ///< Of the whole stream: handed over or lost.
+    std::uint64_t gone_ = 0;       ///< Bytes of the whole stream that were handed over or lost.
     std::vector<Mark> marks_;
-    std::size_t marks_start_ = 0;  ///< Those before it are settled.
+    std::size_t marks_start_ = 0;  ///< Marks before it are settled.
     int last_run_ = 0;
-    Nanoseconds least_lateness_ = Nanoseconds::max();  ///< Of the frames since the last 50.
-    std::optional<UtcTime> last_frame_;                ///< Instant of the last one sent here.
+    Nanoseconds least_lateness_ = Nanoseconds::max();  ///< In the present block of 50 frames.
+    std::optional<UtcTime> last_frame_;                ///< Instant of the last frame sent here.
     LineReport report_;
 };
 

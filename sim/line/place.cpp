@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
     throw InputError(path.string() + ": " + error.message() + "; allowed: " + allowed);
 }
 
-/// Opens it as a writer would; what this has made is removed again.
+/// Opens the file as a writer would; removes it again if this made it.
 std::error_code try_to_write(const fs::path& path, bool is_new) {
     const int flags = O_WRONLY | O_CLOEXEC | O_NONBLOCK | (is_new ? O_CREAT | O_EXCL : 0);
     const int file = ::open(path.c_str(), flags, 0600);

@@ -1,20 +1,22 @@
 #pragma once
 /// @file
-/// Whether something can be put at a path, asked before anything is.
+/// Checks that something can be put at a path, before anything is made.
 
 #include <filesystem>
 #include <string>
 
 namespace a351::sim {
 
-/// @param what  that is to be put there, with its article: "a link".
-/// @return what stands there now, links not followed; file_type::not_found if nothing.
-/// @throws InputError  no path; its directory does not exist; it cannot be looked at.
+/// Checks that the directory of `path` exists.
+/// @param what  what is to be put there, with its article: "a link".
+/// @return the status of the path itself (a link is not followed); file_type::not_found if nothing
+///         is there.
+/// @throws InputError  an empty path; its directory does not exist; its status cannot be read.
 [[nodiscard]] std::filesystem::file_status require_directory(const std::filesystem::path& path,
                                                              const std::string& what);
 
-/// A file may be made there, or the one that is there be written.
-/// @throws InputError  as require_directory; it is a directory; it may not be written.
+/// Checks that a file can be made at `path`, or that the file there can be written.
+/// @throws InputError  as require_directory(); the path is a directory or cannot be written.
 void require_file_place(const std::filesystem::path& path);
 
 }  // namespace a351::sim

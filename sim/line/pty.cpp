@@ -45,8 +45,8 @@ speed_t speed_code(int baud) {
     return found->code;
 }
 
-/// One that may be replaced.
-/// @throws InputError  as Pty::require_place.
+/// Returns true if a link that may be replaced is at the path.
+/// @throws InputError  as Pty::require_place().
 bool has_stale_link(const fs::path& link) {
     const fs::file_status status = require_directory(link, "a link");
     if (!fs::exists(status)) return false;
@@ -126,17 +126,17 @@ void Pty::remove_link() noexcept {
 }
 
 void Pty::hang_up() {
-    Terminal next(baud_);  // Opened while the old one is: its name differs.
+    Terminal next(baud_);  // Opened while the old one is open, so that its name differs.
     remove_link();
     terminal_.swap(next);
 }
 
 void Pty::come_back() { make_link(); }
 
-std::size_t Pty::take_back() {
+std::size_t Pty::discard_unread() {
     std::array<std::byte, 4096> buffer;
     std::size_t count = 0;
-    // The kernel refills the terminal from its own buffer behind our back.
+    // The kernel refills the terminal from its own buffer a little later.
     for (pollfd more{terminal_.slave, POLLIN, 0}; ::poll(&more, 1, kRefill_ms) > 0;) {
         const ssize_t got = ::read(terminal_.slave, buffer.data(), buffer.size());
         if (got <= 0) break;

@@ -10,20 +10,21 @@
 
 namespace a351::sim {
 
-/// A pseudo-terminal whose other side plays the serial port: raw, never blocking, named by a
-/// symbolic link.  It holds its own slave descriptor open, so that a host may come and go.
+/// A pseudo-terminal whose other side acts as the serial port: raw, non-blocking, with a symbolic
+/// link to it.  It keeps its own slave descriptor open, so that hosts can connect and disconnect.
 ///
-/// The link is removed at the end, if it is still ours.  An older link in its place is replaced if
-/// it dangles and points into /dev/pts: somebody was killed.  Anything else there stays.
+/// The link is removed at the end, if it is still the one made here.  An existing link is replaced
+/// if it leads to a missing terminal in /dev/pts: an emulator that was killed left it.  Anything
+/// else at the path is kept.
 class Pty {
 public:
-    /// The link can be made, as far as can be told without doing anything.
-    /// @throws InputError  it exists and is not ours; there is no such directory.
+    /// Checks, without changing anything, that the link can be made.
+    /// @throws InputError  something else is there and may not be replaced; no such directory.
     static void require_place(const std::filesystem::path& link);
 
-    /// @param baud  speed until a host sets another.
-    /// @throws InputError         as require_place; the link cannot be made.
-    /// @throws std::system_error  naming the operation and the path.
+    /// @param baud  baud rate until a host sets another.
+    /// @throws InputError         as require_place(); the link cannot be made.
+    /// @throws std::system_error  an operation failed; names the operation and the path.
     explicit Pty(std::filesystem::path link, int baud = 460800);
     ~Pty();
     Pty(const Pty&) = delete;
@@ -31,36 +32,36 @@ public:
 
     [[nodiscard]] const std::string& slave_path() const noexcept { return terminal_.path; }
 
-    /// What the host has written so far; empty if nothing.
+    /// Returns bytes that the host has written; empty if there are none.
     [[nodiscard]] std::vector<std::byte> read();
 
-    /// @return how many bytes the terminal took, 0 when it is full.
+    /// Writes bytes.  @return how many bytes the terminal took; 0 when it is full.
     [[nodiscard]] std::size_t write(std::span<const std::byte> bytes);
 
-    /// What stirs when the host has written something or, if `for_space`, when the terminal takes
-    /// bytes again.
+    /// Returns the descriptor and events to poll: the host has written something or, with
+    /// `for_space`, the terminal takes bytes again.
     [[nodiscard]] pollfd watched(bool for_space) const noexcept;
 
-    /// Speed that the host has set; 0 when it is none of the usual ones.
+    /// Returns the baud rate that the host has set; 0 if it is not one of the usual rates.
     [[nodiscard]] int baud() const;
 
-    /// Bytes written that the host has not read, as far as the kernel tells: those written last may
-    /// not count yet.
+    /// Returns the number of bytes written that the host has not read.  The kernel may not yet
+    /// count the bytes written last.
     [[nodiscard]] std::size_t unread() const;
 
-    /// The adapter is pulled out: the host sees its terminal hang up, and the link is gone.
+    /// Pulls the adapter out: the host sees its terminal hang up, and the link is removed.
     void hang_up();
 
-    /// Bytes written that the host will never read: takes them back, which needs the host to have
-    /// come to its end, or ours.  Waits 20 ms for more.
-    [[nodiscard]] std::size_t take_back();
+    /// Takes back the bytes that the host will not read any more, because the host or this terminal
+    /// ends.  Waits 20 ms for more.  @return their number.
+    [[nodiscard]] std::size_t discard_unread();
 
-    /// The adapter is back, as a terminal of another name.
-    /// @throws InputError  something else has taken the place of the link.
+    /// Plugs the adapter in again, as a terminal with another name.
+    /// @throws InputError  something else is now at the path of the link.
     void come_back();
 
 private:
-    /// Both ends; closed with it.
+    /// Both ends of the terminal; the destructor closes them.
     struct Terminal {
         explicit Terminal(int baud);
         ~Terminal();

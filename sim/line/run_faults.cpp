@@ -7,7 +7,7 @@ namespace {
 
 constexpr unsigned kHalfRange = 0x8000;
 
-/// What a host can make of a COUNT that is so many ticks on from the frame before.
+/// Returns the fate of a frame whose COUNT is `ticks` after that of the frame before.
 Fate fate_of(std::uint16_t ticks, std::uint16_t step) {
     if (ticks == 0) return Fate::repeated;
     return ticks % step == 0 && ticks < kHalfRange ? Fate::intact : Fate::misplaced;

@@ -11,30 +11,30 @@
 
 namespace a351::sim {
 
-/// Faults of the counter and of the flags.  They begin with the next frame, show from the one
-/// behind it on, and end with the stay in sampling mode: what they raised in DIAG_STAT is then the
-/// host's to read.
+/// Faults of the counter and of the flags.  They begin with the next frame, show from the frame
+/// after it on, and end with the run of sampling.  Bits that they raised in DIAG_STAT then stay set
+/// until the host reads them.
 class RunFaults {
 public:
-    /// All must outlive this.  @param by_kind  frames, or times, are counted there.
+    /// All arguments must outlive this.  @param by_kind  counts of affected frames or of faults.
     RunFaults(RegisterMachine& machine, const wire::DeviceProfile& profile, FaultCounts& by_kind);
 
-    /// counter_jump, counter_stuck, counter_reset or error_flags.
+    /// Adds a counter_jump, counter_stuck, counter_reset or error_flags.
     void add(const Fault& fault) { waiting_.push_back(fault); }
 
-    /// Says what the counter of this frame is worth, and moves counter and flags on for the next.
+    /// Sets the fate of this frame by its counter, and prepares counter and flags for the next.
     void follow(TruthRecord& frame);
 
-    /// What waits begins with this frame, unless it was the last of its stay.
+    /// Begins the waiting faults with this frame, unless it was the last of its run of sampling.
     void begin_with(const TruthRecord& frame);
 
 private:
-    /// Of one stay in sampling mode.
+    /// State of one run of sampling.
     struct Begun {
         int run = 0;
         int stuck_frames = 0, stuck_left = 0;
         int flagged_left = 0;
-        std::optional<Fate> next;  ///< Of the next frame.
+        std::optional<Fate> next;  ///< Fate of the next frame.
     };
     void follow_counter(TruthRecord& frame);
     void follow_flags(const TruthRecord& frame);

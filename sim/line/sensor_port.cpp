@@ -13,16 +13,17 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Frames closer than this are sent together: waking more often costs more than it is worth.
+/// Frames closer than this are sent together: more frequent waking would cost too much.
 constexpr Nanoseconds kBatch = 1ms;
 constexpr Nanoseconds kLongestWait = 100ms;
 constexpr Nanoseconds kGrace = 2s;
-/// What was written passes the kernel's flip buffer before it counts as waiting to be read.
+/// Time for written bytes to pass the kernel's flip buffer; until then they do not count as unread.
 constexpr Nanoseconds kSettle = 200ms;
 constexpr Nanoseconds kQuiet = 10ms;
-/// Before the port is pulled out the host may read what it got, so that what was sent has arrived.
-/// Counted in turns of a batch each: a host that pauses lets time pass, but gives no turn, neither
-/// to the reader nor to the kernel's worker that empties the flip buffer.
+/// Before the port is pulled out, the host may read, so that the bytes sent have arrived: until
+/// nothing was unread for kQuietTurns turns of kBatch, at most for kMostTurns.  Turns are counted
+/// because, when the machine pauses, time passes but neither the reader nor the kernel's worker
+/// that empties the flip buffer runs.
 constexpr int kQuietTurns = 20;
 constexpr int kMostTurns = 1000;
 
@@ -63,7 +64,7 @@ void SensorPort::take_commands(const Instant& now) {
     if (device_.baud() == host_baud_) {
         device_.receive(commands, now, sink());
     } else if (host_baud_ > 0) {
-        device_.receive(as_heard(commands, host_baud_, device_.baud()), now, sink());
+        device_.receive(received_at_baud(commands, host_baud_, device_.baud()), now, sink());
     }
     set_speeds();
 }
@@ -79,7 +80,7 @@ void SensorPort::hand_over(const Instant& now) {
     last_sent_ = now.steady;
 }
 
-/// @return false when the terminal is full.
+/// Hands over some bytes.  @return false when the terminal is full.
 bool SensorPort::hand_over_some(const Instant& now) {
     std::span<const std::byte> bytes = line_.shown(now.simulated);
     const bool loses = faults_ != nullptr && faults_->is_overrun(now.simulated);
@@ -105,7 +106,7 @@ void SensorPort::move_plug(const Instant& now) {
     if (plug_ == Plug::leaving) {
         quiet_turns_ = pty_.unread() == 0 ? quiet_turns_ + 1 : 0;
         if (quiet_turns_ == kQuietTurns || ++turns_ == kMostTurns) {
-            bytes_unread_ += pty_.take_back();
+            bytes_unread_ += pty_.discard_unread();
             pty_.hang_up();
             plug_ = Plug::out;
         }
@@ -113,7 +114,8 @@ void SensorPort::move_plug(const Instant& now) {
     if (plug_ == Plug::out && now.simulated >= hang_up_.until) plug_in(now);
 }
 
-/// Where something has taken the link's place, it stays out and is asked again.
+/// Plugs the port in.  If something else is at the path of the link, the port stays out, and the
+/// next turn tries again.
 void SensorPort::plug_in(const Instant& now) {
     try {
         pty_.come_back();
@@ -123,7 +125,7 @@ void SensorPort::plug_in(const Instant& now) {
         return;
     }
     trouble_.clear();
-    faults_->came_back(hang_up_, now);
+    faults_->end_hang_up(hang_up_, now);
     plug_ = Plug::in;
 }
 
@@ -145,7 +147,7 @@ void SensorPort::finish(UtcTime simulated) {
         std::this_thread::sleep_for(kBatch);
         quiet = pty_.unread() == 0 ? quiet + kBatch : Nanoseconds(0);
     }
-    const std::size_t unread = pty_.take_back();
+    const std::size_t unread = pty_.discard_unread();
     was_drained_ = was_drained_ && unread == 0;
     bytes_unread_ += unread;
 }
@@ -163,7 +165,7 @@ Nanoseconds SensorPort::patience(const Instant& now, const ClockScale& clock) co
     if (due) next = std::min(next, *due - line_.lead());
     if (shown) next = std::min(next, *shown);
     const Nanoseconds wait = clock.host_at(next) - clock.host_at(now.simulated);
-    // Two frames closer than the batch wait for each other.
+    // Frames closer than kBatch are sent together.
     const bool is_dense = now.steady - last_sent_ < kBatch;
     return std::clamp<Nanoseconds>(wait, is_dense ? kBatch : Nanoseconds(0), kLongestWait);
 }

@@ -10,21 +10,22 @@
 
 namespace a351::sim {
 
-/// The sensor's port: joins a device, its line and the pseudo-terminal.  Frames keep an absolute
-/// grid: when the terminal is full they wait, and are sent late but never lost, unless the fault
-/// `overrun` makes the terminal a receiver of kReceiver bytes.  Where the speed of the host's
-/// terminal is not the device's, bytes of both directions arrive garbled.
+/// The sensor's port: connects a device, its line and the pseudo-terminal.  Frames keep an absolute
+/// grid.  When the terminal is full they wait, and are sent late but not lost; with the fault
+/// `overrun` the terminal keeps kReceiver bytes and further bytes are lost.  If the baud rates of
+/// the device and of the host's terminal differ, bytes in both directions arrive garbled.
 ///
-/// The device's own times (start-up, tests) are real time, as are the host's time-outs.
+/// The device's own times (start-up, tests) are in real time, like the host's time-outs.
 class SensorPort final : public Service {
 public:
-    /// What a Linux terminal keeps for a reader that does not come (N_TTY_BUF_SIZE less one).
+    /// Bytes that a Linux terminal keeps for a reader that does not read: N_TTY_BUF_SIZE - 1.
     static constexpr std::size_t kReceiver = 4095;
 
-    /// Told what keeps the port from being plugged in again, once per trouble.
+    /// Called once per reason that keeps the port from being plugged in again.
     using TroubleHandler = std::function<void(const std::string&)>;
 
-    /// All must outlive this.  @param faults  null: none, and the device sends to the line itself.
+    /// All arguments must outlive this.
+    /// @param faults  null: no faults, and the device sends directly to the line.
     SensorPort(Pty& pty, LineDevice& device, Line& line, FaultInjector* faults = nullptr,
                TroubleHandler on_trouble = {});
 
@@ -32,19 +33,20 @@ public:
     void watch(std::vector<pollfd>& descriptors) const override;
     [[nodiscard]] Nanoseconds patience(const Instant& now, const ClockScale& clock) const override;
 
-    /// The device has no more to send, and the host has read it all or 2 s more have passed.
+    /// Returns true when the device has no more to send, and the host has read everything or 2 s
+    /// more have passed.
     [[nodiscard]] bool is_finished() const noexcept { return is_finished_; }
 
-    /// The end: gives the host 200 ms for what it has not read, then settles what is left.
+    /// Ends the port: gives the host up to 200 ms to read, then settles the rest.
     void finish(UtcTime simulated);
 
-    /// At the end nothing was under way and the host had read everything.
+    /// Returns true if at the end nothing was under way and the host had read everything.
     [[nodiscard]] bool was_drained() const noexcept { return was_drained_; }
 
-    /// Real time from the first frame handed over to the last.
+    /// Returns the real time from the first frame handed over to the last.
     [[nodiscard]] double real_seconds() const noexcept;
 
-    /// Bytes handed over that the host had not read when the port was pulled out, or at the end.
+    /// Returns the number of bytes that the host had not read at hang-ups and at the end.
     [[nodiscard]] std::size_t bytes_unread() const noexcept { return bytes_unread_; }
 
 private:
@@ -68,8 +70,8 @@ private:
     bool is_blocked_ = false;  ///< The terminal takes no more.
     Plug plug_ = Plug::in;
     FaultInjector::HangUp hang_up_;
-    int turns_ = 0, quiet_turns_ = 0;  ///< Since it is leaving; and with nothing unread.
-    std::string trouble_;  ///< That keeps it out.
+    int turns_ = 0, quiet_turns_ = 0;  ///< While leaving: all turns; the last ones without unread.
+    std::string trouble_;              ///< Reason that keeps it out.
     std::size_t bytes_unread_ = 0;
     Nanoseconds first_sent_{0}, last_sent_{0};
     std::optional<Nanoseconds> ended_at_;

@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Nanoseconds kLongestPatience = 100ms;  ///< So that a signal is noticed.
+constexpr Nanoseconds kLongestPatience = 100ms;  ///< Longest wait: a signal is noticed within it.
 
 void wait(std::vector<pollfd>& descriptors, Nanoseconds timeout) {
     const auto seconds = std::chrono::floor<std::chrono::seconds>(timeout);

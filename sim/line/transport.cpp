@@ -7,7 +7,7 @@
 namespace a351::sim {
 namespace {
 
-/// The next instant of a grid at or after `time`.
+/// Returns the first instant of a grid at or after `time`.
 UtcTime next_on_grid(UtcTime start, UtcTime time, double period_s, double phase) {
     const double periods = seconds_between(start, time) / period_s - phase;
     const UtcTime tick = start + from_seconds((std::ceil(periods) + phase) * period_s);

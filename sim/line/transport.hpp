@@ -1,7 +1,7 @@
 #pragma once
 /// @file
 /// Delays between the device's output and the host's input: the adapter's latency timer, USB
-/// polling, scheduling and stalls.  Simulated time, no clock; random numbers of a seed only.
+/// polling, scheduling and stalls.  Simulated time, no clock; random numbers depend on a seed only.
 
 #include <cstdint>
 #include <optional>
@@ -13,45 +13,45 @@
 
 namespace a351::sim {
 
-/// Bytes travel in packets that never overtake each other.  One is closed by the next tick of the
-/// adapter's latency timer or when it holds kPacketSize bytes, fetched at the host's next poll,
-/// delayed by the jitter, and held until the end of a stall that it falls into:
+/// Bytes travel in packets that never overtake each other.  A packet is closed at the next tick of
+/// the adapter's latency timer or when it holds kPacketSize bytes.  The host fetches it at its next
+/// poll.  Then it is delayed by the jitter and, if it falls into a stall, to the end of the stall:
 ///
 ///     shown = max(shown of the packet before, stall(poll(min(tick, full)) + jitter))
 ///
-/// Phases of both grids are drawn from the seed.  Without any of this, bytes are shown when they
+/// The phases of both grids are drawn from the seed.  Without any delay, bytes are shown when they
 /// arrive.
 class Transport {
 public:
-    /// Payload of a full-speed USB packet of 64 bytes behind two status bytes (FTDI, AN232B-04,
-    /// Data Throughput, Latency and Handshaking).
+    /// Payload of a full-speed USB packet: 64 bytes minus two status bytes (FTDI, AN232B-04, Data
+    /// Throughput, Latency and Handshaking).
     static constexpr std::size_t kPacketSize = 62;
 
-    /// @param start  zero of the grids; no byte arrives before it.
+    /// @param start  origin of the grids; no byte arrives before it.
     Transport(const LineParameters& parameters, std::uint64_t seed, UtcTime start);
 
-    /// Takes bytes that arrive at the adapter together, behind those before.
+    /// Takes bytes that arrive at the adapter together, after those of earlier calls.
     void carry(std::size_t byte_count, UtcTime arrives);
 
-    /// How many bytes the host may see of those carried and not yet taken.
+    /// Returns how many of the bytes carried and not yet taken the host may see.
     [[nodiscard]] std::size_t shown(UtcTime now) const;
 
-    /// The first `byte_count` bytes are gone.
+    /// Removes the first `byte_count` bytes.
     void take(std::size_t byte_count);
 
-    /// When the next bytes are shown; std::nullopt when none are on their way.
+    /// Returns when the next bytes are shown; std::nullopt if none are under way.
     [[nodiscard]] std::optional<UtcTime> next_shown() const;
 
-    /// Nothing that arrives or waits is shown before this: the host pauses.
+    /// Shows nothing before `end`: the host pauses.
     void hold_until(UtcTime end);
 
-    /// When the byte that ends the first `byte_count` ones not yet taken is shown.
+    /// Returns when the last of the first `byte_count` bytes not yet taken is shown.
     [[nodiscard]] UtcTime shown_at(std::size_t byte_count) const;
 
 private:
     struct Packet {
         std::size_t size = 0;
-        UtcTime closes;  ///< Takes bytes until then.
+        UtcTime closes;  ///< End of its time to take bytes.
         UtcTime shown;
         Nanoseconds jitter{0};
     };
@@ -63,11 +63,11 @@ private:
     LineParameters parameters_;
     UtcTime start_;
     RandomStream jitter_, stalls_;
-    double timer_phase_, poll_phase_;  ///< In periods, 0 to 1.
-    UtcTime stall_start_, stall_end_;  ///< Of the next stall.
+    double timer_phase_, poll_phase_;  ///< Phases in periods, 0 to 1.
+    UtcTime stall_start_, stall_end_;  ///< Limits of the present or next stall.
     UtcTime hold_until_;
     UtcTime last_arrival_;
-    UtcTime last_shown_;  ///< Of the packet before the newest.
+    UtcTime last_shown_;  ///< Time of the packet before the newest.
     std::vector<Packet> packets_;
     std::size_t front_ = 0;  ///< Packets before it are gone.
 };

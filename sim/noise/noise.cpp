@@ -7,8 +7,8 @@
 namespace a351::sim {
 namespace {
 
-/// Steps after which a resonance of any Q used here has forgotten how it started, in time
-/// constants Q P / pi.
+/// Run-in of a resonance, in time constants Q P / pi: enough to forget the start for any Q used
+/// here.
 constexpr double kSettlingTimeConstants = 8.0;
 
 }  // namespace

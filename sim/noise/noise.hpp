@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Slow random parts of the acceleration, one value per step, started in their stationary state.
+/// Slow random parts of the acceleration: one value per step, stationary from the first one on.
 
 #include <cstdint>
 #include <string_view>
@@ -14,7 +14,7 @@ namespace a351::sim {
 /// processes of equal variance whose time constants are spaced by a factor of two at most.
 class FlickerNoise {
 public:
-    /// @param rms  standard deviation of the stationary process, in the unit wanted.
+    /// @param rms  standard deviation of the stationary process; its unit is that of next().
     FlickerNoise(RandomStream stream, double rms, double shortest_period_s, double longest_period_s,
                  double step_s);
 

@@ -17,7 +17,7 @@ std::uint64_t mix(std::uint64_t z) noexcept {
 
 using Coefficients = std::array<double, 8>;
 
-/// Horner's rule, lowest power first.
+/// Returns the polynomial with these coefficients, lowest power first, by Horner's rule.
 double polynomial(const Coefficients& c, double x) noexcept {
     double sum = c[7];
     for (std::size_t i = 7; i-- > 0;) sum = sum * x + c[i];

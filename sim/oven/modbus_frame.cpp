@@ -23,7 +23,7 @@ std::vector<std::byte> sealed(std::vector<std::byte> frame) {
 }
 
 bool is_sealed(std::span<const std::byte> frame) noexcept {
-    // Over a frame together with its own CRC the register comes out as 0.
+    // The CRC of a frame including its own CRC is 0.
     return frame.size() >= 4 && modbus_crc(frame) == 0;
 }
 

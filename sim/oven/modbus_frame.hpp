@@ -1,7 +1,8 @@
 #pragma once
 /// @file
 /// Frames of Modbus RTU as bytes: Modbus over Serial Line, Specification and Implementation Guide
-/// V1.02 (modbus.org), section 2.5.1, and the four functions of the Omron E5_C (H175-E1, section 4).
+/// V1.02 (modbus.org), section 2.5.1, and the four functions of the Omron E5_C (H175-E1, section
+/// 4).
 
 #include <cstddef>
 #include <cstdint>
@@ -16,23 +17,23 @@ inline constexpr std::byte kWriteRegister{0x06};
 inline constexpr std::byte kEcho{0x08};
 inline constexpr std::byte kWriteRegisters{0x10};
 
-/// Reflected polynomial A001h, start FFFFh; sent low byte first.
+/// Returns the CRC: reflected polynomial A001h, start FFFFh; it is sent low byte first.
 [[nodiscard]] std::uint16_t modbus_crc(std::span<const std::byte> bytes) noexcept;
 
-/// The frame with its CRC behind it.
+/// Returns the frame followed by its CRC.
 [[nodiscard]] std::vector<std::byte> sealed(std::vector<std::byte> frame);
 
-/// The last two bytes are the CRC of all before them.
+/// Returns true if the last two bytes are the CRC of all bytes before them.
 [[nodiscard]] bool is_sealed(std::span<const std::byte> frame) noexcept;
 
-/// One of the four above.
+/// Returns true for one of the four functions above.
 [[nodiscard]] bool is_known_function(std::byte function) noexcept;
 
-/// How long the request that begins like this will be.
-/// @return  std::nullopt: not known yet, or a function of which only silence shows the end.
+/// Returns the length of the request that begins with these bytes.
+/// @return  std::nullopt: not known yet, or a function whose requests only silence ends.
 [[nodiscard]] std::optional<std::size_t> request_length(std::span<const std::byte> begin) noexcept;
 
-/// The 16-bit word at `offset`, high byte first.
+/// Returns the 16-bit word at `offset`, high byte first.
 [[nodiscard]] std::uint16_t word_at(std::span<const std::byte> frame, std::size_t offset) noexcept;
 void append_word(std::vector<std::byte>& frame, std::uint16_t word);
 

@@ -9,7 +9,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr double kBitsPerCharacter = 11.0;
-constexpr double kSilence = 3.5;  ///< Characters that end a frame.
+constexpr double kSilence = 3.5;  ///< Silence that ends a frame, in characters.
 constexpr std::size_t kLongestRequest = 264;
 constexpr std::size_t kBabble = 64;
 constexpr std::byte kBroadcast{0};
@@ -21,7 +21,7 @@ std::vector<std::byte> refused(std::span<const std::byte> request, Refusal reaso
     return {request[0], request[1] | std::byte{0x80}, std::byte(reason)};
 }
 
-/// The head of the request, which is all of the answer to a write.
+/// Returns the answer to a write: the head of the request.
 std::vector<std::byte> confirmed(std::span<const std::byte> request) {
     return {request.begin(), request.begin() + 6};
 }
@@ -41,7 +41,7 @@ std::vector<std::byte> nonsense(std::uint16_t seed) {
 ModbusServer::ModbusServer(OvenController& controller, const ServerOptions& options)
     : controller_(controller),
       options_(options),
-      // Modbus over Serial Line V1.02, 2.5.1.1: a fixed time above 19 200 baud.
+      // Modbus over Serial Line V1.02, 2.5.1.1: above 19 200 baud the time is fixed.
       silence_(options.baud > 19'200 ? Nanoseconds(1750us) : characters(kSilence)) {}
 
 Nanoseconds ModbusServer::characters(double count) const {
@@ -53,7 +53,7 @@ void ModbusServer::fail_next(OvenFault kind, int count) { remaining_[index_of(ki
 void ModbusServer::restart(Nanoseconds now) {
     controller_.restart();
     forget_answer();
-    if (!received_.empty()) ignore_run(report_.unheard);
+    if (!received_.empty()) ignore_run(report_.ignored);
     is_restarting_ = true;
     restarted_at_ = now;
 }
@@ -63,8 +63,7 @@ void ModbusServer::forget_answer() {
     answer_.reset();
 }
 
-/// What has been received since the last silence is not understood, nor is what comes before the
-/// next; it counts once.
+/// Ignores all bytes received from the last silence to the next and counts them once.
 void ModbusServer::ignore_run(std::int64_t& counter) {
     ++counter;
     received_.clear();
@@ -78,7 +77,7 @@ void ModbusServer::receive(std::span<const std::byte> bytes, Nanoseconds now) {
     if (is_restarting_ && now - restarted_at_ >= options_.restart_time) is_restarting_ = false;
     if (is_ignoring_) return;
     if (answer_ || is_restarting_ || !controller_.speaks_modbus()) {
-        return ignore_run(report_.unheard);
+        return ignore_run(report_.ignored);
     }
     received_.insert(received_.end(), bytes.begin(), bytes.end());
     take_requests(now);
@@ -95,7 +94,7 @@ void ModbusServer::end_by_silence(Nanoseconds now) {
     is_ignoring_ = false;
     if (received_.empty()) return;
     const std::vector<std::byte> frame = std::exchange(received_, {});
-    // What is left of a known function is too short for it.
+    // A rest with a known function is too short for that function.
     if (is_sealed(frame) && !is_known_function(frame[1])) {
         handle(frame, now);
     } else {
@@ -114,7 +113,7 @@ void ModbusServer::take_requests(Nanoseconds now) {
         const std::vector<std::byte> request(received_.begin(), end);
         received_.erase(received_.begin(), end);
         handle(request, now);
-        if ((answer_ || is_restarting_) && !received_.empty()) ignore_run(report_.unheard);
+        if ((answer_ || is_restarting_) && !received_.empty()) ignore_run(report_.ignored);
     }
 }
 
@@ -153,7 +152,7 @@ void ModbusServer::handle(std::span<const std::byte> request, Nanoseconds now) {
     reply(std::move(answer), request.size(), now);
 }
 
-/// @return  empty after a software reset.
+/// Executes a request.  @return the answer; empty after a software reset.
 std::vector<std::byte> ModbusServer::answer_to(std::span<const std::byte> request,
                                                Nanoseconds now) {
     const std::byte function = request[1];
@@ -215,10 +214,10 @@ void ModbusServer::reply(Answer answer, std::size_t request_size, Nanoseconds no
     answer_ = std::move(answer);
 }
 
-std::vector<std::byte> ModbusServer::advance_to(Nanoseconds now, bool is_heard) {
+std::vector<std::byte> ModbusServer::advance_to(Nanoseconds now, bool has_master) {
     end_by_silence(now);
     if (!answer_ || now < answer_->due) return {};
-    if (!is_heard) {
+    if (!has_master) {
         forget_answer();
         return {};
     }

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
 /// Modbus RTU between the line and the controller: framing, addressing, functions 03, 06, 08 and
-/// 10h, timing, and the ways in which an answer can go wrong.  No I/O, no clock.
+/// 10h, timing, and faults of answers.  No I/O, no clock.
 
 #include <array>
 #include <cstdint>
@@ -13,16 +13,16 @@
 
 namespace a351::sim {
 
-/// A fault of the answer to one request.  A request that meets `silence`, `babble` or `exception`
-/// is not executed.
+/// A fault of the answer to one request.  With `silence`, `babble` or `exception` the request is
+/// not executed.
 enum class OvenFault {
     silence,     ///< No answer.
     babble,      ///< 64 bytes of nonsense.
     exception,   ///< Exception 04.
     crc_error,   ///< One bit of the CRC is wrong.
-    wrong_unit,  ///< Valid, but as if from the next unit.
-    truncated,   ///< The first half only.
-    delay        ///< Right, but ServerOptions::fault_delay too late.
+    wrong_unit,  ///< Valid, but with the next unit's number.
+    truncated,   ///< Only the first half.
+    delay        ///< Correct, but late by ServerOptions::fault_delay.
 };
 inline constexpr std::size_t kOvenFaultCount = 7;
 
@@ -34,50 +34,50 @@ struct ServerOptions {
     Nanoseconds fault_delay = std::chrono::seconds(1);
 };
 
-/// What became of what was received.  Every request and every stray run of bytes, which silence
-/// ends, is in just one of these once it is over; an answer is when it leaves.
+/// Counts of the received requests.  Every request, and every run of stray bytes up to a silence,
+/// is counted exactly once when it is over; an answer is counted when it leaves.
 struct OvenReport {
-    std::int64_t answers = 0;          ///< As they should be, exceptions included.
-    std::int64_t exceptions = 0;       ///< Of the answers: refused by the controller.
-    std::int64_t answers_lost = 0;     ///< Nobody at the other end, or switched off meanwhile.
+    std::int64_t answers = 0;          ///< Correct answers, including exceptions.
+    std::int64_t exceptions = 0;       ///< Part of the answers: refused by the controller.
+    std::int64_t answers_lost = 0;     ///< No master at the other end, or power off before.
     std::int64_t resets = 0;           ///< Software resets, which are never answered.
     std::int64_t broadcasts = 0;       ///< Executed if possible, never answered.
     std::int64_t for_other_units = 0;  ///< Valid, not for this unit.
-    std::int64_t unreadable = 0;       ///< Noise, bad CRC, or 3.5 characters of silence within.
-    std::int64_t unheard = 0;          ///< While an answer was due, in a restart, or not on Modbus.
-    std::array<std::int64_t, kOvenFaultCount> faults{};  ///< Answers spoilt, by kind.
+    std::int64_t unreadable = 0;       ///< Noise, bad CRC, or a silence of 3.5 characters inside.
+    std::int64_t ignored = 0;          ///< Ignored: answer due, restart, or not on Modbus.
+    std::array<std::int64_t, kOvenFaultCount> faults{};  ///< Answers with a fault, by kind.
 };
 
-/// Serves one controller.  Times are those of the host's steady clock, since masters wait in real
-/// time; characters take 11 bits (8 data bits with parity, or two stop bits).
+/// Serves one controller.  Times are on the host's steady clock, because masters wait in real time.
+/// A character has 11 bits (8 data bits with parity, or two stop bits).
 ///
-/// A request ends where its own length says; one of an unknown function, with 3.5 characters of
-/// silence.  After bytes that make no sense, or come when nothing is heard, everything is ignored
-/// until there is such a silence.
-/// The answer is given whole when its last character would have arrived: request and answer take
-/// their time on the line, and between them lies the wait.  Half duplex: until then what arrives is
-/// not heard.
+/// A request ends at its own length; a request of an unknown function ends with a silence of 3.5
+/// characters.  After bytes that are not a request, or that come while the server does not listen,
+/// everything is ignored up to the next such silence.
+/// The whole answer is handed over when its last character would have arrived: after the request's
+/// time on the line, the wait, and the answer's time on the line.  The line is half duplex: bytes
+/// that arrive before are ignored.
 class ModbusServer {
 public:
     ModbusServer(OvenController& controller, const ServerOptions& options);
 
     void receive(std::span<const std::byte> bytes, Nanoseconds now);
 
-    /// Characters that cannot be made out, as from a master at another speed.
+    /// Takes unreadable characters, such as from a master with another baud rate.
     void receive_noise(Nanoseconds now);
 
-    /// What leaves for the master by now.
-    /// @param is_heard  false: there is no master at the other end, and an answer is lost.
-    [[nodiscard]] std::vector<std::byte> advance_to(Nanoseconds now, bool is_heard = true);
+    /// Returns the bytes that are due for the master by now.
+    /// @param has_master  false: no master is at the other end, and an answer is lost.
+    [[nodiscard]] std::vector<std::byte> advance_to(Nanoseconds now, bool has_master = true);
 
-    /// When advance_to() has something to do again, if nothing is received before.
+    /// Returns when advance_to() has something to do, if nothing is received before.
     [[nodiscard]] std::optional<Nanoseconds> next_due() const;
 
-    /// Spoils the next `count` answers, or all until further notice if -1; 0 ends it.  Of
-    /// several kinds at a time the first in the order of OvenFault takes its turn.
+    /// Gives the next `count` answers this fault; -1: all answers from now on; 0: none any more.
+    /// If several kinds are active, the first in the order of OvenFault is applied.
     void fail_next(OvenFault kind, int count);
 
-    /// Power off and on.
+    /// Switches the power off and on.
     void restart(Nanoseconds now);
 
     [[nodiscard]] const OvenReport& report() const noexcept { return report_; }
@@ -104,10 +104,10 @@ private:
 
     OvenController& controller_;
     ServerOptions options_;
-    Nanoseconds silence_;  ///< What ends a frame.
+    Nanoseconds silence_;  ///< Silence that ends a frame.
     std::vector<std::byte> received_;
     Nanoseconds last_byte_{0};
-    bool is_ignoring_ = false;  ///< The rest of a run that is counted.
+    bool is_ignoring_ = false;  ///< Ignores the rest of a run already counted.
     std::optional<Answer> answer_;
     Nanoseconds restarted_at_{0};
     bool is_restarting_ = false;

@@ -262,10 +262,10 @@ std::optional<Refusal> OvenController::operate(std::uint8_t command, std::uint8_
     if (command != kCommunicationWriting && !settings_.is_writing_enabled) {
         return Refusal::operation;
     }
-    return obey(command, parameter);
+    return execute(command, parameter);
 }
 
-std::optional<Refusal> OvenController::obey(std::uint8_t command, std::uint8_t parameter) {
+std::optional<Refusal> OvenController::execute(std::uint8_t command, std::uint8_t parameter) {
     const auto unless = [](bool is_refused) {
         return is_refused ? std::optional(Refusal::operation) : std::nullopt;
     };
@@ -278,7 +278,7 @@ std::optional<Refusal> OvenController::obey(std::uint8_t command, std::uint8_t p
             next.is_running = parameter == 0;
             break;
         case kWriteMode:
-            is_in_ram_mode_ = parameter == 1;  // Back to backup: what RAM holds is stored below.
+            is_in_ram_mode_ = parameter == 1;  // 0: put_in_force() below stores the RAM's content.
             break;
         case kSaveRam:
             stored_ = settings_;

@@ -1,9 +1,9 @@
 #pragma once
 /// @file
-/// The temperature controller behind its serial port: variables, status, operation commands, what
-/// is refused and why.  No bytes, no I/O, no clock.
-/// Omron E5_C Communications Manual (H175-E1): section 4-1-3 error codes, 4-4 functions, 5 variables
-/// and status.
+/// The temperature controller as its serial port shows it: variables, status, operation commands,
+/// and the reasons of refusals.  No bytes, no I/O, no clock.
+/// Omron E5_C Communications Manual (H175-E1): section 4-1-3 error codes, 4-4 functions, 5
+/// variables and status.
 
 #include <cstdint>
 #include <optional>
@@ -17,15 +17,15 @@
 
 namespace a351::sim {
 
-/// Why a request is answered by an exception.  Where several apply the lowest is given.
+/// Reason for which a request is answered by an exception.  If several apply, the lowest is given.
 enum class Refusal : std::uint8_t {
     function = 1,  ///< No such function.
-    address = 2,   ///< Nothing at the first address, or it cannot be written.
+    address = 2,   ///< No variable at the first address, or it cannot be written.
     data = 3,      ///< Wrong count, value out of range, no such command.
-    operation = 4  ///< Not now: writing is off, or another setup area.
+    operation = 4  ///< Not possible now: writing is off, or wrong setup area.
 };
 
-/// Bits of the status, H175 section 5; those that this controller can show.
+/// Bits of the status that this controller can show (H175 section 5).
 namespace oven_status {
 inline constexpr std::uint32_t kInputError = 1U << 6;
 inline constexpr std::uint32_t kHeating = 1U << 8;
@@ -37,50 +37,52 @@ inline constexpr std::uint32_t kStopped = 1U << 24;
 inline constexpr std::uint32_t kWritingEnabled = 1U << 25;
 }  // namespace oven_status
 
-/// The operation command that restarts the controller, H175 section 4.
+/// Code of the operation command that restarts the controller (H175 section 4).
 inline constexpr std::uint8_t kSoftwareReset = 0x06;
 
 struct ControllerOptions {
     bool has_two_byte_addresses = true;  ///< The earlier E5CN has none.
-    DegC set_point_low = DegC(-20.0);    ///< Limits of the set point; within the input's range,
-    DegC set_point_high = DegC(500.0);   ///< which for a K couple shown in 0.1 degC is this.
+    DegC set_point_low = DegC(-20.0);    ///< Lower limit of the set point.  The defaults are
+    DegC set_point_high = DegC(500.0);   ///< the range of a K couple shown in 0.1 degC.
 };
 
-/// The controller of one oven.  The plant's set point, tuning and state are only touched by what is
-/// written here.
+/// The controller of one oven.  Only writes change the plant's set point, tuning and state.
 ///
-/// Departures from the device: no auto-tuning, manual mode, remote or multiple set points (refused
-/// as not possible now); heater current, cooling and status 2 read 0; only K couples (input types 5
-/// and 6) can be chosen; alarm 1 is an upper limit above the set point, with value 0 it is off;
-/// D, input filter and the alarm's second pair of limits are kept without effect.  Not in the manual
-/// and assumed: an input error shows the upper end of the range; registers that the map leaves out
-/// read 0 when the first one asked for exists.
+/// Differences from the device:
+/// - Auto-tuning, manual mode, remote and multiple set points are refused as not possible now.
+/// - Heater current, cooling and status 2 read 0.
+/// - Only K couples (input types 5 and 6) can be chosen.
+/// - Alarm 1 is an upper limit relative to the set point; value 0 switches it off.
+/// - D, the input filter and the alarm's second pair of limits are stored without effect.
+///
+/// Assumed, because the manual does not say: an input error shows the upper end of the range;
+/// registers that are not in the map read 0 if the first register of the request exists.
 class OvenController {
 public:
     explicit OvenController(OvenPlant& plant, const ControllerOptions& options = {});
 
-    /// `count` registers from `address` on, 1 ... 106; in four-byte mode both are even.
+    /// Reads `count` registers, 1 ... 106, from `address` on; in four-byte mode both are even.
     [[nodiscard]] std::variant<std::vector<std::uint16_t>, Refusal> read(std::uint16_t address,
                                                                          std::size_t count) const;
 
-    /// Up to 104 registers, all of them or none.
-    /// @return  std::nullopt when written.
+    /// Writes up to 104 registers: all of them or none.
+    /// @return  std::nullopt if they were written.
     [[nodiscard]] std::optional<Refusal> write(std::uint16_t address,
                                                std::span<const std::uint16_t> words);
 
-    /// An operation command with its parameter.
+    /// Executes an operation command with its parameter.
     [[nodiscard]] std::optional<Refusal> operate(std::uint8_t command, std::uint8_t parameter);
 
-    /// Power off and on, or a software reset: what was only in RAM is forgotten.
+    /// Restarts after power-off or a software reset: content that is only in RAM is lost.
     void restart();
 
-    /// Until its parameters are initialised, which sets the port back to another protocol.
+    /// Returns false once its parameters have been initialised, which sets another protocol.
     [[nodiscard]] bool speaks_modbus() const noexcept { return speaks_modbus_; }
 
     [[nodiscard]] std::uint32_t status() const;
 
 private:
-    /// What non-volatile memory holds; temperatures in 0.1 degC.
+    /// Content of the non-volatile memory; temperatures in 0.1 degC.
     struct Settings {
         std::int32_t set_point = 0;
         std::int32_t alarm_1 = 0, alarm_1_upper = 0, alarm_1_lower = 0;
@@ -103,7 +105,7 @@ private:
                                              Settings& next) const;
     void put_in_force(const Settings& next);
     void enter_setup_area(bool is_in_setup);
-    [[nodiscard]] std::optional<Refusal> obey(std::uint8_t command, std::uint8_t parameter);
+    [[nodiscard]] std::optional<Refusal> execute(std::uint8_t command, std::uint8_t parameter);
 
     OvenPlant& plant_;
     ControllerOptions options_;
@@ -111,7 +113,7 @@ private:
     Settings stored_;
     bool is_in_ram_mode_ = false;
     bool is_in_setup_ = false;
-    std::uint32_t held_status_ = 0;  ///< The sensor's bits at the moment setup area 1 was entered.
+    std::uint32_t held_status_ = 0;  ///< Bits of the sensor on entry into setup area 1.
     bool speaks_modbus_ = true;
 };
 

@@ -7,7 +7,7 @@
 namespace a351::sim {
 namespace {
 
-/// In the order of OvenFault.
+/// Names in the order of OvenFault.
 constexpr std::array<std::string_view, kOvenFaultCount> kAnswerFaults = {
     "oven_silence",    "oven_babble",    "oven_exception", "oven_crc_error",
     "oven_wrong_unit", "oven_truncated", "oven_delay",

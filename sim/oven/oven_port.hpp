@@ -14,9 +14,9 @@ struct OvenOptions {
     ServerOptions server;
 };
 
-/// The oven's controller on a pseudo-terminal of its own.  The terminal's speed must be the
-/// controller's, or nothing is understood; its parity is not looked at, for a pseudo-terminal
-/// carries none.
+/// The oven's controller on its own pseudo-terminal.  The baud rates of terminal and controller
+/// must agree, otherwise nothing is understood.  Parity is ignored, because a pseudo-terminal has
+/// none.
 class OvenPort final : public Service {
 public:
     /// @param plant  must outlive this.
@@ -27,16 +27,19 @@ public:
     void watch(std::vector<pollfd>& descriptors) const override;
     [[nodiscard]] Nanoseconds patience(const Instant& now, const ClockScale& clock) const override;
 
-    /// Applies a fault by name.  `oven_silence`, `oven_babble`, `oven_exception`, `oven_crc_error`,
-    /// `oven_wrong_unit`, `oven_truncated`, `oven_delay`: of the next `count` answers, of all until
-    /// further notice if -1, no longer if 0.  `oven_sensor_break`: from now on, or mended if
-    /// `count` is 0.  `oven_unplug`: the terminal hangs up and its link is gone, or comes back under
-    /// another name if `count` is 0.  `oven_power_cycle`: now, whatever the count.
-    /// @return false: there is no such fault.
-    /// @throws InputError  something else has taken the place of the link.
+    /// Applies a fault by name:
+    /// - `oven_silence`, `oven_babble`, `oven_exception`, `oven_crc_error`, `oven_wrong_unit`,
+    ///   `oven_truncated`, `oven_delay`: faults of the next `count` answers; -1: of all answers
+    ///   from now on; 0: of none any more.
+    /// - `oven_sensor_break`: breaks the sensor; `count` 0 repairs it.
+    /// - `oven_unplug`: hangs the terminal up and removes its link; `count` 0 plugs it in again
+    ///   under another name.
+    /// - `oven_power_cycle`: switches off and on now, for any count.
+    /// @return false if there is no such fault.
+    /// @throws InputError  something else is at the path of the link.
     bool apply_fault(std::string_view kind, int count);
 
-    /// Those names; first the spoilt answers, in the order of OvenFault.
+    /// Returns these names; first the faults of answers, in the order of OvenFault.
     [[nodiscard]] static std::vector<std::string_view> fault_kinds();
 
     [[nodiscard]] const OvenReport& report() const noexcept { return server_.report(); }
@@ -51,7 +54,7 @@ private:
     int baud_;
     Pty pty_;
     bool is_unplugged_ = false;
-    bool wants_power_cycle_ = false;  ///< At the next serve(), which knows the time.
+    bool wants_power_cycle_ = false;  ///< Done at the next serve(), which has the time.
     std::vector<std::byte> unsent_;
 };
 

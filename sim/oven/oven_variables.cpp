@@ -28,7 +28,7 @@ constexpr std::array kEntries = {
     VariableEntry{status_2_high, none, std::nullopt, 0x2409},
     VariableEntry{decimal_point, none, 0x0420, 0x2410},
     VariableEntry{input_filter, operation, 0x0800, 0x2800},
-    VariableEntry{set_point, operation, 0x0900, 0x2900},  // Set point 0, the only one here.
+    VariableEntry{set_point, operation, 0x0900, 0x2900},  // Set point 0, the only one emulated.
     VariableEntry{proportional_band, operation, 0x0A00, 0x2A00},
     VariableEntry{integral_time, operation, 0x0A02, 0x2A01},
     VariableEntry{derivative_time, operation, 0x0A04, 0x2A02},

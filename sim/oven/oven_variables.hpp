@@ -1,11 +1,11 @@
 #pragma once
 /// @file
-/// The variable area of the temperature controller: which address shows what, and what may be
-/// written.  Omron E5_C Communications Manual (H175-E1), section 5, the part that the E5_C-T, E5_D
-/// and 2008 E5xN models share with it.
+/// The variable area of the temperature controller: addresses, variables and write access.  Omron
+/// E5_C Communications Manual (H175-E1), section 5, the part that the E5_C-T, E5_D and 2008 E5xN
+/// models share with it.
 ///
-/// Every variable is shown twice: at an address below 2000h as two registers, high word first
-/// ("four-byte mode"), and at one from 2000h on as a single register ("two-byte mode").
+/// Every variable has two addresses: below 2000h it is two registers, high word first ("four-byte
+/// mode"); from 2000h on it is a single register ("two-byte mode").
 
 #include <cstdint>
 #include <optional>
@@ -37,8 +37,8 @@ enum class Variable {
 
 enum class WriteLevel {
     none,       ///< Read only.
-    operation,  ///< Writable while the controller controls.
-    setup       ///< Writable in setup area 1 only, with control stopped.
+    operation,  ///< Writable while control runs.
+    setup       ///< Writable only in setup area 1, in which control is stopped.
 };
 
 struct VariableEntry {
@@ -54,7 +54,8 @@ inline constexpr std::uint16_t kFirstTwoByteAddress = 0x2000;
     return address >= kFirstTwoByteAddress;
 }
 
-/// @return  null where the map shows nothing; an odd address of four-byte mode is such a place.
+/// Returns the entry of an address.
+/// @return  null if the map has no variable there; also for an odd address of four-byte mode.
 [[nodiscard]] const VariableEntry* find_variable(std::uint16_t address) noexcept;
 
 }  // namespace a351::sim

@@ -15,7 +15,7 @@ struct TemperatureErrorParameters {
     double warm_up_tau_h = 0.0;
 };
 
-/// The four addends of the temperature error.
+/// The four terms of the temperature error.
 struct TemperatureErrorTerms {
     double static_mgal = 0.0;
     double dynamic_mgal = 0.0;
@@ -23,21 +23,23 @@ struct TemperatureErrorTerms {
     double warm_up_mgal = 0.0;
 };
 
-/// What temperature does to the reading, beyond the sensor's own compensation:
+/// Effect of temperature on the reading that remains after the sensor's own compensation:
 ///
 ///     err = rA (Tb - T0) + kA (lag(Tb, tauA) - Tb) + rC (lag(Tb, tauC) - T0) + B exp(-t/tauW)
 ///
-/// lag: first order, y += (1 - exp(-dt/tau)) (x - y), started in equilibrium; t since power-on.
-/// The crystals feel a change before the thermometer that compensates them (kA), the oscillator
-/// that counts them follows later (rC).  Fitted to the statistics of the published record.
+/// lag is first order, y += (1 - exp(-dt/tau)) (x - y), and starts in equilibrium.  Tb is the
+/// temperature of the body, t the time since power-on.
+/// The crystals respond to a change before the thermometer that compensates them (kA).  The
+/// oscillator that counts them responds later (rC).  The coefficients are fitted to the statistics
+/// of the published record.
 class TemperatureError {
 public:
     TemperatureError(const TemperatureErrorParameters& parameters, DegC body, double step_s);
 
-    /// Advances one step to this body temperature.
+    /// Advances one step to this body temperature and returns the error there.
     [[nodiscard]] MilliGal next(DegC body, double since_power_on_s) noexcept;
 
-    /// Of the last step; next() returned their sum.
+    /// Returns the terms of the last step; next() returned their sum.
     [[nodiscard]] const TemperatureErrorTerms& terms() const noexcept { return terms_; }
 
 private:

@@ -43,7 +43,7 @@ double ThermalPlant::next_drive() {
     const double error = p_.set_point_degc - reading_degc_;
     if (!is_running_ || is_sensor_broken_) return 0.0;
     if (p_.controller == ControllerKind::on_off) {
-        // A set point between two steps leaves readings at which the drive stays as it is.
+        // If the set point lies between two steps, some readings leave the drive unchanged.
         const double rounding_degc = 1e-6 * p_.resolution_degc;
         if (error > p_.resolution_degc - rounding_degc) return 1.0;
         return error < rounding_degc ? 0.0 : std::round(drive_);

@@ -1,8 +1,8 @@
 #pragma once
 /// @file
-/// The oven in its cool box as two heat capacities and an integrating controller that sees the
-/// temperature in coarse steps: its limit cycle is the temperature oscillation of the published
-/// record (about 15 min, 0.02 degC; Matsuda et al., tests/golden/tsukuba/README.md).
+/// The oven in its cool box: two heat capacities and an integrating controller that reads the
+/// temperature in coarse steps.  Its limit cycle reproduces the temperature oscillation of the
+/// published record (about 15 min, 0.02 degC; Matsuda et al., tests/golden/tsukuba/README.md).
 
 #include <vector>
 
@@ -17,7 +17,7 @@ struct OvenParameters {
     double heater_body_k_per_w = 0.0;
     double heater_ambient_k_per_w = 0.0;
     double body_ambient_k_per_w = 0.0;
-    double self_heating_w = 0.0;  ///< Of the powered sensor.
+    double self_heating_w = 0.0;  ///< Heat from the powered sensor.
     double heater_power_w = 0.0;  ///< At full drive.
     double thermocouple_tau_s = 0.0;
     double dead_time_s = 0.0;
@@ -25,7 +25,7 @@ struct OvenParameters {
     double resolution_degc = 0.0;
     double proportional_per_degc = 0.0;
     double integral_per_degc_s = 0.0;
-    double run_in_h = 0.0;  ///< It has been running for so long when a record starts.
+    double run_in_h = 0.0;  ///< Running time before the start of a record.
     ControllerKind controller = ControllerKind::pi;
 };
 
@@ -36,17 +36,17 @@ struct OvenParameters {
 ///     dTc/dt    = (Th - Tc)/tau_c,   m = Tc(t - t_dead) rounded to the resolution
 ///     e = set point - m,   I <- clip(I + Ki e dt, 0, 1),   q = Pmax clip(I + Kp e, 0, 1)
 ///
-/// On/off instead of PI: full drive from e = one step of the resolution on, none from e = 0 on.
-/// Stopped or without its sensor the controller gives q = 0 and keeps I.
+/// On/off control: full drive at e >= one step of the resolution, no drive at e <= 0, otherwise
+/// as before.  If it is stopped or its sensor is broken, the controller gives q = 0 and keeps I.
 class ThermalPlant final : public OvenPlant {
 public:
     static constexpr double kStepSeconds = 1.0;
 
-    /// Starts in equilibrium with `ambient`, but for the heater, which is one step of the controller
-    /// too warm: exactly in equilibrium the controller would see no error and never begin to cycle.
+    /// Starts in equilibrium with `ambient`, except that the heater is warmer by one step of the
+    /// resolution: in exact equilibrium the controller would see no error and never begin to cycle.
     ThermalPlant(const OvenParameters& parameters, DegC ambient);
 
-    /// Advances by one step at this temperature of the air around the oven.
+    /// Advances by one step; `ambient` is the air around the oven.
     void step(DegC ambient);
 
     [[nodiscard]] DegC body() const noexcept { return DegC(body_degc_); }
@@ -75,7 +75,7 @@ private:
     double integral_;
     double reading_degc_;
     double drive_;
-    std::vector<double> delay_line_degc_;  ///< Thermocouple, one value per step of dead time.
+    std::vector<double> delay_line_degc_;  ///< Thermocouple: one value per step of dead time.
     std::size_t oldest_ = 0;
     bool is_running_ = true;
     bool is_sensor_broken_ = false;

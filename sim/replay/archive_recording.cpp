@@ -3,8 +3,8 @@
 namespace a351::sim {
 namespace {
 
-/// Longer than any transient: twice the longest long-term filter (M-A352AD10 data sheet, 7.19) and
-/// the 127 samples of table 5.4.
+/// Samples, more than any transient has: twice the longest long-term filter (M-A352AD10 data sheet,
+/// 7.19) and the 127 samples of table 5.4.
 constexpr int kMostSuppressed = 2 * 4096 + 127;
 
 }  // namespace

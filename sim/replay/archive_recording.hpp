@@ -9,13 +9,14 @@
 
 namespace a351::sim {
 
-/// An archive as a recording: samples encoded anew, in the layout that the host configures.  A
-/// session is a run of sampling, as the flags of the records tell.  COUNT begins with one step at each start of sampling and jumps where samples are
-/// missing; FLAG is the unit's.  The samples that the unit suppresses while its filter fills are not
-/// in an archive, so none is lost to it.
+/// An archive as a recording: its samples are encoded again in the layout that the host configures.
+/// A session is a run of sampling, as marked by the flags of the records.  COUNT begins with one
+/// step at each start of sampling and jumps over missing samples.  FLAG comes from the emulated
+/// unit.  An archive does not hold the samples that a unit suppresses while its filter fills, so no
+/// archived sample is suppressed.
 class ArchiveRecording final : public Recording {
 public:
-    /// @param unit  an archive does not tell what it was recorded with.
+    /// @param unit  the unit to emulate, which an archive does not name.
     ArchiveRecording(std::unique_ptr<ArchiveSource> source, RecordedUnit unit);
 
     [[nodiscard]] const RecordedUnit& unit() const override { return unit_; }
@@ -32,8 +33,8 @@ private:
     std::unique_ptr<ArchiveSource> source_;
     RecordedUnit unit_;
     bool is_session_over_ = false;
-    int run_ = 0;                  ///< Of the machine, in which the last piece was sent.
-    std::int64_t next_index_ = 0;  ///< Behind that piece.
+    int run_ = 0;  ///< Sampling run of the machine in which the last piece was sent.
+    std::int64_t next_index_ = 0;  ///< Index after that piece.
     std::vector<std::byte> bytes_;
 };
 

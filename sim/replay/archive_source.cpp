@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kTemperatureField = 3;
 
-/// The record at the front of a file.
+/// Returns the header of the first record of a file.
 record::RecordHeader first_header(const fs::path& file) {
     std::array<std::byte, record::kRecordSize> bytes{};
     std::ifstream in(file, std::ios::binary);
@@ -23,13 +23,13 @@ record::RecordHeader first_header(const fs::path& file) {
     auto decoded = in ? record::decode_record(bytes) : std::nullopt;
     if (!decoded) {
         throw InputError(file.string() +
-                         ": begins with no record of the archive; allowed: journal segments, or "
+                         ": begins with no record of an archive; allowed: journal segments, or "
                          "miniSEED files of a data root");
     }
     return std::move(decoded->header);
 }
 
-/// x, y, z, temperature; std::nullopt for what is no channel of samples.
+/// Returns the field of a channel: x, y, z, temperature; std::nullopt for other channels.
 std::optional<std::size_t> field_of(const fs::path& file, const std::string& channel,
                                     const std::array<std::string, 3>& axes) {
     if (channel.ends_with("K1") && channel.front() != 'L') return kTemperatureField;
@@ -61,7 +61,7 @@ public:
 
     void add(File file) { files_.push_back(std::move(file)); }
 
-    /// Once all files are known.
+    /// Starts reading; call it once all files have been added.
     void begin() {
         std::ranges::stable_sort(files_, {}, &File::start);
         load();
@@ -80,27 +80,27 @@ public:
     }
 
 private:
-    /// The next good record; none after the last.  Stray bytes may have shifted what follows, so
-    /// every offset is tried.
+    /// Loads the next good record; none after the last.  Stray bytes may have shifted the records
+    /// after them, so every offset is tried.
     void load() {
         sample_ = 0;
-        std::uint64_t passed_over = 0;
+        std::uint64_t bytes_skipped = 0;
         while (true) {
             while (offset_ < bytes_.size()) {
                 const auto rest = std::span<const std::byte>(bytes_).subspan(offset_);
                 auto record =
                     record::decode_record(rest.first(std::min(rest.size(), record::kRecordSize)));
                 if (record && record->header.channel == name_) {
-                    report(passed_over);
+                    report(bytes_skipped);
                     offset_ += record::kRecordSize;
                     record_ = std::move(*record);
                     return;
                 }
                 ++offset_;
-                ++passed_over;
+                ++bytes_skipped;
             }
-            report(passed_over);
-            passed_over = 0;
+            report(bytes_skipped);
+            bytes_skipped = 0;
             if (file_ == files_.size()) break;
             path_ = files_[file_++].path;
             bytes_ = record::read_bytes(path_);
@@ -117,7 +117,7 @@ private:
     std::string name_;
     std::vector<RecordingDamage>& damage_;
     std::vector<File> files_;
-    std::size_t file_ = 0;  ///< The next one.
+    std::size_t file_ = 0;  ///< Index of the next file.
     fs::path path_;
     std::vector<std::byte> bytes_;
     std::size_t offset_ = 0;

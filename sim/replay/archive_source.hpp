@@ -1,7 +1,7 @@
 #pragma once
 /// @file
 /// miniSEED files of a data root's archive as a source of samples.
-/// protocol/archive/archive-format.md.
+/// Format: protocol/archive/archive-format.md.
 
 #include <array>
 #include <filesystem>
@@ -15,20 +15,20 @@
 
 namespace a351::sim {
 
-/// Samples of three axes and temperature, joined by time: those within half a sample of each other
-/// are one.  An instant that some channel lacks is left out.  The index goes on by one where a
-/// record follows within half a sample of the end of the one before, and otherwise by the gap in
-/// whole samples: COUNT then tells of it.  Times are those that the records give.
+/// Samples of three axes and temperature, joined by time: values within half a sampling period of
+/// each other are one sample.  An instant that some channel lacks is left out.  The index advances
+/// by the time since the sample before, in whole periods and at least by one, so that COUNT shows
+/// gaps.  Times are those of the records.
 ///
 /// Holds one day file of each channel in memory.
 class ArchiveSource final : public SampleSource {
 public:
     static constexpr std::array<const char*, 4> kFields{"x", "y", "z", "temperature"};
 
-    /// @param files  records of kRecordSize; those of channels at other rates are passed over.
+    /// @param files  records of kRecordSize; files of other channels are ignored.
     /// @param axes   last letter of the channels of x, y, z.
-    /// @throws InputError  a file holds no record of the archive; two stations; two rates; an axis
-    ///         that `axes` does not name; no axis at all.
+    /// @throws InputError  a file does not begin with a record of an archive; two stations; two
+    ///         rates; an axis that `axes` does not name; no axis at all.
     ArchiveSource(const std::vector<std::filesystem::path>& files,
                   const std::array<std::string, 3>& axes);
     ~ArchiveSource() override;
@@ -37,13 +37,14 @@ public:
     [[nodiscard]] std::optional<UtcTime> next_instant() const override;
     [[nodiscard]] TimedSample next() override;
 
-    /// Whether the sample that next() would give is the first of a run of sampling, as its record says.
+    /// Returns true if the sample that next() would return is the first of a run of sampling, as
+    /// marked in its record.
     [[nodiscard]] bool begins_run() const noexcept { return begins_run_; }
 
-    /// Whether x, y, z, temperature was archived; a field that was not reads 0.
+    /// Returns true if field x, y, z or temperature (0 ... 3) was archived; otherwise it reads 0.
     [[nodiscard]] bool has_field(std::size_t field) const { return channels_.at(field) != nullptr; }
 
-    /// Instants left out because a channel lacked them.
+    /// Returns the number of instants left out because a channel lacked them.
     [[nodiscard]] std::int64_t incomplete() const noexcept { return incomplete_; }
 
     [[nodiscard]] const std::vector<RecordingDamage>& damage() const noexcept { return damage_; }
@@ -57,7 +58,7 @@ private:
     int rate_hz_ = 0;
     std::vector<RecordingDamage> damage_;
     std::optional<TimedSample> next_;
-    bool begins_run_ = false;  ///< next_ does.
+    bool begins_run_ = false;  ///< next_ is the first sample of a run.
     std::int64_t incomplete_ = 0;
 };
 

@@ -23,7 +23,7 @@ std::string settings_text(int rate_hz, std::string_view filter, std::uint16_t bu
            hex(burst_ctrl);
 }
 
-/// Characters that were not readable may have changed the length.
+/// Returns the text with the length of an identifier, which unreadable characters may have changed.
 std::string identifier(std::string text) {
     text.resize(kIdentifierSize, ' ');
     return text;
@@ -55,11 +55,12 @@ void require_known_settings(const std::filesystem::path& file, const JournalHead
         throw InputError(file.string() + ": " +
                          settings_text(header.output_rate_hz, header.filter, header.burst_ctrl) +
                          ", " + std::to_string(header.baud) + " baud: settings that profile " +
-                         header.profile + " has not; allowed: those of its data sheet");
+                         header.profile + " does not have; allowed: those of its data sheet");
     }
 }
 
-/// Raw time begins anew with each boot, and within one it only rises.
+/// Returns true if both were recorded in the same boot.  Raw time restarts with each boot and only
+/// rises within it.
 bool is_same_boot(const JournalHeader& before, const JournalHeader& after) {
     return before.boot_id == after.boot_id && before.clock.raw <= after.clock.raw;
 }
@@ -99,7 +100,7 @@ void JournalRecording::open(std::size_t segment) {
     unit_.identity.firmware = header().firmware;
 }
 
-/// The next chunk with received bytes of the session, if there is one.
+/// Loads the session's next chunk with received bytes; returns false if there is none.
 bool JournalRecording::load_chunk() {
     while (true) {
         while (auto chunk = reader_->next()) {

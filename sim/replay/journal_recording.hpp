@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// Journal segments as a recording: the received bytes as they came, damage included.
-/// protocol/journal/journal-format.md.
+/// Journal segments as a recording: the received bytes as they came, including damage.
+/// Format: protocol/journal/journal-format.md.
 
 #include <cstdint>
 #include <filesystem>
@@ -14,18 +14,18 @@
 
 namespace a351::sim {
 
-/// A piece is what one read() gave.  Pieces fall due at the host's raw time of their reads, laid on
-/// UTC by the first clock reading of each boot of the recording host: steps of its clock in between
-/// are not replayed.  Answers of the recorded handshake are no part of a journal.  Segments of one
-/// session follow each other without a break; where the boot is another, or raw time runs back, it
-/// is another session even under the same identifier.  Sessions without a byte are passed over.  A damaged
-/// tail is left out and told of by damage().
+/// A piece is the result of one read().  It is due at the host's raw time of its read, converted to
+/// UTC by the first clock reading of each boot of the recording host.  Later steps of that host's
+/// clock are not replayed.  A journal does not contain the answers of the recorded handshake.
+/// Segments of one session follow each other without a break.  If the boot differs or raw time runs
+/// back, it is another session even under the same identifier.  Sessions without a byte are
+/// skipped.  A damaged tail is left out and reported by damage().
 class JournalRecording final : public Recording {
 public:
-    /// @param segments  in the order to replay; their headers are read at once, the rest bit by bit.
-    /// @param damage    met before: what was passed over.
-    /// @throws InputError  a file is no journal segment, its header names an unknown profile or
-    ///         settings that the profile lacks, or no byte was received in all of them.
+    /// @param segments  in the order of replay; headers are read now, the rest while replaying.
+    /// @param damage    damage found before, such as skipped segments.
+    /// @throws InputError  a file is not a journal segment, its header names an unknown profile or
+    ///         settings that the profile does not have, or no segment has a received byte.
     explicit JournalRecording(std::vector<std::filesystem::path> segments,
                               std::vector<RecordingDamage> damage = {});
 
@@ -49,13 +49,13 @@ private:
     void load_piece();
 
     std::vector<Segment> segments_;
-    std::size_t at_ = 0;  ///< Segment being read.
+    std::size_t at_ = 0;  ///< Index of the segment being read.
     RecordedUnit unit_;
     std::optional<record::JournalReader> reader_;
     record::Repetitions repetitions_;
     record::RxChunk chunk_;
-    std::size_t read_ = 0;  ///< Of chunk_, the next one.
-    UtcTime due_;           ///< Of that read.
+    std::size_t read_ = 0;  ///< Index of the next read of chunk_.
+    UtcTime due_;           ///< Due time of that read.
     bool has_piece_ = false;
     std::vector<RecordingDamage> damage_;
 };

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kAllowed = "; allowed: journal segments, or miniSEED files of a data root";
 
-/// Day files end in year and day of the year: ".2026.060".
+/// Returns true for the name of a day file, which ends in year and day of the year: ".2026.060".
 bool is_day_file(const fs::path& file) {
     constexpr std::string_view kShape = ".####.###";
     const std::string name = file.filename().string();
@@ -29,17 +29,17 @@ bool is_day_file(const fs::path& file) {
 
 struct Expanded {
     std::vector<fs::path> files;
-    std::vector<RecordingDamage> damage;  ///< Segments passed over.
+    std::vector<RecordingDamage> damage;  ///< Segments skipped.
 };
 
-/// Why nothing in the segment can be read; std::nullopt where its header is good.
+/// Returns the reason why nothing in the segment can be read; std::nullopt if its header is good.
 std::optional<record::JournalDamage> headless(const fs::path& segment) {
     record::JournalReader reader(segment);
     return reader.next() ? std::nullopt : reader.damage();
 }
 
-/// A writer that died while it began a segment leaves one without a header; the daemon puts such a
-/// one aside when it starts again, and so is it here.
+/// Adds the segments of a directory.  A segment without a whole header, left by a writer that was
+/// killed as it began the segment, is skipped, as the daemon does at its next start.
 void add_segments(const fs::path& directory, const std::vector<fs::path>& segments,
                   Expanded& expanded) {
     const std::size_t before = expanded.files.size();
@@ -94,7 +94,7 @@ bool is_journal(const fs::path& file) {
     return std::string_view(magic.data(), magic.size()) == record::kJournalMagic;
 }
 
-/// By their numbers, where neighbours lie in the same directory and both have one.
+/// Sorts the segments by their numbers, within neighbours of the same directory that have numbers.
 void order_segments(std::vector<fs::path>& files) {
     for (auto begin = files.begin(); begin != files.end();) {
         const auto end = std::find_if(begin, files.end(), [&](const fs::path& file) {
@@ -117,7 +117,8 @@ std::unique_ptr<Recording> open_recording(const RecordingFiles& input) {
             std::make_unique<ArchiveSource>(files, input.axes), input.archive_unit);
     }
     if (first_archive != files.end()) {
-        throw InputError(first_archive->string() + ": no journal segment, beside one" + kAllowed +
+        throw InputError(first_archive->string() +
+                         ": not a journal segment, but given together with one" + kAllowed +
                          ", not both");
     }
     order_segments(files);

@@ -18,7 +18,7 @@ struct RecordedUnit {
     int baud = 460800;
 };
 
-/// What could not be replayed.
+/// Bytes of a file that could not be replayed.
 struct RecordingDamage {
     std::filesystem::path file;
     std::uint64_t offset = 0;
@@ -26,34 +26,35 @@ struct RecordingDamage {
     std::string reason;
 };
 
-/// Something recorded earlier, piece by piece, in sessions: runs of sampling.  It stands in its
-/// first session from the beginning.
+/// A recording: sessions, each one run of sampling, made of pieces.  The first session is the
+/// current one at the beginning.
 class Recording {
 public:
     virtual ~Recording() = default;
 
-    /// Of the session it stands in.
+    /// Returns the unit of the current session.
     [[nodiscard]] virtual const RecordedUnit& unit() const = 0;
 
-    /// By the recording's own clock, when the next piece left the device; std::nullopt at the end
-    /// of the session.  Never before that of the piece before.
+    /// Returns when the next piece left the device, by the recording's own clock; std::nullopt at
+    /// the end of the session.  The times of successive pieces never decrease.
     [[nodiscard]] virtual std::optional<UtcTime> next_due(const RegisterMachine& machine) const = 0;
 
     /// Hands over the next piece.  Precondition: next_due() has a value.
-    /// @param machine  samples.
-    /// @param leaves   when the last byte leaves, on simulated time.
+    /// @param machine  the emulated unit, in sampling mode.
+    /// @param leaves   when the last byte leaves, in simulated time.
     virtual void send_next(RegisterMachine& machine, UtcTime leaves, LineSink& line) = 0;
 
-    /// Goes on to the next session.  @return false when there is none.
+    /// Moves to the next session.  @return false if there is none.
     virtual bool begin_next_session() = 0;
 
-    /// In words, how the settings of `machine` differ from what was recorded; empty if they fit.
+    /// Returns, in words, how the settings of `machine` differ from the recorded ones; empty if
+    /// they fit.
     [[nodiscard]] virtual std::string objection(const RegisterMachine& machine) const = 0;
 
-    /// Met so far.
+    /// Returns the damage found so far.
     [[nodiscard]] virtual const std::vector<RecordingDamage>& damage() const = 0;
 
-    /// Samples so far of which a channel is missing, left out for that.
+    /// Returns the number of samples so far that were left out because a channel lacks them.
     [[nodiscard]] virtual std::int64_t incomplete_samples() const { return 0; }
 };
 

@@ -6,7 +6,7 @@
 namespace a351::sim {
 namespace {
 
-/// While the host is waited for nothing falls due; its commands wake the port.
+/// Wait while the host does not sample: nothing is due, and the host's commands wake the port.
 constexpr Nanoseconds kIdle = std::chrono::hours(1);
 
 bool is_same(const RecordedUnit& a, const RecordedUnit& b) {
@@ -16,7 +16,7 @@ bool is_same(const RecordedUnit& a, const RecordedUnit& b) {
            a.identity.firmware == b.identity.firmware;
 }
 
-/// Everything from the factory but the baud rate.
+/// Returns the factory state with the recorded baud rate.
 FlashMemory flash_of(const RecordedUnit& unit) {
     FlashMemory flash;
     std::size_t i = 0;
@@ -37,12 +37,12 @@ FlashMemory flash_of(const RecordedUnit& unit) {
 ReplayDevice::ReplayDevice(std::unique_ptr<Recording> recording, ReplayTiming timing,
                            Nanoseconds now)
     : recording_(std::move(recording)), timing_(timing) {
-    put_in_place(now);
+    install_unit(now);
     first_due_ = *recording_->next_due(*machine_);
 }
 
-/// The unit has been on for long.
-void ReplayDevice::put_in_place(Nanoseconds now) {
+/// Replaces the machine by the recorded unit, long enough after power-on to be ready.
+void ReplayDevice::install_unit(Nanoseconds now) {
     const RecordedUnit& unit = recording_->unit();
     machine_ = std::make_unique<RegisterMachine>(
         *unit.profile, unit.identity, now - RegisterMachine::kPowerOnTime, flash_of(unit));
@@ -89,7 +89,7 @@ void ReplayDevice::end_session(Nanoseconds now) {
     has_begun_ = false;
     const RecordedUnit before = recording_->unit();
     is_over_ = !recording_->begin_next_session();
-    if (!is_over_ && !is_same(before, recording_->unit())) put_in_place(now);
+    if (!is_over_ && !is_same(before, recording_->unit())) install_unit(now);
 }
 
 std::optional<UtcTime> ReplayDevice::next_due() const {

@@ -10,7 +10,7 @@ struct EmbeddedScenario {
     std::string_view toml;
 };
 
-/// The files of config/scenarios, written into the program by CMake.
+/// Returns the files of config/scenarios, which CMake compiles into the program.
 [[nodiscard]] std::span<const EmbeddedScenario> embedded_scenarios() noexcept;
 
 }  // namespace a351::sim

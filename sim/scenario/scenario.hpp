@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Everything a simulated day is made of, read from TOML: config/scenarios/*.toml, whose comments
+/// All parameters of a simulated day, read from TOML (config/scenarios/*.toml).  The comments there
 /// say which values are published, fitted or assumed.  Named scenarios are compiled in.
 
 #include <filesystem>
@@ -17,10 +17,10 @@
 
 namespace a351::sim {
 
-/// Angles by which the box is off the vertical.
+/// Angles between the box and the vertical.
 struct Levelling {
-    double about_y_deg = 0.0;  ///< Turned first; positive: the x axis sees part of gravity.
-    double about_x_deg = 0.0;  ///< Then this; positive: the y axis sees part of it, negatively.
+    double about_y_deg = 0.0;  ///< First turn; positive: the x axis senses part of gravity.
+    double about_x_deg = 0.0;  ///< Second turn; positive: the y axis senses part of it, negatively.
 };
 
 /// One stay at a site as listed, before its start and length are drawn.
@@ -28,10 +28,10 @@ struct ListedOccupation {
     std::string site;
     int number = 1;  ///< Counts the stays at this site.
     UtcTime centre;
-    std::optional<double> length_s;      ///< Instead of the schedule's.
+    std::optional<double> length_s;      ///< Overrides the schedule's length.
     std::optional<double> ambient_degc;  ///< Air inside the cool box at that time.
     bool is_outlier = false;             ///< Left out by the publication.
-    std::vector<Levelling> levelling;    ///< One per set-up; empty: drawn, and as many as usual.
+    std::vector<Levelling> levelling;    ///< One per set-up; empty: drawn for the usual number.
 };
 
 /// A record at one point, without occupations.
@@ -41,21 +41,21 @@ struct FixedRecord {
 };
 
 struct ScheduleParameters {
-    double lead_in_h = 0.0;     ///< Record before the first occupation's centre.
-    double lead_out_min = 0.0;  ///< ... and after the last one's.
+    double lead_in_h = 0.0;     ///< From the start of the record to the first occupation's centre.
+    double lead_out_min = 0.0;  ///< From the last occupation's centre to the end of the record.
     double length_s = 0.0;
-    double jitter_s = 0.0;  ///< Centre and length are uniform within +- this.
+    double jitter_s = 0.0;  ///< Centre and length vary uniformly within +- this.
     double shortest_s = 0.0;
-    double shortest_drive_s = 0.0;     ///< From the end of one stay to the start of the next.
-    int set_ups = 1;                   ///< Parts of equal length; between them the box is lifted.
-    double ambient_before_degc = 0.0;  ///< At the start of the record.
-    double ambient_after_degc = 0.0;   ///< At its end.
+    double shortest_drive_s = 0.0;  ///< From the end of one stay to the start of the next.
+    int set_ups = 1;  ///< Per occupation, of equal length; the box is lifted in between.
+    double ambient_before_degc = 0.0;  ///< Air inside the cool box at the start of the record.
+    double ambient_after_degc = 0.0;   ///< Air inside the cool box at the end of the record.
 };
 
-/// Air inside the cool box at an instant, or so many hours after the start of the record.
+/// Air inside the cool box at an instant, given as UTC or in hours after the start of the record.
 struct ListedAmbient {
     std::optional<double> hours;
-    UtcTime utc;  ///< Unless `hours`.
+    UtcTime utc;  ///< Used without `hours`.
     double degc = 0.0;
 };
 
@@ -64,9 +64,9 @@ struct AmbientKnot {
     double degc = 0.0;
 };
 
-/// The lid stands open during a stay, or between two instants.
+/// Time during which the lid is open: a stay, or from one instant to another.
 struct ListedOpenLid {
-    std::string site;  ///< Empty: from ... to.
+    std::string site;  ///< Empty: `from` and `to` count.
     int number = 1;
     UtcTime from, to;
     double outside_degc = 0.0;
@@ -74,18 +74,18 @@ struct ListedOpenLid {
 
 struct CoolBoxParameters {
     double walk_degc_per_sqrt_h = 0.0;  ///< Random walk of the air inside.
-    double open_tau_s = 0.0;    ///< With which the air inside follows the outside, lid open ...
-    double closed_tau_s = 0.0;  ///< ... and returns to its own course, lid closed.
+    double open_tau_s = 0.0;    ///< Time constant, lid open: the air inside follows the outside.
+    double closed_tau_s = 0.0;  ///< Time constant, lid closed: it returns to its own course.
 };
 
 struct SensorParameters {
     double bias_mgal = 0.0;                 ///< Along the vertical.
-    double horizontal_bias_max_mgal = 0.0;  ///< x and y, uniform within +- this, fixed for a unit.
-    double levelling_sigma_deg = 0.0;       ///< Two angles, drawn anew at each set-up.
+    double horizontal_bias_max_mgal = 0.0;  ///< x and y, drawn uniformly within +- this for a unit.
+    double levelling_sigma_deg = 0.0;       ///< Two angles, drawn for each set-up.
     double white_mgal = 0.0;                ///< Rms per axis and sample.
     double temperature_white_degc = 0.0;    ///< Rms per sample.
     double power_on_before_start_h = 0.0;   ///< At least OvenParameters::run_in_h.
-    double temperature_warm_up_degc = 0.0;  ///< Of the reported temperature, decaying ...
+    double temperature_warm_up_degc = 0.0;  ///< Excess of the reported temperature; it decays.
     double temperature_warm_up_tau_h = 0.0;
 };
 
@@ -94,7 +94,7 @@ struct ClockParameters {
     double error_ppm = 0.0;
     double wander_ppm_per_sqrt_h = 0.0;     ///< Random walk.
     double temperature_ppm_per_degc = 0.0;  ///< Per degC above the temperature error's reference.
-    double declared_rate_hz = 0.0;          ///< What `survey` writes into its records; 0: none.
+    double declared_rate_hz = 0.0;          ///< Written by `survey` into its records; 0: none.
 };
 
 struct SlowNoiseParameters {
@@ -113,7 +113,7 @@ struct SlowNoiseParameters {
     double ripple_mgal = 0.0;  ///< Amplitude on the vertical.
     double ripple_period_s = 0.0;
     double ripple_wander = 0.0;    ///< Rms of the period, relative.
-    double ripple_wander_s = 0.0;  ///< Time over which it wanders.
+    double ripple_wander_s = 0.0;  ///< Time constant of the wander.
 };
 
 struct Range {
@@ -121,7 +121,7 @@ struct Range {
 };
 
 struct TideParameters {
-    double gravimetric_factor = 0.0;  ///< 1: the rigid Earth.
+    double gravimetric_factor = 0.0;  ///< 1 for the rigid Earth.
 };
 
 struct VibrationParameters {
@@ -133,36 +133,36 @@ struct VibrationParameters {
     Range handling_s, handling_hz, handling_gal;
     double knock_probability = 0.0;  ///< Per occupation.
     Range knock_s, knock_hz, knock_gal;
-    Range knock_position;            ///< Start, as share of the set-up.
-    Range axis_share;                ///< Of a burst's strength, drawn for each axis.
+    Range knock_position;            ///< Start as a share of the set-up.
+    Range axis_share;                ///< Share of a burst's strength, drawn for each axis.
     double spike_probability = 0.0;  ///< Per sample.
     Range spike_gal;
 };
 
-/// What the adapter and the host's driver do to the bytes on their way; zero: nothing, at once.
+/// Delays by the adapter and by the host's driver.  With zeros, bytes arrive at once.
 struct LineParameters {
     double latency_timer_ms = 0.0;   ///< The adapter hands bytes over on this grid.
-    double latency_timer_ppm = 0.0;  ///< How much faster than simulated time its grid runs.
-    double usb_poll_ms = 0.0;        ///< The host asks the adapter on this grid.
+    double latency_timer_ppm = 0.0;  ///< Rate error of this grid by simulated time; positive: fast.
+    double usb_poll_ms = 0.0;        ///< The host polls the adapter on this grid.
     double jitter_ms = 0.0;          ///< Further delay, uniform between 0 and this.
     double stall_per_h = 0.0;        ///< Mean number of stalls, at random instants.
-    Range stall_s;                   ///< Length of one.
-    bool is_bytewise = false;        ///< Every byte is handed over by itself.
-    bool is_paced = false;           ///< Bytes take their time on the wire, by the baud rate.
+    Range stall_s;                   ///< Length of a stall.
+    bool is_bytewise = false;        ///< Every byte is handed over separately.
+    bool is_paced = false;           ///< Bytes are delayed by their time on the wire (baud rate).
 };
 
 struct Scenario {
     std::string name;
     std::vector<text::Site> sites;
-    std::vector<ListedOccupation> occupations;  ///< In time order; none in a fixed record.
+    std::vector<ListedOccupation> occupations;  ///< In time order; empty for a fixed record.
     std::optional<FixedRecord> fixed_record;
-    std::vector<ListedAmbient> ambient;  ///< Instead of the occupations' values.
+    std::vector<ListedAmbient> ambient;  ///< Overrides the occupations' values.
     std::vector<ListedOpenLid> open_lids;
     ScheduleParameters schedule;
     CoolBoxParameters cool_box;
     OvenParameters oven;
     TemperatureErrorParameters error;
-    double unit_scatter = 0.0;  ///< `error` is drawn for each unit within +- this share.
+    double unit_scatter = 0.0;  ///< `error` is drawn per unit within +- this share.
     SensorParameters sensor;
     ClockParameters clock;
     TideParameters tide;
@@ -170,24 +170,24 @@ struct Scenario {
     VibrationParameters vibration;
     LineParameters line;
 
-    /// The record's limits; the sample grid starts at start().
+    /// Return the limits of the record; the sample grid starts at start().
     [[nodiscard]] UtcTime start() const;
     [[nodiscard]] UtcTime end() const;
 
-    /// Course of the air inside the cool box, in time order: ambient_at() reads it.
+    /// Returns the course of the air inside the cool box in time order, for ambient_at().
     [[nodiscard]] std::vector<AmbientKnot> ambient_knots() const;
 };
 
-/// Linear between the knots, constant outside.
+/// Interpolates linearly between the knots; constant before the first and after the last.
 [[nodiscard]] DegC ambient_at(const std::vector<AmbientKnot>& knots, UtcTime time);
 
-/// A compiled-in scenario by name, or a TOML file.
-/// @throws InputError  neither; or the file is not a scenario.  A key that is missing without
-///                     `base` is refused, as is an unknown one; only [clock], [line] and their
-///                     keys may always be missing: nothing then happens.
+/// Returns a compiled-in scenario by name, or reads a TOML file.
+/// @throws InputError  neither exists, or the file is not a scenario: it has an unknown key or,
+///                     without `base`, lacks a key.  Only [clock], [line] and their keys may always
+///                     be missing; they default to no effect.
 [[nodiscard]] Scenario load_scenario(const std::string& name_or_file);
 
-/// As load_scenario, from text.  `origin` stands for the file name in messages.
+/// Reads a scenario from text, as load_scenario() does.  Messages use `origin` as the file name.
 [[nodiscard]] Scenario parse_scenario(std::string_view toml, const std::filesystem::path& origin);
 
 [[nodiscard]] std::vector<std::string_view> scenario_names();

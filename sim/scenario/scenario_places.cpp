@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kColdestDegC = -40.0, kWarmestDegC = 80.0;
 
-/// A set-up is at least as long as the shortest occupation may be.
+/// Shortest set-up, s: the least that the keys length_s and shortest_s allow for an occupation.
 constexpr double kShortestSetUpSeconds = 60.0;
 
 text::Site read_site(text::TomlTable& table) {
@@ -24,7 +24,7 @@ text::Site read_site(text::TomlTable& table) {
     return site;
 }
 
-/// The oven only heats: air as warm as its set point could not be held.
+/// Refuses air that is not colder than the set point: the oven can only heat.
 void require_below_set_point(const text::TomlTable& table, std::string_view key, double degc,
                              const Scenario& scenario) {
     if (degc < scenario.oven.set_point_degc) return;
@@ -74,7 +74,7 @@ ListedOccupation read_occupation(text::TomlTable& table, const Scenario& scenari
     table.require_all_read();
     for (const ListedOccupation& other : scenario.occupations) {
         if (other.site == occupation.site && other.number == occupation.number) {
-            table.refuse("number", "stands twice for this site", "each number once");
+            table.refuse("number", "given twice for this site", "each number once");
         }
     }
     return occupation;
@@ -85,7 +85,7 @@ void read_sites(text::TomlTable& document, Scenario& scenario) {
     for (text::TomlTable& table : document.tables("site")) {
         const text::Site site = read_site(table);
         if (text::find_site(scenario.sites, site.name) != nullptr) {
-            table.refuse("name", "stands twice", "each site once");
+            table.refuse("name", "given twice", "each site once");
         }
         scenario.sites.push_back(site);
     }
@@ -97,7 +97,8 @@ void read_sites(text::TomlTable& document, Scenario& scenario) {
 void read_occupations(text::TomlTable& document, Scenario& scenario) {
     if (document.has("occupation")) {
         if (scenario.fixed_record) {
-            document.refuse("occupation", "beside schedule.start_utc", "one of the two");
+            document.refuse("occupation", "given together with schedule.start_utc",
+                            "only one of the two");
         }
         scenario.occupations.clear();
         scenario.ambient.clear();
@@ -113,8 +114,8 @@ void read_occupations(text::TomlTable& document, Scenario& scenario) {
     }
     for (const ListedOccupation& one : scenario.occupations) {
         if (text::find_site(scenario.sites, one.site) == nullptr) {
-            document.refuse("site", "without " + one.site + " of the base's occupations",
-                            "every site in use, or other [[occupation]]s");
+            document.refuse("site", "lacks " + one.site + ", which the base's occupations use",
+                            "every site in use, or a new [[occupation]] list");
         }
     }
     if (!scenario.fixed_record && scenario.occupations.empty()) {
@@ -178,7 +179,8 @@ void read_open_lids(text::TomlTable& document, Scenario& scenario) {
     }
 }
 
-/// What is a base's, or the schedule's.
+/// Refuses a set point that is not above the warmest air, which may come from a base or from the
+/// schedule.
 void require_warm_oven(text::TomlTable& document, const Scenario& scenario) {
     double warmest_degc = kColdestDegC;
     for (const AmbientKnot& knot : scenario.ambient_knots()) {
@@ -193,7 +195,7 @@ void require_warm_oven(text::TomlTable& document, const Scenario& scenario) {
     document.table("oven").refuse("set_point_degc", "the oven only heats", allowed);
 }
 
-/// The shortest that draw_intervals() can draw.
+/// Returns the shortest length that draw_intervals() can draw.
 double shortest_length_s(const ListedOccupation& one, const ScheduleParameters& p) {
     const double listed_s = one.length_s.value_or(p.length_s);
     return std::max(std::min(p.shortest_s, listed_s), listed_s - p.jitter_s);
@@ -208,7 +210,7 @@ void require_room_for_set_ups(text::TomlTable& document, const Scenario& scenari
         if (shortest_length_s(one, p) >= kShortestSetUpSeconds * static_cast<double>(parts)) {
             continue;
         }
-        std::string trouble = "leaves less than 60 s to a set-up of ";
+        std::string trouble = "leaves less than 60 s for a set-up of ";
         trouble += one.site;
         trouble += " (" + std::to_string(one.number) + ")";
         if (is_listed && document.has("occupation")) {
@@ -221,7 +223,7 @@ void require_room_for_set_ups(text::TomlTable& document, const Scenario& scenari
     }
 }
 
-/// What no single key can say.
+/// Checks that several keys together fit.
 void require_fit(text::TomlTable& document, const Scenario& scenario) {
     if (scenario.fixed_record) return;
     const ScheduleParameters& p = scenario.schedule;
@@ -248,7 +250,7 @@ std::string required_name(text::TomlTable& table) {
         return c == '"' || c == ',' || c == '\\' || code < 0x20 || code == 0x7F;
     });
     if (has_forbidden) {
-        table.refuse("name", "cannot stand in a table",
+        table.refuse("name", "cannot be written into a table",
                      "a name without quotes, commas, backslashes and control characters");
     }
     return name;

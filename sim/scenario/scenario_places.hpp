@@ -7,17 +7,18 @@
 
 namespace a351::sim {
 
-/// Reads [[site]], [[occupation]], [[ambient]] and [[lid_open]].  Each list that is there replaces
-/// that of the base as a whole; [[occupation]] does away with the base's other lists but the sites.
-/// Precondition: the schedule of `scenario` is read.
-/// @throws InputError  what is missing, unknown, out of order or does not fit into the record.
+/// Reads [[site]], [[occupation]], [[ambient]] and [[lid_open]].  Each list in the file replaces
+/// the whole list of the base; [[occupation]] also removes the base's [[ambient]] and [[lid_open]].
+/// Precondition: the schedule of `scenario` has been read.
+/// @throws InputError  an entry is missing, unknown, out of order or does not fit into the record.
 void read_places(text::TomlTable& document, Scenario& scenario);
 
-/// `name`, which goes into CSV cells and TOML strings as it is.
-/// @throws InputError  missing, or with a character that would need quoting there.
+/// Returns `name`, which can be written into CSV cells and TOML strings unchanged.
+/// @throws InputError  it is missing or has a character that would need quoting there.
 [[nodiscard]] std::string required_name(text::TomlTable& table);
 
-/// @throws InputError  missing, or not within [low, high]; not an instant.
+/// Return the value of a required key.
+/// @throws InputError  it is missing, not within [low, high], or not an instant.
 [[nodiscard]] double required_number(text::TomlTable& table, std::string_view key, double low,
                                      double high);
 [[nodiscard]] UtcTime required_instant(text::TomlTable& table, std::string_view key);

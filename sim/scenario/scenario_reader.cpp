@@ -12,8 +12,8 @@
 namespace a351::sim {
 namespace {
 
-/// One table of the file.  Without a base every key must be there, so that no value of a scenario
-/// hides in the code.
+/// One table of the file.  Without a base every key is required, so that no value of a scenario is
+/// hidden in the code.
 class Section {
 public:
     Section(text::TomlTable& document, std::string_view name, bool has_base)
@@ -24,7 +24,7 @@ public:
         value = table_.number_or(key, value, low, high);
     }
 
-    /// Two ascending numbers.
+    /// Reads two ascending numbers.
     void range(std::string_view key, Range& value, double low, double high) {
         require(key);
         if (!table_.has(key)) return;
@@ -80,7 +80,7 @@ void read_schedule(Section s, ScheduleParameters& p) {
     s.done();
 }
 
-/// What `base`, if any, already says may be missing.
+/// Reads a fixed record; keys that `base` has may be missing.
 FixedRecord read_fixed_record(text::TomlTable table, const std::optional<FixedRecord>& base) {
     FixedRecord record = base.value_or(FixedRecord{});
     if (!base || table.has("start_utc")) record.start = required_instant(table, "start_utc");
@@ -98,12 +98,13 @@ void read_cool_box(Section s, CoolBoxParameters& p) {
     s.done();
 }
 
-/// In a step of the plant a node may lose no more than what it is warmer than its neighbours.
+/// Refuses a capacity so small that in one step of the plant the node would lose more heat than
+/// brings it to its neighbours' temperature: explicit Euler would be unstable.
 void require_stable(const Section& s, std::string_view key, double capacity_j_per_k,
                     double conductance_w_per_k) {
     const double least_j_per_k = conductance_w_per_k * ThermalPlant::kStepSeconds;
     if (capacity_j_per_k >= least_j_per_k) return;
-    s.refuse(key, "too small for its thermal resistances and the plant's step of 1 s",
+    s.refuse(key, "too small for its thermal resistances with the plant's step of 1 s",
              text::shortest(least_j_per_k) + " or more, or larger resistances");
 }
 
@@ -155,7 +156,7 @@ void read_sensor(Section s, SensorParameters& p, double run_in_h) {
     s.number("power_on_before_start_h", p.power_on_before_start_h, 0.0, 1e4);
     if (p.power_on_before_start_h < run_in_h) {
         s.refuse("power_on_before_start_h",
-                 "shorter than oven.run_in_h: the plant runs in with the sensor's own heating",
+                 "shorter than oven.run_in_h, in which the powered sensor already heats the oven",
                  text::shortest(run_in_h) + " or more");
     }
     s.number("temperature_warm_up_degc", p.temperature_warm_up_degc, -10.0, 10.0);
@@ -297,7 +298,8 @@ Scenario load_scenario(const std::string& name_or_file) {
     }
     if (!std::filesystem::is_regular_file(name_or_file)) {
         throw InputError("--scenario " + name_or_file +
-                         ": neither a scenario nor a file; allowed: " + name_list() + ", a file");
+                         ": neither a scenario nor a file; allowed: " + name_list() +
+                         ", or a file");
     }
     return parse_scenario(text::read_text_file(name_or_file), name_or_file);
 }

@@ -15,7 +15,7 @@ namespace {
 
 using text::shortest;
 
-/// What a stay may be moved beyond its jitter to make room for the one before and the drive.
+/// Largest delay of a stay beyond its jitter, s, to make room for the stay before and the drive.
 constexpr double kMostMovedSeconds = 60.0;
 
 UtcTime whole_milliseconds(UtcTime time) {
@@ -34,7 +34,7 @@ struct Interval {
     UtcTime from, start, end;
 };
 
-/// When each occupation takes place, and from when on its site's gravity acts.
+/// Draws the times of each occupation, and from when on its site's gravity acts.
 std::vector<Interval> draw_intervals(const Scenario& scenario, std::uint64_t seed) {
     RandomStream stream(seed, "schedule");
     const ScheduleParameters& p = scenario.schedule;
@@ -55,9 +55,10 @@ std::vector<Interval> draw_intervals(const Scenario& scenario, std::uint64_t see
             interval.from = left + (interval.start - left) / 2;
         }
         if (seconds_between(drawn, interval.start) > p.jitter_s + kMostMovedSeconds) {
-            refuse(scenario, listed,
-                   "the one before is not over in time; allowed: occupations further apart, or "
-                   "shorter");
+            refuse(
+                scenario, listed,
+                "the occupation before is not over in time; allowed: occupations further apart, or "
+                "shorter");
         }
         interval.start = whole_milliseconds(interval.start);
         interval.end = std::min(whole_milliseconds(interval.start + from_seconds(length_s)),

@@ -10,7 +10,7 @@
 
 namespace a351::sim {
 
-/// The air inside the cool box, around the oven, once a second from the start of the record:
+/// Air inside the cool box, around the oven; one value a second from the start of the record:
 ///
 ///     a(t) = course(t) + walk(t) + d(t)
 ///     lid open: tau_open dd/dt = outside - a,   lid closed: tau_closed dd/dt = -d
@@ -20,7 +20,7 @@ public:
 
     CoolBox(const Scenario& scenario, const std::vector<PlannedSetUp>& plan, std::uint64_t seed);
 
-    /// At the start of the record, and then a step later each time.
+    /// Returns the value at the start of the record, then the next one with each call.
     [[nodiscard]] DegC next();
 
 private:

@@ -12,7 +12,7 @@ namespace {
 
 double draw(RandomStream& stream, Range range) { return stream.uniform(range.low, range.high); }
 
-/// Length and strength are drawn once; frequency, phase and share of the strength per axis.
+/// Draws a burst: length and strength once; frequency, phase and share of the strength per axis.
 Burst draw_burst(RandomStream& stream, Burst::Envelope envelope, Range length_s, Range hz,
                  Range peak_gal, Range axis_share) {
     Burst burst;

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// What shakes the box for a while: passing vehicles, handling at both ends of a set-up, and
-/// the occasional knock in the middle of one.
+/// Short vibrations of the box: passing vehicles, handling at both ends of a set-up, and occasional
+/// knocks in the middle of one.
 
 #include <array>
 #include <cstdint>
@@ -23,17 +23,18 @@ struct Burst {
     std::array<double, 3> phase_rad{};
 };
 
-/// All bursts of a record, in the order of their starts.
+/// Draws all bursts of a record, in the order of their starts.
 [[nodiscard]] std::vector<Burst> draw_bursts(const Scenario& scenario,
                                              const std::vector<PlannedSetUp>& plan,
                                              std::uint64_t seed);
 
-/// Adds up the bursts at rising instants.
+/// Sum of the bursts, asked at rising instants.
 class Disturbances {
 public:
     explicit Disturbances(std::vector<Burst> bursts);
 
-    /// @param elapsed_s  since the start of the record; not before that of the last call.
+    /// Adds the bursts at an instant to the three axes.
+    /// @param elapsed_s  since the start of the record; not less than in the last call.
     void add_to(std::array<double, 3>& axes_mgal, double elapsed_s);
 
 private:

@@ -18,11 +18,12 @@ constexpr double kMoonDistance = 3.84402e10;
 constexpr double kSunDistance = 1.495e13;
 constexpr double kEarthRadius = 6.378270e8;
 constexpr double kMoonEccentricity = 0.05490;
-constexpr double kMotionRatio = 0.074804;        ///< Sun's mean motion to the Moon's.
+constexpr double kMotionRatio = 0.074804;        ///< Mean motion of the Sun divided by the Moon's.
 constexpr double kMoonInclination = 0.08979719;  ///< To the ecliptic.
 constexpr double kObliquity = 23.452 * kRadiansPerDegree;
 
-/// Cosine of the zenith angle of a body at `longitude` in an orbit inclined by `inclination`.
+/// Returns the cosine of the zenith angle of a body at `longitude` in an orbit inclined by
+/// `inclination`.
 double cos_zenith(double latitude, double inclination, double longitude, double hour_angle) {
     const double c = std::cos(inclination / 2.0);
     const double s = std::sin(inclination / 2.0);
@@ -42,7 +43,8 @@ MilliGal earth_tide(Degrees latitude, Degrees longitude, Metres height, UtcTime 
     const auto midnight = std::chrono::floor<std::chrono::days>(time);
     const double ut_hours = seconds_between(midnight, time) / 3600.0;
 
-    // Mean longitudes of Moon and Sun, their perigees and the Moon's node (equations 10-12, 19, 26).
+    // Mean longitudes of Moon and Sun, of their perigees and of the Moon's node (equations 10-12,
+    // 19, 26).
     const double s = 4.720023434 + T * (8399.709299 + T * (4.40695e-5 + T * 3.29e-8));
     const double p = 5.835124721 + T * (71.01800936 + T * (-1.80546e-4 - T * 2.18e-7));
     const double h = 4.88162798 + T * (628.33195099 + T * 5.27962e-6);
@@ -53,7 +55,7 @@ MilliGal earth_tide(Degrees latitude, Degrees longitude, Metres height, UtcTime 
     const double m = kMotionRatio;
     const double w = kObliquity;
 
-    // The Moon's orbit against the equator.
+    // The Moon's orbit relative to the equator.
     const double I =
         std::acos(cos(w) * cos(kMoonInclination) - sin(w) * sin(kMoonInclination) * cos(N));
     const double nu = std::asin(sin(kMoonInclination) * sin(N) / sin(I));

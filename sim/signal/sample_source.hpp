@@ -8,7 +8,7 @@
 
 namespace a351::sim {
 
-/// One sample as the device counts it.
+/// One sample in counts of the device.
 struct SensorSample {
     std::array<std::int32_t, 3> axes_counts{};  ///< x, y, z.
     std::int32_t temperature_counts = 0;
@@ -17,22 +17,22 @@ struct SensorSample {
 };
 
 struct TimedSample {
-    UtcTime instant;         ///< At which the device took it, by the scenario's clock.
-    std::int64_t index = 0;  ///< On the source's grid; where it jumps, samples are missing.
+    UtcTime instant;         ///< Instant at which the device took it, by the scenario's clock.
+    std::int64_t index = 0;  ///< Index on the source's grid; a jump means missing samples.
     SensorSample values;
 };
 
-/// Where an emulated sensor takes its samples from: a scenario, or a recording.
+/// Source of an emulated sensor's samples: a scenario or a recording.
 class SampleSource {
 public:
     virtual ~SampleSource() = default;
 
     [[nodiscard]] virtual int rate_hz() const noexcept = 0;
 
-    /// Of the sample that next() would give; std::nullopt after the last.
+    /// Returns the instant of the sample that next() would return; std::nullopt after the last.
     [[nodiscard]] virtual std::optional<UtcTime> next_instant() const = 0;
 
-    /// The samples in order.  Precondition: next_instant() has a value.
+    /// Returns the samples one after the other.  Precondition: next_instant() has a value.
     [[nodiscard]] virtual TimedSample next() = 0;
 };
 

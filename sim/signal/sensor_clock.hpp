@@ -9,21 +9,22 @@
 
 namespace a351::sim {
 
-/// When the sensor takes its samples, by true time.  Its clock runs fast by
+/// True time of the sensor's samples.  The sensor's clock runs fast by
 ///
 ///     r(t) = error + walk(t) + temperature coefficient x (T - T0)
 ///
-/// constant over each second that it counts, which lasts 1 / (1 + r) s.
+/// r is constant over each second that the clock counts; that second lasts 1 / (1 + r) s.
 class SensorClock {
 public:
     /// @param reference  T0.
     SensorClock(const ClockParameters& parameters, DegC reference, UtcTime start,
                 std::uint64_t seed);
 
-    /// Begins the second after the one that runs, or the first one, at this temperature.
+    /// Begins the first or the next second of the clock, at this temperature.
     void begin_second(DegC temperature);
 
-    /// Of a point of the second that runs, as share of it in [0, 1).
+    /// Returns the true time of a point of the current second.
+    /// @param share  position within the second, in [0, 1).
     [[nodiscard]] UtcTime at(double share) const;
 
 private:
@@ -33,8 +34,8 @@ private:
     RandomStream walk_;
     std::int64_t second_ = -1;
     double walk_ppm_ = 0.0;
-    double late_s_ = 0.0;    ///< Start of the second, after its nominal instant.
-    double longer_s_ = 0.0;  ///< Length of the second beyond 1 s.
+    double late_s_ = 0.0;    ///< Start of the second minus its nominal instant.
+    double longer_s_ = 0.0;  ///< Length of the second minus 1 s.
 };
 
 }  // namespace a351::sim

@@ -18,20 +18,20 @@ constexpr std::array<const char*, kTermCount> kTermColumns = {
     "tide_mgal",      "bias_mgal",    "static_mgal",   "dynamic_mgal", "clock_mgal", "warm_up_mgal",
     "placement_mgal", "flicker_mgal", "resonant_mgal", "white_mgal",   "drift_mgal", "ripple_mgal"};
 
-/// To what is printed of a mean.
+/// Rounds a mean to 1e-5, the resolution of the table.
 double rounded(double value) {
     constexpr double kSteps = 1e5;
     return std::floor(value * kSteps + 0.5) / kSteps;
 }
 
-/// Left out at either end, since handling spoils it.
+/// Returns the time left out at either end, because handling disturbs it.
 Nanoseconds margin(const PlannedSetUp& set_up) {
     return std::min<Nanoseconds>(std::chrono::minutes(1), (set_up.end - set_up.start) / 4);
 }
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// Means of the slow signal's values that fall into each set-up.
+/// Returns the means of the slow signal over each set-up.
 std::vector<SetUpTruth> slow_means(const Scenario& scenario, const std::vector<PlannedSetUp>& plan,
                                    std::uint64_t seed) {
     std::vector<SetUpTruth> truth(plan.size());
@@ -59,7 +59,8 @@ std::vector<SetUpTruth> slow_means(const Scenario& scenario, const std::vector<P
     return truth;
 }
 
-/// Adds what the vector does that its vertical does not: biases, bursts and noise across it.
+/// Adds the terms that the vertical component alone does not give: biases, bursts, and noise across
+/// the vertical.
 void add_vector_terms(const Scenario& scenario, const PlannedSetUp& set_up, const Vector& bias_mgal,
                       Disturbances& disturbances, SetUpTruth& truth) {
     const Vector vertical = tilted_vertical(set_up);

@@ -30,8 +30,8 @@ std::array<double, 3> axis_bias_mgal(const Scenario& scenario, std::uint64_t see
 BandNoise::BandNoise(double rms, double low_hz, double high_hz, double rate_hz)
     : low_gain_(1.0 - std::exp(-2.0 * std::numbers::pi * low_hz / rate_hz)),
       high_gain_(1.0 - std::exp(-2.0 * std::numbers::pi * high_hz / rate_hz)) {
-    // The variance of filtered white noise is the energy of the impulse response, which has died
-    // out after 20 time constants of the high-pass.
+    // The variance of filtered white noise is the energy of the impulse response.  The response is
+    // negligible after 20 time constants of the high-pass.
     const int length = static_cast<int>(20.0 / low_gain_) + 1;
     double energy = 0.0;
     for (int i = 0; i < length; ++i) {

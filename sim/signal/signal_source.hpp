@@ -17,13 +17,13 @@
 
 namespace a351::sim {
 
-/// The vertical as the axes see it, after turning about y by one angle and then about x.
+/// Returns the vertical in the sensor's axes, after the turn about y and then the turn about x.
 [[nodiscard]] std::array<double, 3> tilted_vertical(const PlannedSetUp& set_up);
 
-/// Of x and y, fixed for a unit; that of z is a Term.
+/// Returns the biases of x and y, which are fixed for a unit, and 0 for z, whose bias is a Term.
 [[nodiscard]] std::array<double, 3> axis_bias_mgal(const Scenario& scenario, std::uint64_t seed);
 
-/// The nearest count; at the ends of the range, which no count is beyond, and the lowest for NaN.
+/// Returns the nearest count, limited to the range of 32 bits; the lowest count for NaN.
 [[nodiscard]] std::int32_t to_counts(double counts) noexcept;
 
 /// Noise between two frequencies: white noise through a first-order high-pass and low-pass.
@@ -40,19 +40,19 @@ private:
     double slow_ = 0.0, fast_ = 0.0;
 };
 
-/// The samples of a simulated day, 50 a second by the sensor's clock: sample k depends on
-/// (scenario, profile, seed, k) only, and with a true clock belongs to scenario start + k/50 s.
+/// The samples of a simulated day, 50 a second by the sensor's clock.  Sample k depends on
+/// (scenario, profile, seed, k) only.  With a true clock its instant is scenario start + k/50 s.
 ///
-/// Gravity, tide and ripple are a force along the vertical, turned into the axes by the levelling
-/// angles of the set-up.  The rest of what the vertical reads arises within the sensor - bias,
-/// temperature error, slow noise, drift - and stays on axis z however the box stands.  Then come
-/// the biases of x and y, ground noise, bursts, spikes, white noise and rounding to counts.
+/// Gravity, tide and ripple act along the vertical; the levelling angles of the set-up distribute
+/// them over the axes.  Bias, temperature error, slow noise and drift arise within the sensor; they
+/// are added on axis z for any levelling.  Then come the biases of x and y, ground noise, bursts,
+/// spikes, white noise and rounding to counts.
 class SignalSource final : public SampleSource {
 public:
     static constexpr int kRateHz = 50;
 
     SignalSource(const Scenario& scenario, const wire::DeviceProfile& profile, std::uint64_t seed);
-    SignalSource(const SignalSource&) = delete;  // Its parts refer to its scenario and plan.
+    SignalSource(const SignalSource&) = delete;  // Its members refer to its scenario and plan.
     SignalSource& operator=(const SignalSource&) = delete;
 
     [[nodiscard]] std::int64_t sample_count() const noexcept { return sample_count_; }
@@ -60,8 +60,8 @@ public:
     [[nodiscard]] std::optional<UtcTime> next_instant() const override;
     [[nodiscard]] TimedSample next() override;
 
-    /// The plant behind the temperature, up to two seconds ahead of the samples.  What is set there
-    /// changes the samples from then on; otherwise they do not depend on who looks.
+    /// Returns the plant that makes the temperature; it is up to two seconds ahead of the samples.
+    /// A setting made there changes the samples from then on; reading it changes nothing.
     [[nodiscard]] OvenPlant& oven() noexcept { return slow_.oven(); }
 
     [[nodiscard]] const std::vector<PlannedSetUp>& plan() const noexcept { return plan_; }
@@ -78,7 +78,7 @@ private:
     RandomStream white_, ground_, spikes_, temperature_;
     std::array<BandNoise, 3> ground_filter_;
     std::array<double, 3> bias_mgal_{};
-    std::vector<std::array<double, 3>> vertical_;  ///< Unit vector per set-up.
+    std::vector<std::array<double, 3>> vertical_;  ///< One unit vector per set-up.
     SensorClock clock_;
     SlowValue from_, to_;
     std::int64_t sample_count_;

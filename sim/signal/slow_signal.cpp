@@ -8,7 +8,8 @@
 namespace a351::sim {
 namespace {
 
-/// White noise is given as the rms of 20 s means, the sampling of the published record.
+/// Interval of the means whose rms is the given white noise, s: the sampling of the published
+/// record.
 constexpr double kWhiteMeanSeconds = 20.0;
 
 ThermalPlant running_plant(const OvenParameters& oven, DegC ambient) {

@@ -14,7 +14,7 @@
 
 namespace a351::sim {
 
-/// What stands between the reading of the vertical and gravity.
+/// Terms by which the reading along the vertical differs from gravity.
 enum class Term : std::size_t {
     tide,
     bias,
@@ -31,18 +31,18 @@ enum class Term : std::size_t {
 };
 inline constexpr std::size_t kTermCount = 12;
 
-/// What changes slowly, at one instant.
+/// The slow signals at one instant.
 struct SlowValue {
-    MilliGal vertical;  ///< Specific force along the vertical as read: gravity and all terms.
-    MilliGal along_z;   ///< Of it, what is the sensor's own: everything but gravity, tide, ripple.
-    DegC temperature;   ///< As the sensor reports it, without its white noise of samples.
-    DegC ambient;       ///< Air inside the cool box.
-    std::size_t set_up = 0;  ///< Index in the plan: the one that is, was or comes next.
-    std::array<double, kTermCount> terms_mgal{};  ///< By Term.
+    MilliGal vertical;       ///< Specific force along the vertical as read: gravity and all terms.
+    MilliGal along_z;        ///< The sensor's own part of it: all but gravity, tide and ripple.
+    DegC temperature;        ///< Reported by the sensor, without the white noise of the samples.
+    DegC ambient;            ///< Air inside the cool box.
+    std::size_t set_up = 0;  ///< Index in the plan of the set-up in effect.
+    std::array<double, kTermCount> terms_mgal{};  ///< Indexed by Term.
 };
 
-/// Gravity, tide, temperature error, drift, slow noise and ripple, once a second from the start of
-/// the record: the n-th value belongs to start + n s.
+/// Gravity, tide, temperature error, drift, slow noise and ripple: one value a second.  The n-th
+/// value, n = 0, 1, ..., belongs to the start of the record + n s.
 class SlowSignal {
 public:
     static constexpr double kStepSeconds = ThermalPlant::kStepSeconds;
@@ -51,7 +51,7 @@ public:
 
     [[nodiscard]] SlowValue next();
 
-    /// What is set there changes the values from the next one on.
+    /// Returns the plant; a setting made there changes the values from the next one on.
     [[nodiscard]] OvenPlant& oven() noexcept { return plant_; }
 
 private:

@@ -8,8 +8,8 @@
 
 namespace a351::sim {
 
-/// The plan with its limits turned from the sensor's time, by which a scenario runs, into UTC: the
-/// same where the clock is true.
+/// Returns the plan with its limits converted from the sensor's time, in which a scenario is
+/// written, to UTC.  With a true clock the plan is unchanged.
 [[nodiscard]] std::vector<PlannedSetUp> by_true_time(const Scenario& scenario,
                                                      const std::vector<PlannedSetUp>& plan,
                                                      std::uint64_t seed);

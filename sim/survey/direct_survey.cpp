@@ -32,10 +32,10 @@ namespace fs = std::filesystem;
 constexpr std::string_view kFilterName = "k512_fc9";
 constexpr int kBaud = 460800;
 
-/// Of the imagined host, which was started an hour before the record.
+/// Uptime of the simulated host at the start of the record: it was booted an hour before.
 constexpr Nanoseconds kHostUptime = 1h;
 
-/// NTP over a good network keeps a host within this.
+/// Clock error of the simulated host, us: typical of NTP over a good network.
 constexpr std::int64_t kHostClockErrorUs = 100;
 
 RawTime raw_at(const Scenario& scenario, UtcTime utc) {
@@ -52,7 +52,7 @@ timing::ClockReading clock_at(const Scenario& scenario, UtcTime utc) {
     return reading;
 }
 
-/// Of the kernel that the imagined host runs.
+/// Returns a boot identifier of the simulated host.
 std::string boot_id(RandomStream& stream) {
     std::array<char, sizeof "00000000-0000-4000-8000-000000000000"> text{};
     std::snprintf(text.data(), text.size(), "00000000-0000-4000-8000-%012" PRIx64,
@@ -63,7 +63,7 @@ std::string boot_id(RandomStream& stream) {
 record::JournalHeader journal_header(const Scenario& scenario, const wire::DeviceProfile& profile,
                                      const MachineIdentity& identity, std::uint64_t seed) {
     record::JournalHeader header;
-    // Days of one seed are sessions of their own, recorded by hosts of their own.
+    // Different days with the same seed get different sessions and different hosts.
     std::string day = "session of " + scenario.name;
     day += " at " + to_rfc3339(scenario.start(), 3);
     day += " by " + std::string(profile.name);
@@ -87,7 +87,7 @@ record::JournalHeader journal_header(const Scenario& scenario, const wire::Devic
     return header;
 }
 
-/// As the daemon does: 50 Hz, k512_fc9, automatic frames with every field.
+/// Configures the device as the daemon does: 50 Hz, k512_fc9, automatic frames with every field.
 void start_logging(RegisterMachine& machine, Nanoseconds now) {
     std::vector<std::byte> answers;
     const auto config = *wire::ConfigMode::from_mode_ctrl(wire::kModeStatConfig);
@@ -119,12 +119,12 @@ void write_station_xml(const Scenario& scenario, const wire::DeviceProfile& prof
     station.filter = header.filter;
     station.group_delay = profile.group_delay(*profile.filter_named(kFilterName));
     station.declared_rate_hz = header.declared_rate_hz;
-    station.start = header.clock.realtime - station.group_delay;  // as the daemon does
+    station.start = header.clock.realtime - station.group_delay;  // The daemon does the same.
     fs::create_directories(root / "metadata");
     write_text_file(root / "metadata" / "station.xml", record::to_station_xml(station));
 }
 
-/// Start, further set-ups and stop of every occupation.
+/// Returns the events of every occupation: start, further set-ups and stop.
 std::vector<record::Event> planned_events(const std::vector<PlannedSetUp>& plan,
                                           const record::SessionId& session) {
     std::vector<record::Event> events;
@@ -144,8 +144,8 @@ std::vector<record::Event> planned_events(const std::vector<PlannedSetUp>& plan,
     return events;
 }
 
-/// The daemon's end of the scenario's line: frames are gathered until a chunk is taken.  Each of the
-/// events, in time order, is put on the first sample at or after it.
+/// The daemon's end of the scenario's line: collects frames until a chunk is taken.  Each event, in
+/// time order, is moved to the first sample at or after it.
 class Collected final : public LineSink {
 public:
     Collected(TruthWriter& truth, const Scenario& scenario, std::uint64_t seed,
@@ -190,7 +190,8 @@ private:
     std::int64_t frames_ = 0;
 };
 
-/// Where a day is written before it is whole: where it is left, the day was cut short.
+/// Directory in which a day is written until it is complete.  If it is left behind, the day is
+/// incomplete.
 class PartialRoot {
 public:
     static constexpr const char* kName = "partial";
@@ -209,7 +210,7 @@ public:
 
     /// Moves the whole day to its root.
     void publish() {
-        is_moving_ = true;  // What is not moved then stays, and tells.
+        is_moving_ = true;  // An entry that cannot be moved stays, so that the failure is seen.
         const std::vector<fs::path> entries(fs::directory_iterator(path_), {});
         for (const fs::path& entry : entries) fs::rename(entry, root_ / entry.filename());
         fs::remove(path_);

@@ -27,8 +27,8 @@ bool has_two_sites(const Scenario& scenario) {
 void write_survey_file(const Scenario& scenario, const std::filesystem::path& directory) {
     write_text_file(
         directory / "survey.toml",
-        "# Simulated day; true gravity: truth.csv.  occupations = \"\" takes the event log,\n"
-        "# which has the same times.\n"
+        "# Simulated day; true gravity: truth.csv.  occupations = \"\" uses the event log, which\n"
+        "# has the same times.\n"
         "[survey]\n"
         "name = \"" +
             scenario.name +

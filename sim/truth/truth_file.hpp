@@ -1,6 +1,7 @@
 #pragma once
 /// @file
-/// What was really sent, for tests to compare with what was recorded.  Format: sim/truth/truth-format.md.
+/// Record of the frames that were really sent; tests compare it with the recorded frames.
+/// Format: sim/truth/truth-format.md.
 
 #include <cstdint>
 #include <filesystem>
@@ -12,36 +13,36 @@
 
 namespace a351::sim {
 
-/// What became of a frame on its way to the host.
+/// Fate of a frame on its way to the host.
 enum class Fate : std::uint8_t {
-    intact = 0,     ///< Arrived as the device made it: exactly once in the archive.
+    intact = 0,     ///< Arrived as the device made it; must be in the archive exactly once.
     damaged = 1,    ///< Arrived, but no receiver can use it.
-    lost = 2,       ///< Nothing of it arrived.
+    lost = 2,       ///< No byte of it arrived.
     repeated = 3,   ///< Arrived whole with the COUNT of the frame before: no new sample.
-    misplaced = 4,  ///< Arrived whole with a COUNT that fits no sample: the receiver decides.
+    misplaced = 4,  ///< Arrived whole with a COUNT that fits no sample; may be archived or not.
 };
 
 struct TruthRecord {
-    UtcTime utc;  ///< Instant the sample stands for.
+    UtcTime utc;  ///< Instant that the sample represents.
     wire::BurstValues values;
     std::uint16_t sampling_run = 0;
-    std::uint32_t grid_index = 0;  ///< Sample of the scenario's grid.
+    std::uint32_t grid_index = 0;  ///< Index on the source's grid.
     Fate fate = Fate::intact;
 };
 
 class TruthWriter {
 public:
-    /// A file that is there may be replaced: it is empty or a truth file.  None may be there.
-    /// @throws InputError  it is something else.
+    /// Checks that `file` may be written: it does not exist, is empty, or is a truth file.
+    /// @throws InputError  another regular file is there.
     static void require_own(const std::filesystem::path& file);
 
     /// @throws InputError         as require_own.
-    /// @throws std::system_error  the file cannot be written; so does every other member.
+    /// @throws std::system_error  the file cannot be written; every other member throws this too.
     explicit TruthWriter(std::filesystem::path file);
 
     void append(const TruthRecord& record);
 
-    /// Writes what is buffered; the file is complete afterwards.
+    /// Writes the buffered records; the file is complete afterwards.
     void close();
 
 private:
@@ -51,7 +52,8 @@ private:
     std::ofstream out_;
 };
 
-/// @throws InputError  the file cannot be read or is no truth file.
+/// Returns all records of a truth file.
+/// @throws InputError  the file cannot be read or is not a truth file.
 [[nodiscard]] std::vector<TruthRecord> read_truth(const std::filesystem::path& file);
 
 }  // namespace a351::sim

@@ -1,17 +1,22 @@
-"""What a calibration is worth on simulated days: axis biases to a survey with one datum, a thermal prior to a whole day.
+"""Measures how much a calibration reduces the errors on simulated days.
 
 usage: calibration_gain.py [SEEDS [FOLDER]]    (A351_BIN, A351_TOOLS)
-SEEDS: 8101-8120 by default, which were not looked at while the use of calibrations was made.  Of every seed a unit is
-drawn: thermal numbers within +-25 % of the scenario's, axis biases within +-2 Gal.  FOLDER: keeps what was found of each
-seed; a seed that is there is not computed again.
+SEEDS: default 8101-8120, which were not used while the use of calibrations was developed.  Each seed draws a unit: thermal
+parameters within +-25 % of the scenario's, axis biases within +-2 Gal.  FOLDER: keeps the results of each seed; seeds with
+results are not computed again.
 
 Every calibration is measured: `calibrate --tilt` on the scenario tilt-series, `calibrate FILE` on a night of 12 h (indoor)
-and on two days with their warmth (week) of the same unit.  One datum: nine occupations of seven stations, of which No.0,
-occupied three times, is the only datum.  The error is that of stations.csv at the six unknown stations.  Without a
-calibration the model is the network with the priors of a351-survey.toml(5), which is what there is with one datum.
-Thermal prior: the error is leave-one-station-out over 19 occupations.  Another unit's calibration, drawn within +-60 % and
-measured in two days, under this unit's serial number: its error, how often the report says that the readings contradict
-it, and how often it harms a day by more than is allowed without a word.
+and on two days with their temperature changes (week), all of the same unit.
+
+One datum: nine occupations of seven stations; No.0, occupied three times, is the only datum.  The error is that of
+stations.csv at the six unknown stations.  Without a calibration the model is the network with the priors of
+a351-survey.toml(5), the only choice with one datum.
+
+Thermal prior: the error is leave-one-station-out over 19 occupations.
+
+Calibration of another unit, drawn within +-60 %, measured in two days and given this unit's serial number: its error, how
+often the report says that the readings contradict it, and how often it increases the error of a day by more than is
+allowed without a warning.
 """
 
 import concurrent.futures
@@ -27,16 +32,16 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "system"))
 from programs import BIN, Scratch, read_json, rows, run
 
-LEAST_GAIN = 0.30
-MOST_LOSS = 0.03
-SCATTER = 0.25
-OTHER_SCATTER = 0.6
+LEAST_GAIN = 0.30  # Promised reduction of the error by axis biases, one datum.
+MOST_LOSS = 0.03  # Largest allowed increase of the error by a thermal prior.
+SCATTER = 0.25  # Relative scatter of the units.
+OTHER_SCATTER = 0.6  # Relative scatter of the other units.
 UNIT = {"crystal_static_mgal_per_degc": -12.0, "crystal_dynamic_mgal_per_degc": -950.0, "crystal_tau_s": 43.0,
         "clock_mgal_per_degc": -20.0, "clock_tau_s": 2700.0, "warm_up_mgal": 36.0, "warm_up_tau_h": 2.5}
 STAYS = ("No.0", "No.1", "No.2", "No.3", "No.0", "No.4", "No.5", "No.6", "No.0")
 AMBIENT = (24.3, 23.4, 24.1, 23.8, 26.7, 30.6, 31.4, 31.7, 32.0)
 NOTHING = "no calibration"
-WHOLE_DAY = "19 occupations, left out"
+WHOLE_DAY = "19 occupations, leave-one-station-out"
 TWO_DAYS = "[schedule]\nduration_h = 48.0\n"
 VALID_FROM = "2017-01-01T00:00:00Z"
 PRIORS = ("[prior]\nrate_mgal_per_degc_per_h = [10, 6]\ntemperature_mgal_per_degc = [-30, 15]\n"
@@ -54,7 +59,7 @@ def unit_of(seed, scatter=SCATTER):
 
 
 def simulate(folder, name, base, seed, more="", scatter=SCATTER):
-    """@return the folder of a day of the seed's unit."""
+    """Simulates a day of the seed's unit and returns its folder."""
     file = folder / f"{name}-scenario.toml"
     error = "".join(f"{key} = {value}\n" for key, value in unit_of(seed, scatter).items())
     file.write_text(f'base = "{base}"\nname = "{name}"\n[temperature_error]\n{error}{more}')
@@ -72,7 +77,7 @@ def nine_stays():
 
 
 def measure(folder, name, base, seed, more="", scatter=SCATTER):
-    """@return option of the thermal calibration from a long record of the seed's unit; none where it was refused."""
+    """Calibrates the seed's unit from a long record; returns the option that uses the file, empty if it was refused."""
     record = simulate(folder, name, base, seed, more, scatter)
     file = folder / f"{name}.toml"
     run(BIN / "a351-correct", "calibrate", record, "--out", file, "--valid-from", VALID_FROM, check=False)
@@ -83,7 +88,7 @@ def measure(folder, name, base, seed, more="", scatter=SCATTER):
 def correct(folder, survey, name, *options):
     out = folder / name
     run(BIN / "a351-correct", "survey", survey, "--out", out, *options,
-        env={"PATH": str(folder)})  # where no gnuplot is: nothing is drawn
+        env={"PATH": str(folder)})  # A folder without gnuplot, so that no figures are drawn.
     return out
 
 
@@ -111,7 +116,7 @@ def is_called_worse(out):
 
 
 def hide_all_but_datum(day):
-    """@return the truth, by site."""
+    """Removes the gravity of all sites but the datum from the day's sites.csv; returns the true gravity by site."""
     sites = rows(day / "sites.csv")
     truth = {row["site"]: float(row["gravity_mgal"]) for row in sites}
     lines = ["site,longitude_deg,latitude_deg,altitude_m,gravity_mgal"]
@@ -123,7 +128,7 @@ def hide_all_but_datum(day):
 
 
 def one_datum(folder, seed, axes, both, night, days):
-    """Nine occupations of the unit, by what is known of it."""
+    """Corrects nine occupations of the unit with different calibrations; returns the RMS error of each."""
     day = simulate(folder, "nine", "tilted", seed, nine_stays())
     truth = hide_all_but_datum(day)
     survey = day / "survey.toml"
@@ -142,7 +147,7 @@ def one_datum(folder, seed, axes, both, night, days):
 
 
 def whole_day(folder, seed, calibrations):
-    """19 occupations of the unit: errors by calibration, and what the report says of it."""
+    """Corrects 19 occupations of the unit; returns the error by calibration, and flags for the warnings of the report."""
     day = simulate(folder, "whole", "tilted", seed)
     errors, flags = {}, {}
     for i, (name, options) in enumerate(calibrations.items()):
@@ -151,10 +156,10 @@ def whole_day(folder, seed, calibrations):
         if name == NOTHING:
             continue
         part = "axis_bias" if name.startswith("axis") else "thermal"
-        flags[f"nothing to calibrate from, {name}"] = not options
-        flags[f"said to be contradicted, {name}"] = is_contradicted(out, part)
-        flags[f"said to be worse with it, {name}"] = is_called_worse(out)
-        flags[f"harm above {100 * MOST_LOSS:.0f} % without a word, {name}"] = (
+        flags[f"no calibration could be made, {name}"] = not options
+        flags[f"reported as contradicted, {name}"] = is_contradicted(out, part)
+        flags[f"reported as worse with it, {name}"] = is_called_worse(out)
+        flags[f"error more than {100 * MOST_LOSS:.0f} % larger without a warning, {name}"] = (
             errors[name] > (1.0 + MOST_LOSS) * errors[NOTHING] and not is_contradicted(out, part)
             and not is_called_worse(out))
     return errors, flags
@@ -184,7 +189,7 @@ def look_at(scratch, seed):
 
 
 def kept(store, scratch, seed):
-    """What look_at() found, now or in an earlier run."""
+    """Returns the result of look_at(), computed now or read from an earlier run."""
     file = store / f"{seed}.json"
     if not file.exists():
         file.write_text(json.dumps(look_at(scratch, seed)))
@@ -199,7 +204,7 @@ with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count())
     units = list(pool.map(lambda seed: kept(store, scratch, seed), seeds))
 means = {}
 for group, names in units[0][0].items():
-    print(f"{group}: rms over {len(units)} units of the rms error of a day, mGal")
+    print(f"{group}: RMS over {len(units)} units of the RMS error of a day, mGal")
     for name in names:
         values = [found[group][name] for found, _ in units]
         means[group, name] = rms(values)
@@ -209,15 +214,16 @@ for name in units[0][1]:
 for name in ("network, axis biases", "auto, axis biases", "auto, thermal of a night", "auto, thermal of two days",
              "auto, axis biases and thermal of two days"):
     gain = 1.0 - means["one datum", name] / means["one datum", "network"]
-    print(f"one datum, {name} against network: {100 * gain:.1f} % less")
+    print(f"one datum, {name} against network: error {100 * gain:.1f} % smaller")
     if name.endswith("axis biases") and gain < LEAST_GAIN:
-        failures.append(f"{name}: {100 * gain:.1f} % less error, promised {100 * LEAST_GAIN:.0f} %")
+        failures.append(f"{name}: error {100 * gain:.1f} % smaller, promised {100 * LEAST_GAIN:.0f} %")
 for name in ("thermal of a night", "thermal of two days", "thermal of another unit"):
     losses = [found[WHOLE_DAY][name] / found[WHOLE_DAY][NOTHING] - 1.0 for found, _ in units]
     loss = means[WHOLE_DAY, name] / means[WHOLE_DAY, NOTHING] - 1.0
-    print(f"left out, {name}: error {100 * loss:+.1f} %, by unit {100 * min(losses):+.1f} to {100 * max(losses):+.1f} %, "
-          f"above {100 * MOST_LOSS:.0f} % in {sum(value > MOST_LOSS for value in losses)}")
+    print(f"leave-one-station-out, {name}: error {100 * loss:+.1f} %, "
+          f"by unit {100 * min(losses):+.1f} to {100 * max(losses):+.1f} %, "
+          f"above {100 * MOST_LOSS:.0f} % in {sum(value > MOST_LOSS for value in losses)} units")
     if "another" not in name and loss > MOST_LOSS:
-        failures.append(f"{name}: error raised by {100 * loss:.1f} %, allowed {100 * MOST_LOSS:.0f} %")
+        failures.append(f"{name}: error {100 * loss:.1f} % larger, allowed {100 * MOST_LOSS:.0f} %")
 print("\n".join(f"NOT REACHED: {failure}" for failure in failures) or "all promises kept")
 sys.exit(bool(failures))

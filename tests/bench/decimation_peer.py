@@ -1,4 +1,4 @@
-"""Decimation by ten beside SciPy's upfirdn with the same filter, in turns on one core."""
+"""Compares decimation by ten with SciPy's upfirdn and the same filter, alternately on one core."""
 
 import json
 import os
@@ -21,7 +21,7 @@ BENCH = pathlib.Path(os.environ["A351_TOOLS"]) / "micro_bench"
 
 
 def ours_ns():
-    """CPU time per input sample."""
+    """Returns our CPU time per input sample in ns."""
     result = subprocess.run([BENCH, f"--benchmark_filter=decimate_series/{SAMPLES}$", "--benchmark_format=json"],
                             check=True, capture_output=True, text=True)
     return 1e6 * json.loads(result.stdout)["benchmarks"][0]["cpu_time"] / SAMPLES

@@ -1,6 +1,6 @@
 /// @file
-/// How exactly the decomposition reproduces the reference signals, and what every treatment of the
-/// record's ends costs.  Figures are quoted in corrector/eemd/eemd.md.
+/// Measures how exactly the decomposition reproduces the reference signals, and the errors of each
+/// treatment of the record's ends.  corrector/eemd/eemd.md quotes the figures.
 
 #include <algorithm>
 #include <cmath>
@@ -64,7 +64,7 @@ void report_closure(const char* name) {
     line("residue", ensemble.residue);
 }
 
-/// The residue and the modes of at least `period` samples.
+/// Returns the sum of the residue and the modes with periods of at least `period` samples.
 Series slow_part(const EemdResult& result, double period) {
     Series slow = result.residue.values;
     for (const Component& mode : result.modes) {
@@ -74,7 +74,7 @@ Series slow_part(const EemdResult& result, double period) {
     return slow;
 }
 
-/// Decaying transients of 40 times the noise, as when a box has just been set down.
+/// Adds decaying transients of 40 times the noise at both ends, as after a box was set down.
 Series with_spikes(Series piece, double noise) {
     for (std::size_t i = 0; i < 15; ++i) {
         const double spike = 40.0 * noise * std::exp(-static_cast<double>(i) / 5.0);
@@ -91,7 +91,8 @@ struct Treatment {
     bool reflect;
 };
 
-/// The slow part of pieces of the long record against that of the whole, whose ends are far away.
+/// Compares the slow part of pieces of the long record with that of the whole record, whose ends
+/// are far away.
 void report_ends(std::size_t length) {
     const Series record = read_input("s4_long20s");
     EemdOptions options;

@@ -1,9 +1,9 @@
-"""The decomposition beside its peers where they are installed, and what a second thread gains.
+"""Compares the speed of the decomposition with other programs, if they are installed, and measures the gain of a second thread.
 
 usage: eemd_peers.py    (A351_TOOLS: folder of micro_bench)
-Peers: R's Rlibeemd (the core of libeemd, the bar) and Python's PyEMD, as they are installed: how they were compiled is
-theirs.  The same sizes, ten sifts, noise 0.1, one thread; the best processor time of several runs.  The second thread's
-gain is measured by the clock and means something on an idle machine only.
+Other programs: R's Rlibeemd (the core of libeemd, the reference) and Python's PyEMD, compiled as installed.  All use the
+same sizes, ten sifts, noise 0.1 and one thread; the best CPU time of several runs counts.  The gain of the second thread is
+elapsed time, so it is valid on an idle machine only.
 """
 
 import importlib.util
@@ -18,7 +18,7 @@ TOOLS = pathlib.Path(os.environ["A351_TOOLS"])
 # Samples, members, components with the residue.
 SIZES = [(450, 80, 8), (5400, 160, 11), (65536, 100, 16)]
 TARGET_NS = 1.0
-BAR_NS = 8.9  # libeemd's core at 5400 samples on the machine where the bar was set
+BAR_NS = 8.9  # libeemd's time in ns per sample and sift, 5400 samples, on the machine on which the promise was made.
 
 RLIBEEMD = """
 library(Rlibeemd)
@@ -55,7 +55,7 @@ def rlibeemd_seconds(n, members, components):
 
 
 def pyemd_seconds(n, members, components):
-    if importlib.util.find_spec("PyEMD") is None or n > 10000:  # half a minute and more beyond
+    if importlib.util.find_spec("PyEMD") is None or n > 10000:  # It takes more than half a minute beyond.
         return None
     import numpy
     from PyEMD import EEMD
@@ -77,7 +77,8 @@ for n, members, components in SIZES:
         seconds = peer(n, members, components)
         line += f"{'-':>14}" if seconds is None else f"{f'{1e3 * seconds / milliseconds:.1f} times':>14}"
     print(line)
-print(f"promised at 5400 x 160: {TARGET_NS} ns, or 7 times Rlibeemd; its bar was {BAR_NS} ns")
+print(f"promised at 5400 x 160: {TARGET_NS} ns, or 7 times as fast as Rlibeemd "
+      f"({BAR_NS} ns when the promise was made)")
 alone, whole = own["trend_alone"]["cpu_ms"], own["trend_of_all_modes"]["cpu_ms"]
 print(f"an occupation's trend, 450 x 80: alone {alone:.2f} ms, with all modes {whole:.2f} ms; {whole / alone:.2f} times")
 gain = own["ensemble_threads/1"]["real_ms"] / own["ensemble_threads/2"]["real_ms"]

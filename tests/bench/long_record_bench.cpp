@@ -1,12 +1,14 @@
-/// Long records against what is promised of them.  Nights of the unit in the tables: the publication's
-/// statistics by the product.  Units drawn about it: how often the 95 % limits of the two-path fit hold
-/// the unit's parameters, and how they narrow with the record: 12 h, 3 days, 7 days.  Exits 1 when the
-/// mean of a statistic is out of its range, a parameter's limits hold in fewer than 85 % of the nights,
-/// or do not narrow.
+/// Compares the analysis of simulated long records with its promises.
+///
+/// Nights of the unit in the tables: the publication's statistics, computed by the product.  Units
+/// drawn around it: how often the 95 % limits of the two-path fit include the true parameters, and
+/// how the limits narrow with the length of the record (12 h, 3 days, 7 days).  Exits with 1 if the
+/// mean of a statistic is out of its range, if the limits of a parameter include the truth in fewer
+/// than 85 % of the nights, or if the limits do not narrow.
 ///
 ///     long_record_bench [FIRST_SEED [SEEDS]]
 ///
-/// FIRST_SEED: 9001 by default; 9001-9020 were not looked at while fit and limits were made.
+/// FIRST_SEED: default 9001; seeds 9001-9020 were not used while fit and limits were developed.
 
 #include <algorithm>
 #include <array>
@@ -29,7 +31,7 @@ using corrector::TwoPathFit;
 using corrector::TwoPathTerm;
 
 constexpr double kLeastHeld = 0.85;
-constexpr double k95 = 1.96;  // standard errors of 95 % limits
+constexpr double k95 = 1.96;  // Half width of 95 % limits, in standard errors.
 
 struct Seeds {
     std::uint64_t first = 9001, count = 20;
@@ -66,7 +68,7 @@ bool statistics_are_in_range(Seeds seeds) {
         const auto within = std::count_if(
             figure.values.begin(), figure.values.end(),
             [&range](double value) { return value >= range.low && value <= range.high; });
-        // A night whose cycle the modes miss has no statistic of them.
+        // If no mode has the cycle of a night, the statistics of the modes are missing for it.
         const bool good = figure.values.size() == seeds.count && figure.is_accepted();
         std::printf("  %-30s %10s %10.3f +- %8.3f  %5g ... %-6g %2td of %zu  %s\n",
                     std::string(range.key).c_str(), figure.published.c_str(), figure.mean(),
@@ -77,7 +79,7 @@ bool statistics_are_in_range(Seeds seeds) {
     return all;
 }
 
-/// A parameter over seeds.
+/// Results for one parameter over the seeds.
 struct Line {
     std::string name;
     int held = 0, determined = 0;
@@ -102,7 +104,7 @@ struct Line {
     }
 };
 
-/// All parameters, the static slope behind them.
+/// Results for all parameters; the last line is the static slope.
 struct Count {
     std::array<Line, corrector::kTwoPathTerms + 1> lines;
     int adequate = 0;
@@ -121,7 +123,8 @@ struct Count {
         adequate += fit.unexplained.empty() ? 1 : 0;
     }
 
-    /// @return whether every parameter is held often enough.
+    /// Prints the lines and returns true if the limits of every parameter include the truth often
+    /// enough.
     bool print(const std::string& title) const {
         const std::size_t seeds = lines[0].errors.size();
         std::printf("%s, %zu seeds; residual adequate in %d\n  %-28s %13s %5s %11s %11s\n",
@@ -149,15 +152,16 @@ TwoPathFit fitted(const sim::IndoorRecord& record, std::size_t samples) {
                                     sim::IndoorRecord::kStepSeconds, 900.0);
 }
 
-/// The first hours of records of units drawn within +-scatter.
+/// Fits the first hours of records of units drawn within +-scatter.
 Count counted(const std::string& name, double scatter, double hours, Seeds seeds) {
     sim::Scenario scenario = sim::load_scenario(name);
     scenario.unit_scatter = scatter;
     Count count;
     for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count; ++seed)
-        count.add(fitted(sim::indoor_record(scenario, seed),
-                         static_cast<std::size_t>(hours * 180.0)),  // samples of 20 s an hour
-                  sim::two_path_truth(scenario, seed));
+        count.add(
+            fitted(sim::indoor_record(scenario, seed),
+                   static_cast<std::size_t>(hours * 180.0)),  // 180 samples of 20 s in an hour
+            sim::two_path_truth(scenario, seed));
     return count;
 }
 

@@ -31,8 +31,8 @@ std::vector<double> noisy_oscillation(std::size_t n) {
     return values;
 }
 
-/// Components with the residue, as libeemd counts them: floor(log2 n), and 11 for 5400 samples,
-/// the publication's number.
+/// Returns the number of modes.  Components with the residue are floor(log2 n), as in libeemd, and
+/// 11 for 5400 samples, as in the publication.
 int modes_for(std::size_t n) { return n == 5400 ? 10 : default_mode_count(n); }
 
 EemdOptions options_for(const benchmark::State& state) {
@@ -43,7 +43,7 @@ EemdOptions options_for(const benchmark::State& state) {
     return options;
 }
 
-/// Time per sample and sift of `members` members, modes of ten sifts each.
+/// Adds a counter of the time per sample and sift; each mode has ten sifts.
 void count_sifts(benchmark::State& state) {
     const double sifts = 10.0 * static_cast<double>(state.range(0) * state.range(1)) *
                          modes_for(static_cast<std::size_t>(state.range(0)));
@@ -51,7 +51,7 @@ void count_sifts(benchmark::State& state) {
         sifts, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// Samples, members.
+/// Measures an ensemble.  Arguments: samples, members.
 void ensemble(benchmark::State& state) {
     const auto signal = noisy_oscillation(static_cast<std::size_t>(state.range(0)));
     const EemdOptions options = options_for(state);
@@ -64,7 +64,8 @@ BENCHMARK(ensemble)
     ->Args({65536, 100})
     ->Unit(benchmark::kMillisecond);
 
-/// An occupation's series: drift, a wave of a quarter of an hour, white noise half as large.
+/// Returns the series of an occupation: drift, a wave with a period of a quarter of an hour, white
+/// noise half as large.
 std::vector<double> occupation_series() {
     std::vector<double> values(450);
     fill_white_noise(1, 0, values);
@@ -81,12 +82,13 @@ EemdOptions occupation_options() {
     return options;
 }
 
-/// Compares the part of the decomposition that a survey needs with the whole of it.
+/// Measures the part of the decomposition that a survey needs; trend_of_all_modes measures the
+/// whole.
 void trend_alone(benchmark::State& state) {
     const auto signal = occupation_series();
     const EemdOptions options = occupation_options();
     for (auto _ : state) benchmark::DoNotOptimize(eemd_trend(signal, 7, options));
-    state.counters["modes"] = eemd_trend(signal, 7, options).modes_taken_off;
+    state.counters["modes"] = eemd_trend(signal, 7, options).removed_modes;
 }
 BENCHMARK(trend_alone)->Unit(benchmark::kMillisecond);
 
@@ -106,7 +108,7 @@ void ensemble_threads(benchmark::State& state) {
 }
 BENCHMARK(ensemble_threads)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// libeemd's stopping rule: S-number 4, at most 50 sifts.
+/// Measures an ensemble with libeemd's stopping rule: S-number 4, at most 50 sifts.
 void ensemble_s4(benchmark::State& state) {
     const auto signal = noisy_oscillation(static_cast<std::size_t>(state.range(0)));
     EemdOptions options = options_for(state);
@@ -119,7 +121,8 @@ BENCHMARK(ensemble_s4)
     ->Args({65536, 100})
     ->Unit(benchmark::kMillisecond);
 
-/// The loops of one instruction set: 0 the portable ones, then as available_kernels() lists them.
+/// Measures the loops of one instruction set: 0 the portable ones, then in the order of
+/// available_kernels().
 void ensemble_kernels(benchmark::State& state) {
     const auto available = available_kernels();
     const auto index = static_cast<std::size_t>(state.range(2));
@@ -145,7 +148,8 @@ BENCHMARK(ensemble_kernels)
     ->Args({5400, 40, 2})
     ->Unit(benchmark::kMillisecond);
 
-/// What a second thread gains at best on this machine: chains of products, no memory.
+/// Measures the largest gain of a second thread on this machine: chains of products without memory
+/// access.
 void arithmetic(benchmark::State& state) {
     const auto work = [] {
         double a = 1.0, b = 1.0, c = 1.0, d = 1.0;
@@ -157,7 +161,7 @@ void arithmetic(benchmark::State& state) {
         }
         benchmark::DoNotOptimize(a + b + c + d);
     };
-    // Two halves of the same work, one after the other or beside each other.
+    // Two halves of the same work, one after the other or at the same time.
     for (auto _ : state) {
         std::jthread other(state.range(0) == 2 ? std::jthread(work) : std::jthread());
         if (state.range(0) == 1) work();

@@ -1,5 +1,5 @@
-/// The simulated plant against the publication's figures, over many seeds.  Exits 1 when one of them is
-/// out of its range.
+/// Compares the simulated plant with the published figures, over many seeds.  Exits with 1 if a
+/// figure is out of its range.
 
 #include <cstdio>
 

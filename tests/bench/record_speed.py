@@ -1,7 +1,8 @@
-"""From a week at 50 Hz at one point to statistics, page and figures: time and memory of `record`, three runs, and its
-progress on a terminal.
+"""Measures time and memory of `record` for a week at one point with 50 Hz, with statistics, page and figures.
 
-usage: record_speed.py [HOURS]    (A351_BIN, A351_TOOLS); 168 by default, simulated in a minute
+Runs it three times and checks its progress bars on a terminal.
+
+usage: record_speed.py [HOURS]    (A351_BIN, A351_TOOLS); default 168, simulated in a minute
 """
 
 import os
@@ -16,12 +17,12 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "system"))
 from programs import BIN, Scratch, read_json, run
 
 RUNS = 3
-PROMISED_S = 20.0  # wall, on two cores
+PROMISED_S = 20.0  # Elapsed time on two cores.
 FIGURES = 8
 
 
 def measured(folder, out):
-    """@return wall and processor seconds, peak memory in MB, and what a terminal saw."""
+    """Runs `record` and returns elapsed and CPU time in s, peak memory in MB, and its output on a terminal."""
     ours, theirs = pty.openpty()
     began, before = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
     process = subprocess.Popen([BIN / "a351-correct", "record", folder, "--out", out], stdout=subprocess.DEVNULL,
@@ -31,7 +32,7 @@ def measured(folder, out):
     while True:
         try:
             part = os.read(ours, 65536)
-        except OSError:  # The other side is closed.
+        except OSError:  # The program has closed its end.
             break
         seen += part
     os.close(ours)
@@ -50,10 +51,10 @@ with Scratch() as scratch:
     for _ in range(RUNS):
         wall_s, cpu_s, memory_mb, seen = measured(scratch / "root", scratch / "out")
         bars = [label for label in ("read", "decompose") if f"{label} [" in seen]
-        print(f"{hours:.0f} h at 50 Hz: wall {wall_s:.1f} s (promised of a week < {PROMISED_S:.0f} s), "
+        print(f"{hours:.0f} h at 50 Hz: wall {wall_s:.1f} s (promised for a week < {PROMISED_S:.0f} s), "
               f"processor {cpu_s:.1f} s, peak {memory_mb:.0f} MB, progress bars: {', '.join(bars) or 'none'}", flush=True)
     samples = sum(part["samples"] for part in read_json(scratch / "out" / "result.json")["segments"])
     figures = len(list((scratch / "out" / "figures").glob("*.svg")))
     print(f"{samples} samples of 20 s analysed, {figures} figures")
     if samples < 0.99 * hours * 180 or figures != FIGURES:
-        sys.exit("not what was to be timed")
+        sys.exit("the result is not complete, so the time is not valid")

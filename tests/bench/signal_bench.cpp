@@ -18,7 +18,7 @@ std::vector<double> oscillation(std::size_t n) {
     return values;
 }
 
-/// A factor of ten from as many samples as `range(0)`: linear in them.
+/// Measures decimation by ten of `range(0)` samples; the time must be linear in their number.
 void decimate_series(benchmark::State& state) {
     const auto signal = oscillation(static_cast<std::size_t>(state.range(0)));
     const auto filter = design_decimation(10);
@@ -32,7 +32,7 @@ BENCHMARK(decimate_series)
     ->Unit(benchmark::kMillisecond)
     ->Complexity(benchmark::oN);
 
-/// 50 Hz to 2 s as it arrives, a burst of `range(0)` samples at a time.
+/// Measures decimation from 50 Hz to 2 s as data arrive, in parts of `range(0)` samples.
 void decimate_stream(benchmark::State& state) {
     const auto signal = oscillation(180'000);
     const auto burst = static_cast<std::size_t>(state.range(0));
@@ -49,7 +49,8 @@ void decimate_stream(benchmark::State& state) {
 }
 BENCHMARK(decimate_stream)->Arg(1)->Arg(50)->Arg(4096)->Unit(benchmark::kMillisecond);
 
-/// A curve with its standard errors from `range(0)` samples: linear in them.
+/// Measures smoothing of `range(0)` samples with standard errors; the time must be linear in their
+/// number.
 void smooth_series(benchmark::State& state) {
     const auto signal = oscillation(static_cast<std::size_t>(state.range(0)));
     for (auto _ : state) {

@@ -12,7 +12,8 @@ using namespace a351;
 
 constexpr int kFrames = 50000;
 
-/// Frames of a quiet sensor: a few counts of noise from a linear congruential generator.
+/// Returns frames of a quiet sensor, with a few counts of noise from a linear congruential
+/// generator.
 std::vector<std::byte> stream() {
     std::vector<std::byte> bytes;
     std::uint32_t state = 1;

@@ -1,4 +1,4 @@
-"""From a day's records at 50 Hz to table and report: time of the program, three runs of each kind."""
+"""Measures the time from a day's records at 50 Hz to table and report, in three runs of each kind."""
 
 import pathlib
 import resource
@@ -10,7 +10,7 @@ from programs import BIN, Scratch, read_json, rows, run
 
 RUNS = 3
 READINGS = 19
-# Kind, its --model, the model that is then applied, whether figures are drawn, the time promised.
+# Kind, its --model, the model that is applied, True if figures are drawn, promised time in s.
 KINDS = [("a named linear model, no figures", "t-rate-drift", "t-rate-drift", False, 2.0),
          ("auto: the whole-day model, no figures", "auto", "day", False, 6.0),
          ("auto: the whole-day model, report and figures", "auto", "day", True, 10.0)]
@@ -38,6 +38,6 @@ with Scratch() as scratch:
         result = read_json(scratch / "out" / "result.json")
         drawn = "<svg" in (scratch / "out" / "report.html").read_text()
         if (result["model"], len(rows(scratch / "out" / "occupations.csv")), drawn) != (applied, READINGS, has_figures):
-            sys.exit(f"{title}: not what was to be timed")
+            sys.exit(f"{title}: the result is not the expected one, so the time is not valid")
         print(f"{title:<48} " + " ".join(f"{' '.join(f'{value:.2f}' for value in values):>18}" for values in (walls, cpus)) +
               f"   promised < {promise_s:.0f} s", flush=True)

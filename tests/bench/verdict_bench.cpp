@@ -1,16 +1,18 @@
-/// The verdict against the truth on simulated warm-ups, benchmark visits and disturbances, and on
-/// survey days.  Exits 1 when a promise is not kept.  What was falsely called stable is told by its
-/// cause: a touch, which counts from its faint begin until a minute after its end, or the reading.
+/// Compares the verdict with the truth on simulated warm-ups, benchmark visits and disturbances,
+/// and on survey days.  Exits with 1 if a promise is not kept.  Time falsely called stable is
+/// listed by its cause: a touch, which counts from its faint begin until a minute after its end, or
+/// the reading.
 ///
-///     verdict_bench [FIRST LAST [DAYS]]     cases of these seeds; default 1001 1200 5
+///     verdict_bench [FIRST LAST [DAYS]]     cases with these seeds; default 1001 1200 5
 ///
-/// Thresholds were chosen on seeds 1 to 50 and 251 to 350, and checked on 351 to 453; 1001 to 1200
-/// have been looked at once, with these: 0 of 3129 early, median delay 126 s, false 0.47 %.  51 to 250
-/// served an earlier verdict.  Who chooses anew takes others for the final figure.
+/// Thresholds were chosen on seeds 1 to 50 and 251 to 350, and checked on 351 to 453.  Seeds 1001
+/// to 1200 were used once, with these thresholds: 0 of 3129 early, false 0.47 %, median delay
+/// 126 s.  Seeds 51 to 250 were used for an earlier verdict.  For new thresholds, use other seeds
+/// for the final figure.
 ///
-/// That median is mostly of a settled oven that was touched (896 of 1201 beginnings).  After power-on
-/// it is 24 min, and on visits after drives through other air every second beginning is not told in
-/// time.
+/// The median is mostly from a settled oven that was touched (896 of 1201 begins of stable time).
+/// After power-on the median delay is 24 min.  On visits after drives through air of another
+/// temperature every second begin is not reported in time.
 
 #include <array>
 #include <cmath>
@@ -29,14 +31,13 @@ void print(const char* name, const VerdictScore& score) {
     std::size_t never = 0;
     for (const double delay : score.delays_s) never += std::isinf(delay) ? 1U : 0U;
     std::printf(
-        "  %-12s STABLE %4d times, more than 1 min early %zu; delay median %.0f s of %zu, not said "
-        "in "
-        "time %zu; false %.2f %% of %.1f h\n",
+        "  %-12s STABLE %4d times, more than 1 min early %zu; median delay %.0f s of %zu, not "
+        "reported in time %zu; false %.2f %% of %.1f h\n",
         name, score.onsets, score.early_s.size(), score.median_delay_s(), score.delays_s.size(),
         never, 100.0 * score.false_share(), score.stable_s / 3600.0);
 }
 
-/// Seconds told STABLE that the truth forbids because of a touch alone.
+/// Returns the time in s with the verdict STABLE that the truth forbids only because of a touch.
 double false_by_touch_s(const VerdictRecord& record, const std::vector<VerdictState>& states) {
     const std::vector<Allowed> untouched = allowed(record.mean_mgal, {});
     double seconds = 0.0;
@@ -67,7 +68,7 @@ bool measure_cases(std::uint64_t first, std::uint64_t last) {
     print("visits", by_case[1]);
     print("disturbances", by_case[2]);
     print("all", all);
-    std::printf("  false by touch %.2f %%, by the reading %.2f %%\n",
+    std::printf("  false because of a touch %.2f %%, because of the reading %.2f %%\n",
                 100.0 * by_touch_s / all.stable_s,
                 100.0 * (all.false_s - by_touch_s) / all.stable_s);
     constexpr double kMostDelaySeconds = 180.0, kMostFalse = 0.01;
@@ -75,7 +76,8 @@ bool measure_cases(std::uint64_t first, std::uint64_t last) {
            all.false_share() < kMostFalse;
 }
 
-/// What was said during the occupations that the publication had to leave out.
+/// Prints the verdict during the occupations that the publication left out; returns true if it was
+/// never STABLE.
 bool measure_days(std::uint64_t days) {
     bool all = true;
     for (std::uint64_t seed = 1; seed <= days; ++seed) {

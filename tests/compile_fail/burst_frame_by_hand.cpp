@@ -1,4 +1,4 @@
-// A BurstFrame comes only from the decoder, which has verified it.
+// Law: only the decoder, which verifies the bytes, can make a BurstFrame.
 #include "protocol/wire/burst_decoder.hpp"
 
 std::uint16_t count_of(const a351::wire::BurstFrame& frame) { return frame.values().count; }

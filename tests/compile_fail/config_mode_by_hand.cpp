@@ -1,4 +1,4 @@
-// A ConfigMode comes only from what the device said.
+// Law: a ConfigMode can be made only from the MODE_CTRL value that the device sent.
 #include "protocol/wire/commands.hpp"
 
 a351::wire::CommandSequence read_flag() {

@@ -1,4 +1,4 @@
-// A bare number is no gravity.
+// Law: a number without a unit does not convert to MilliGal.
 #include "protocol/core/units.hpp"
 
 a351::MilliGal drift() {

@@ -1,4 +1,4 @@
-// Units do not mix.
+// Law: values of different units cannot be added.
 #include "protocol/core/units.hpp"
 
 a351::MilliGal corrected(a351::MilliGal reading, [[maybe_unused]] a351::DegC temperature) {

@@ -1,4 +1,4 @@
-// A series without a rate has no time axis.
+// Law: a TimeSeries cannot be made without its sampling rate, which gives the time axis.
 #include "protocol/core/time_series.hpp"
 
 a351::TimeSeries<a351::MilliGal> series(a351::UtcTime start, std::vector<double> values) {

@@ -1,4 +1,5 @@
-// While the device samples it ignores writes: there is no such command.
+// Law: there is no write command in sampling mode, because the device ignores writes while it
+// samples.
 #include "protocol/wire/commands.hpp"
 
 a351::wire::CommandSequence change_rate(a351::wire::ConfigMode config) {

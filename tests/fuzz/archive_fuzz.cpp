@@ -1,6 +1,6 @@
 /// @file
-/// Day files: a record that is taken says the same when it is packed again, and whatever stands in a
-/// file, its readers account for it.
+/// Day files.  A record that is accepted must decode to the same values after it is packed again.
+/// For any file content, the reader must return non-empty segments and damage within the file.
 
 #include <algorithm>
 #include <chrono>

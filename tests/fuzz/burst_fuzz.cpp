@@ -1,6 +1,6 @@
 /// @file
-/// Any bytes from a sensor, in any layout, cut anywhere: each byte ends up in exactly one event, and
-/// the events do not depend on the cuts.
+/// Bytes from a sensor, in any layout and cut anywhere.  Each byte must belong to exactly one
+/// event, and the events must not depend on the cuts.
 
 #include <algorithm>
 #include <span>

@@ -1,6 +1,6 @@
 /// @file
-/// Tables: both readers see the same cells, and sites, occupations and tide series are taken, or refused
-/// by an InputError of one line.
+/// Tables in CSV.  Both readers must return the same cells.  Sites, occupations and tide series
+/// must be accepted, or refused by an InputError of one line.
 
 #include <sstream>
 #include <vector>

@@ -1,6 +1,7 @@
 /// @file
-/// Any options and any record: a result that is finite and adds up, or std::invalid_argument; the
-/// same bits from the loops of every instruction set.
+/// EEMD with any options and any record.  The result must be finite and its components must add up
+/// to the record, or std::invalid_argument is thrown.  The loops of every instruction set must give
+/// the same bits.
 
 #include <algorithm>
 #include <bit>
@@ -24,7 +25,8 @@ void require(bool holds) {
     if (!holds) std::abort();
 }
 
-/// Samples of one or two bytes have plateaus, those of eight bytes every value a double can have.
+/// Returns samples of `width` bytes: one or two bytes give plateaus, eight bytes any value of a
+/// double.
 std::vector<double> samples(const std::uint8_t* data, std::size_t size, unsigned width) {
     std::vector<double> values;
     for (std::size_t i = 0; i + width <= size; i += width) {
@@ -97,7 +99,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         };
         for (const Component& mode : result.modes) check(mode);
         check(result.residue);
-        // No noise is larger than 8.6 standard deviations; subnormals are rounded coarsely.
+        // The noise never exceeds 8.6 standard deviations; 1e-322 allows for coarse rounding of
+        // subnormals.
         require(result.closure_error <= 9.0 * result.noise_level + 1e-10 * largest + 1e-322);
     } catch (const std::invalid_argument&) {
         return 0;

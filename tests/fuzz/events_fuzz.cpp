@@ -1,6 +1,6 @@
 /// @file
-/// Event logs: a line that is taken says the same when it is written again, and what follows from the
-/// events keeps the rules of event-format.md.
+/// Event logs.  A line that is accepted must read the same after it is written again, and the
+/// occupations that follow from the events must keep the rules of event-format.md.
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What the fuzzers share: a claim that ends the run, and a file for readers that want one.
+/// Shared parts of the fuzzers: a check that ends the run, and files for readers that need one.
 
 #include <unistd.h>
 
@@ -21,7 +21,7 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
     return {reinterpret_cast<const char*>(data), size};
 }
 
-/// A directory of this process, in memory where there is one; it goes with the process.
+/// Returns a directory of this process, in memory if possible; it is removed when the process ends.
 inline const std::filesystem::path& folder() {
     struct Folder {
         std::filesystem::path path;

@@ -1,6 +1,7 @@
 /// @file
-/// Requests to the page, any head and body: the Guard lets no change pass without its token, the Api
-/// answers each request with JSON and a status of its list, and GET changes nothing.
+/// Requests to the page with any head and body.  The Guard must refuse changes without its token,
+/// the Api must answer each request with one of its status codes and valid JSON, and GET must
+/// change nothing.
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -22,7 +23,7 @@ using fuzz::require;
 
 const std::string kToken = "0123456789abcdef0123456789abcdef";
 
-/// "METHOD target", lines "Name: value", an empty line, the body.
+/// Parses "METHOD target", lines "Name: value", an empty line and the body.
 Request request_of(std::string_view input) {
     Request request;
     const auto line = [&] {

@@ -1,7 +1,6 @@
 /// @file
-/// Journal segments.  The input is a segment as it is, and a second time with its lengths, numbers and
-/// checksums made right, so that payloads come as far as they can: into the archiver, and once more with
-/// times in hindsight.
+/// Journal segments.  The input is read once as it is, and once with corrected lengths, numbers and
+/// checksums, so that the payloads reach the archiver and the re-timing.
 
 #include <algorithm>
 #include <span>
@@ -33,7 +32,7 @@ void put(std::vector<std::byte>& out, std::uint32_t value) {
         out.push_back(static_cast<std::byte>(value >> shift));
 }
 
-/// The chunks of the input, put right.
+/// Returns the input with corrected lengths, numbers and checksums of its chunks.
 std::vector<std::byte> put_right(std::span<const std::byte> input) {
     std::vector<std::byte> out = encode_preamble();
     input = input.subspan(std::min(input.size(), kPreambleSize));
@@ -61,7 +60,7 @@ std::vector<JournalChunk> chunks(std::string_view bytes) {
     return chunks;
 }
 
-/// @return  whether the archiver took them all.
+/// Archives the chunks and returns true if the archiver accepted them all.
 bool archive(const std::vector<JournalChunk>& chunks, Retiming& retiming) {
     Sink sink;
     Archiver archiver(sink, &retiming);

@@ -1,5 +1,5 @@
 /// @file
-/// A main() for fuzzers where libFuzzer is not linked: each input once whole and once cut in half.
+/// A main() for fuzzers built without libFuzzer: runs each input once whole and once cut in half.
 ///
 ///     NAME_fuzz FILE|DIRECTORY...
 
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Sorted, so that every run has one order.
+/// Returns the files, sorted so that every run has the same order.
 std::set<fs::path> files_of(int count, char** arguments) {
     std::set<fs::path> files;
     for (int i = 1; i < count; ++i) {
@@ -39,7 +39,7 @@ int main(int argc, char** argv) try {
     LLVMFuzzerTestOneInput(nullptr, 0);
     const std::set<fs::path> files = files_of(argc, argv);
     if (files.empty())
-        throw std::runtime_error("no seeds; allowed: files, and folders that hold some");
+        throw std::runtime_error("no seed files; allowed: files, and folders with files");
     for (const fs::path& file : files) {
         std::ifstream in(file, std::ios::binary);
         if (!in) throw std::runtime_error(file.string() + ": cannot be read");

@@ -1,5 +1,6 @@
 /// @file
-/// Configuration, calibration, scenario and fault script: taken, or refused by an InputError of one line.
+/// Configuration, calibration, scenario and fault script must be accepted, or refused by an
+/// InputError of one line.
 
 #include "daemon/config/config.hpp"
 #include "protocol/core/input_error.hpp"

@@ -1,4 +1,4 @@
-"""A headless Chromium, as the tests of the page use it."""
+"""Headless Chromium for the tests of the page."""
 
 import json
 import os
@@ -25,7 +25,7 @@ SCREENSHOTS = BIN.parent / "screenshots"
 LAPTOP = (1366, 768)
 PHONE = (360, 740)
 
-# Rows of ink of a curve in each column of a chart: the curves are the only thing in it that is blue.
+# Returns the number of inked rows in each column of a chart.  Only the curves are blue.
 INK = """
 const canvases = document.querySelectorAll(`#chart-${arguments[0]} canvas`);
 const ink = [];
@@ -45,7 +45,7 @@ for (const canvas of canvases) {
 return Array.from(ink, (rows) => rows ?? 0);
 """
 
-# [text, ratio] of what is shown with less contrast than asked for (WCAG 2.1, relative luminance).
+# Returns [text, ratio] of visible texts with less contrast than required (WCAG 2.1, relative luminance).
 FAINT = """
 const luminance = (colour) => {
     const [r, g, b] = colour.match(/[0-9.]+/g).map(Number)
@@ -71,7 +71,7 @@ while (walker.nextNode()) {
 return faint;
 """
 
-# [name, width, height] of what can be pressed or filled in and is smaller than asked for.
+# Returns [name, width, height] of controls that are smaller than required.
 SMALL = """
 const small = [];
 for (const element of document.querySelectorAll("button, select, input:not([type=radio]), fieldset label")) {
@@ -85,12 +85,13 @@ return small;
 
 
 class Browser:
-    """Ends with the `with` block, which also demands that the console is clean and no request left loopback."""
+    """Browser for a `with` block.  The end of the block demands a clean console and no requests outside loopback."""
 
     def __init__(self, allowed_errors=(), may_ask=(), rules="MAP * ~NOTFOUND, EXCLUDE 127.0.0.1"):
-        """@param allowed_errors  parts of console messages that the test provokes.
-        @param may_ask  hosts beside 127.0.0.1 that the test itself leads to.
-        @param rules  how Chromium resolves names: not at all but for loopback."""
+        """@param allowed_errors  parts of console messages that the test provokes
+        @param may_ask  hosts besides 127.0.0.1 that the test itself opens
+        @param rules  Chromium's rules for resolving names; default: none but loopback
+        """
         chromium, driver = shutil.which("chromium"), shutil.which("chromedriver")
         if not chromium or not driver:
             skip("chromium or chromium-driver is missing")
@@ -101,8 +102,8 @@ class Browser:
                          "--disable-background-networking", f"--host-resolver-rules={rules}"):
             options.add_argument(argument)
         if os.geteuid() == 0:
-            options.add_argument("--disable-dev-shm-usage")  # Containers give it 64 MB, too little.
-            options.add_argument("--no-sandbox")  # Chromium refuses to start as root with it.
+            options.add_argument("--disable-dev-shm-usage")  # In containers /dev/shm has only 64 MB.
+            options.add_argument("--no-sandbox")  # Chromium does not start as root with its sandbox.
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
         self.driver = webdriver.Chrome(service=Service(driver), options=options)
         self.seen = []  # Console messages so far.
@@ -124,9 +125,9 @@ class Browser:
 
     def demand_quiet(self):
         hosts = self.hosts_asked()
-        demand(f"no request left loopback: {hosts}", hosts <= self.may_ask)
+        demand(f"no request went to other hosts: {hosts}", hosts <= self.may_ask)
         unexpected = [message for message in self.console() if not any(part in message for part in self.allowed_errors)]
-        demand(f"the console is clean: {unexpected[:3]}", not unexpected)
+        demand(f"the console has no unexpected messages: {unexpected[:3]}", not unexpected)
 
     def console(self):
         self.seen += [entry["message"] for entry in self.driver.get_log("browser")]
@@ -142,7 +143,7 @@ class Browser:
                 url = message["params"]["url"]
             else:
                 continue
-            if not url.startswith("data:"):  # The arrow of a list, Chromium's own.
+            if not url.startswith("data:"):  # Chromium's own arrow of a list.
                 hosts.add(urllib.parse.urlsplit(url).hostname or url[:60])
         return hosts
 
@@ -160,7 +161,7 @@ class Browser:
         return self.driver.find_element(By.CSS_SELECTOR, css)
 
     def text(self, identifier):
-        """What is shown there; empty while it is hidden."""
+        """Returns the visible text of an element; empty while it is hidden."""
         return self.run("const e = document.getElementById(arguments[0]);"
                         "return e.checkVisibility() ? e.innerText : '';", identifier)
 
@@ -179,7 +180,7 @@ class Browser:
         webdriver.ActionChains(self.driver).key_down(Keys.SHIFT).send_keys(*keys).key_up(Keys.SHIFT).perform()
 
     def wait_for(self, claim, is_true, seconds=5.0):
-        """@return how long it took [s]."""
+        """Waits until `is_true` holds and returns the time it took in s."""
         begin = time.monotonic()
         while True:
             if is_true():
@@ -194,7 +195,7 @@ class Browser:
         return self.wait_for(f"#{identifier} says {part!r}", lambda: part in self.text(identifier), seconds)
 
     def shot(self, name, is_whole=False):
-        """A picture of what is in the window, or of the whole page, for whoever looks at it."""
+        """Saves a picture of the window or of the whole page under screenshots/, for inspection by eye."""
         if not is_whole:
             self.driver.save_screenshot(str(SCREENSHOTS / f"{name}.png"))
             return
@@ -202,26 +203,26 @@ class Browser:
         height = self.run("return document.documentElement.scrollHeight")
         size = (width, self.run("return innerHeight"))
         self.resize((width, height))
-        time.sleep(0.7)  # Charts that were out of view are drawn.
+        time.sleep(0.7)  # Time to draw charts that were out of view.
         self.driver.save_screenshot(str(SCREENSHOTS / f"{name}.png"))
         self.resize(size)
 
     def ink(self, chart):
-        """Whether each column of the chart has ink."""
+        """Returns for each column of the chart whether it has ink."""
         return [rows > 0 for rows in self.run(INK, chart)]
 
     def ink_height(self, chart):
-        """Rows of ink in the median of the columns that have some [px]."""
+        """Returns the median number of inked rows in px, over the columns with ink."""
         return statistics.median(rows for rows in self.run(INK, chart) if rows)
 
     def demand_readable(self, name):
-        """Contrast, targets and width of the page as it is now."""
+        """Demands sufficient contrast, control sizes and page width in the present state."""
         faint = self.run(FAINT, 7.0)
-        demand(f"{name}: every text has a contrast of 7:1 or more {faint[:3] if faint else ''}", not faint)
+        demand(f"{name}: every text has a contrast of at least 7:1 {faint[:3] if faint else ''}", not faint)
         small = self.run(SMALL, 44)
-        demand(f"{name}: everything to press is 44 px or more each way {small[:3] if small else ''}", not small)
+        demand(f"{name}: every control is at least 44 px wide and high {small[:3] if small else ''}", not small)
         wide = self.run("return document.documentElement.scrollWidth - innerWidth")
-        demand(f"{name}: the page is no wider than the window ({wide} px)", wide <= 0)
+        demand(f"{name}: the page is not wider than the window ({wide} px)", wide <= 0)
 
     def is_above_fold(self, identifier):
         return self.run("const r = document.getElementById(arguments[0]).getBoundingClientRect();"
@@ -229,7 +230,7 @@ class Browser:
 
 
 def widest_blank(ink):
-    """(first column, columns) of the widest run without ink between the first and the last that has some."""
+    """Returns first column and width of the widest gap without ink between the first and the last inked column."""
     drawn = [column for column, is_inked in enumerate(ink) if is_inked]
     before, after = max(zip(drawn, drawn[1:]), key=lambda pair: pair[1] - pair[0], default=(0, 1))
     return before + 1, after - before - 1

@@ -1,24 +1,24 @@
-"""States of the stub daemon that several tests of the page show."""
+"""Made-up states of the stub daemon, shared by the tests of the page."""
 
 import time
 
 from stub_daemon import check, rfc3339
 
 SLOPE = check("temperature slope", 0.05, "degC/h", 0.25, True)
-CHANGE = check("reading changes in 10 min by", 0.4, "mGal", 2.0, True, error=0.3)
+CHANGE = check("reading will change in 10 min by", 0.4, "mGal", 2.0, True, error=0.3)
 DRIFT = check("acceleration slope", 2.1, "mGal/h", 12.0, True, error=1.4)
-WARM = check("temperature off the set point", 0.02, "degC", 1.0, True)
-QUIET = check("since the last knock", 180.0, "s", 72.0, True, is_least=True)
-NOISE = check("noise to its usual level", 1.02, "", 5.0, True)
+WARM = check("temperature differs from the set point by", 0.02, "degC", 1.0, True)
+QUIET = check("last knock", 180.0, "s", 72.0, True, is_least=True, ending="ago")
+NOISE = check("noise", 1.02, "", 5.0, True, ending="x its usual level")
 
 VERDICTS = {
-    "no data": [check("last good sample", 42.0, "s ago", 10.0, False)],
-    "warming up": [check("temperature off the set point", 6.2, "degC", 1.0, False),
-                   check("since power-on", 0.4, "h", 2.5, False, is_least=True), SLOPE],
-    "disturbed": [check("since the last knock", 12.0, "s", 72.0, False, is_least=True), WARM, SLOPE, CHANGE, DRIFT,
+    "no data": [check("last good sample", 42.0, "s", 10.0, False, ending="ago")],
+    "warming up": [check("temperature differs from the set point by", 6.2, "degC", 1.0, False),
+                   check("switched on", 0.4, "h", 2.5, False, is_least=True, ending="ago"), SLOPE],
+    "disturbed": [check("last knock", 12.0, "s", 72.0, False, is_least=True, ending="ago"), WARM, SLOPE, CHANGE, DRIFT,
                   NOISE],
     "settling": [check("temperature slope", 0.31, "degC/h", 0.25, False),
-                 check("reading changes in 10 min by", 2.9, "mGal", 2.0, False, error=0.5), WARM, DRIFT, QUIET, NOISE],
+                 check("reading will change in 10 min by", 2.9, "mGal", 2.0, False, error=0.5), WARM, DRIFT, QUIET, NOISE],
     "stable": [WARM, SLOPE, CHANGE, DRIFT, QUIET, NOISE],
 }
 

@@ -1,5 +1,7 @@
-"""A page of another origin in the same browser, and one that has rebound its name to this host, get nothing from the
-daemon and change nothing; its own page may do both."""
+"""Pages of other origins in the same browser, also one with DNS rebinding to this host, can neither read nor change anything.
+
+The daemon's own page can do both.
+"""
 
 import http.server
 import threading
@@ -65,35 +67,36 @@ def post(content_type, **options):
 
 def nothing_changed(session, claim):
     status = session.status()
-    demand(f"{claim}: no occupation has come of it", status["occupation"] is None)
+    demand(f"{claim}: no occupation was started", status["occupation"] is None)
 
 
 def attack(session, browser, name):
-    """From the page that is open now, of another origin."""
+    """Tries to read and change from the page of another origin that is open now."""
     home = f"127.0.0.1:{session.port}"
     demand(f"{name}: the live stream is refused", wait_script(browser, SOCKET, f"ws://{home}/live") == "closed")
-    demand(f"{name}: by the daemon itself, with 403", any("code: 403" in message for message in browser.console()))
+    demand(f"{name}: the daemon itself refuses the stream with 403",
+           any("code: 403" in message for message in browser.console()))
     start = f"http://{home}/api/occupation/start"
     for content_type in ("application/json", "text/plain"):
         came = wait_script(browser, FETCH, start, post(content_type))
-        demand(f"{name}: an order as {content_type} is {came}", came == "blocked")
+        demand(f"{name}: an order as {content_type} is {came}, must be blocked", came == "blocked")
     came = wait_script(browser, FETCH, start, post("text/plain", mode="no-cors"))
-    demand(f"{name}: an order without waiting for leave is {came}", came in ("opaque", "blocked"))
+    demand(f"{name}: an order in the mode no-cors is {came}", came in ("opaque", "blocked"))
     nothing_changed(session, name)
     for path in ("status", "token", "occupations"):
         came = wait_script(browser, FETCH, f"http://{home}/api/{path}", {})
-        demand(f"{name}: reading {path} is {came}", came == "blocked")
+        demand(f"{name}: reading {path} is {came}, must be blocked", came == "blocked")
     for path in ("api/token", "page.js"):
         came = wait_script(browser, ELEMENT, f"http://{home}/{path}", "script")
-        demand(f"{name}: {path} as a script is {came}", came == "refused")
+        demand(f"{name}: {path} as a script is {came}, must be refused", came == "refused")
     wait_script(browser, ELEMENT, f"http://{home}/", "iframe")
     shown = browser.run("const f = document.querySelector('iframe');"
                         "try { return f.contentDocument ? 'blank' : 'other'; } catch { return 'other'; }")
     refused = any("frame" in message.lower() and ("refused" in message.lower() or "violates" in message.lower())
                   for message in browser.console())
-    demand(f"{name}: the page is not put into a frame ({shown})", refused)
+    demand(f"{name}: the page cannot be shown in a frame ({shown})", refused)
     browser.run(FORM, start)
-    browser.wait_for(f"{name}: a form that posts an order is answered with a refusal",
+    browser.wait_for(f"{name}: an order posted by a form is refused",
                      lambda: "error" in browser.run("return document.body.innerText"))
     nothing_changed(session, name)
 
@@ -101,29 +104,31 @@ def attack(session, browser, name):
 def rebind(session, browser):
     browser.driver.get(f"http://{ATTACKER}:{session.port}/")
     said = browser.run("return document.body.innerText")
-    demand(f"a name rebound to this host is told: {said.strip()}", "Host is not a name of this daemon" in said)
+    demand(f"a request with a rebound name is refused: {said.strip()}", "Host is not a name of this daemon" in said)
     came = wait_script(browser, FETCH, f"http://{ATTACKER}:{session.port}/api/token", {})
-    demand(f"it gets no token: {came}", came == 421)
+    demand(f"the rebound name gets no token: status {came}", came == 421)
     socket = wait_script(browser, SOCKET, f"ws://{ATTACKER}:{session.port}/live")
-    demand("it gets no stream", socket == "closed" and any("code: 421" in message for message in browser.console()))
+    demand("the rebound name gets no stream",
+           socket == "closed" and any("code: 421" in message for message in browser.console()))
     start = f"http://{ATTACKER}:{session.port}/api/occupation/start"
     came = wait_script(browser, FETCH, start, post("application/json"))
-    demand(f"its order is refused: {came}", came == 421)
+    demand(f"an order to the rebound name is refused: status {came}", came == 421)
     nothing_changed(session, "rebound")
 
 
 def be_at_home(session, browser):
-    """The same requests from the daemon's own page go through: what was refused above was so for its origin."""
+    """Sends the same requests from the daemon's own page; they must succeed, so the origin was the reason of the refusals."""
     browser.open(session.port)
     browser.wait_for_text("caption-x", "mean")
     home = f"127.0.0.1:{session.port}"
-    demand("its own page has the stream", wait_script(browser, SOCKET, f"ws://{home}/live") == "open")
+    demand("the daemon's own page gets the stream", wait_script(browser, SOCKET, f"ws://{home}/live") == "open")
     token = browser.run("return document.querySelector('meta[name=a351-token]').content")
     start = f"http://{home}/api/occupation/start"
-    demand("an order without the token is refused there too",
+    demand("the own page's order without the token is refused",
            wait_script(browser, FETCH, start, post("application/json")) == 403)
     headers = {"Content-Type": "application/json", "X-A351-Token": token}
-    demand("with it, it is taken", wait_script(browser, FETCH, start, {**post(""), "headers": headers}) == 200)
+    demand("the own page's order with the token is accepted",
+           wait_script(browser, FETCH, start, {**post(""), "headers": headers}) == 200)
     browser.wait_for_text("run-site", "No.1")
 
 

@@ -1,4 +1,4 @@
-"""Everything goes without a mouse, each button sends what it says, and a token that is wrong can be mended."""
+"""The page can be used without a mouse, each button sends its order, and a wrong token can be replaced."""
 
 import time
 
@@ -19,13 +19,13 @@ def tab_round(browser, count):
     for _ in range(count):
         browser.press(Keys.TAB)
         name, outline_px = browser.run(OUTLINE)
-        demand(f"the focus on {name} is seen: an outline of {outline_px} px", outline_px >= 3)
+        demand(f"the focus on {name} is visible: an outline of {outline_px} px, at least 3", outline_px >= 3)
         stops.append(name)
     return stops
 
 
 def last_post(stub, browser, path):
-    browser.wait_for(f"{path} was asked for", lambda: stub.posts and stub.posts[-1][0] == path)
+    browser.wait_for(f"an order to {path} was sent", lambda: stub.posts and stub.posts[-1][0] == path)
     browser.wait_for_text("answer", f"took {path}")
     return stub.posts[-1][1]
 
@@ -34,11 +34,11 @@ def renew_token(stub, browser):
     stub.token = "another-start"
     browser.find("#note").send_keys("first", Keys.ENTER)
     last_post(stub, browser, "/api/note")
-    demand("after a restart of the daemon an order goes through with the new token, unasked",
+    demand("after a restart of the daemon an order is repeated with the new token, without asking",
            [body for _, body in stub.posts[-2:]] == [{"note": "first"}] * 2 and browser.text("token-form") == "")
     stub.token, stub.tells_token = "of-the-configuration", False
     browser.find("#note").send_keys("second", Keys.ENTER)
-    browser.wait_for_text("answer", "Not done: X-A351-Token is missing or wrong")
+    browser.wait_for_text("answer", "Not done: the token (header X-A351-Token) is missing or wrong")
     browser.wait_for_text("token-form", "Token of this daemon")
     browser.demand_readable("the question for the token")
     browser.find("#token").send_keys("of-the-configuration", Keys.ENTER)
@@ -48,7 +48,7 @@ def renew_token(stub, browser):
     browser.wait_for_text("run-site", "No.5")
     browser.find("#note").send_keys("third", Keys.ENTER)
     last_post(stub, browser, "/api/note")
-    demand("a token typed in is kept over a reload", browser.text("token-form") == "")
+    demand("a typed token is kept after a reload", browser.text("token-form") == "")
 
 
 with Browser(allowed_errors=["status of 403"]) as page:
@@ -59,20 +59,21 @@ with Browser(allowed_errors=["status of 403"]) as page:
     page.open(daemon.port)
     page.wait_for_text("start-site", "No.5, 3.3 km")
     order = ["start-site", "start-operator", "start-note", "start", "target"]
-    demand(f"Tab goes through the form first: {order}", tab_round(page, 5) == order)
+    demand(f"Tab moves through the form first: {order}", tab_round(page, 5) == order)
     page.press(Keys.ENTER)
-    demand("Enter in the target sets it", last_post(daemon, page, "/api/target") == {"target_mgal": 1.0})
+    demand("Enter in the target field sets the target", last_post(daemon, page, "/api/target") == {"target_mgal": 1.0})
     for text in ("0", "x", "-1"):
         page.run("document.getElementById('target').value = arguments[0]", text)
         count = len(daemon.posts)
         page.press(Keys.ENTER)
-        page.wait_for_text("answer", "Not done: the target is a number of mGal above 0")
+        page.wait_for_text("answer", "Not done: the target must be a number of mGal above 0")
         demand(f"a target of {text} is not sent", len(daemon.posts) == count)
 
     page.driver.refresh()
     page.wait_for_text("start-site", "No.5")
     page.press(Keys.TAB, "No.5", Keys.TAB, "T. Sato", Keys.TAB, "on the pillar", Keys.ENTER)
-    demand("Enter starts at the site typed, with operator and note", last_post(daemon, page, "/api/occupation/start")
+    demand("Enter starts an occupation at the typed site, with operator and note",
+           last_post(daemon, page, "/api/occupation/start")
            == {"site": "No.5", "operator": "T. Sato", "note": "on the pillar"})
 
     daemon.status["occupation"] = occupation()
@@ -80,12 +81,12 @@ with Browser(allowed_errors=["status of 403"]) as page:
     page.driver.refresh()
     page.wait_for_text("run-site", "No.5")
     order = ["stop", "setup", "discard", "BUTTON", "target"]
-    demand(f"Tab goes through what can be done with it: {order}", tab_round(page, 5) == order)
+    demand(f"Tab moves through the actions of a running occupation: {order}", tab_round(page, 5) == order)
     page.press_with_shift(*[Keys.TAB] * 4)
     page.press(Keys.ENTER)
-    demand("Enter on Stop stops", last_post(daemon, page, "/api/occupation/stop") == {})
+    demand("Enter on Stop stops the occupation", last_post(daemon, page, "/api/occupation/stop") == {})
     page.press(Keys.TAB, Keys.SPACE)
-    demand("Space on Next set-up sets up", last_post(daemon, page, "/api/occupation/setup") == {})
+    demand("Space on Next set-up starts the next set-up", last_post(daemon, page, "/api/occupation/setup") == {})
 
     count = len(daemon.posts)
     page.press(Keys.TAB, Keys.ENTER)
@@ -94,29 +95,29 @@ with Browser(allowed_errors=["status of 403"]) as page:
     page.shot("discard-1366")
     page.press(Keys.ENTER)
     time.sleep(0.3)
-    demand("Enter at once keeps it: the first button is the harmless one",
+    demand("Enter on the question keeps the occupation, because the first button is the harmless one",
            len(daemon.posts) == count and page.text("confirm-text") == "")
     page.press(Keys.ENTER)
     page.wait_for_text("confirm-text", "Discard the running")
     page.press(Keys.ESCAPE)
-    page.wait_for("Escape keeps it", lambda: page.text("confirm-text") == "")
+    page.wait_for("Escape keeps the occupation", lambda: page.text("confirm-text") == "")
     page.press(Keys.ENTER, Keys.TAB, Keys.ENTER)
-    demand("the second button discards", last_post(daemon, page, "/api/occupation/discard") == {})
+    demand("the second button discards the occupation", last_post(daemon, page, "/api/occupation/discard") == {})
 
     page.press(Keys.TAB, Keys.ENTER)
-    page.wait_for_text("rename-text", "The occupation called No.5 was at another site")
+    page.wait_for_text("rename-text", "Choose the correct site for the occupation named No.5")
     page.demand_readable("the new name")
     page.shot("rename-1366")
     page.press("No.7", Keys.TAB, Keys.TAB, Keys.ENTER)
-    demand("the right site is sent", last_post(daemon, page, "/api/occupation/rename") == {"site": "No.7"})
+    demand("the correct site is sent", last_post(daemon, page, "/api/occupation/rename") == {"site": "No.7"})
 
     page.find("#note").send_keys("rain began", Keys.ENTER)
-    demand("Enter in the note writes it", last_post(daemon, page, "/api/note") == {"note": "rain began"})
-    page.wait_for("and empties the field", lambda: page.find("#note").get_attribute("value") == "")
+    demand("Enter in the note field sends the note", last_post(daemon, page, "/api/note") == {"note": "rain began"})
+    page.wait_for("the note field is empty after sending", lambda: page.find("#note").get_attribute("value") == "")
 
     page.find("#signal-span input[value='60']").send_keys(Keys.ARROW_RIGHT)
     page.wait_for_text("caption-x", "x: median")
-    demand("the arrows choose the span",
+    demand("the arrow keys choose the time span",
            page.run("return document.querySelector('[name=signal-span]:checked').value") == "3600")
 
     renew_token(daemon, page)

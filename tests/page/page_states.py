@@ -1,4 +1,4 @@
-"""Each state of the page, with made-up data: words, signs, contrast, sizes and the pictures under screenshots/."""
+"""Each state of the page with made-up data: words, signs, contrast and sizes; saves pictures under screenshots/."""
 
 import time
 
@@ -18,17 +18,17 @@ def show_verdicts(stub, browser):
         sign = browser.run("return document.getElementById('verdict-sign').getAttribute('href')")
         pictures.add(sign)
         checks = browser.text("verdict-checks").splitlines()
-        demand(f"{state}: what is not met comes first, with a mark: {checks[0]}",
+        demand(f"{state}: checks that are not met are listed first, with a mark: {checks[0]}",
                [line[0] for line in checks] == ["✓" if one["is_met"] else "✗" for one in VERDICTS[state]])
         for size in (LAPTOP, PHONE):
             browser.resize(size)
             browser.demand_readable(f"{state} at {size[0]} px")
             browser.shot(f"{state.replace(' ', '-')}-{size[0]}")
         browser.resize(LAPTOP)
-    demand(f"each verdict has a sign of its own: {pictures}", len(pictures) == len(VERDICTS))
+    demand(f"each verdict has its own sign: {pictures}", len(pictures) == len(VERDICTS))
     checks = browser.text("verdict-checks")
-    demand("values have units", "0.05 °C/h, limit 0.25 °C/h" in checks and "180 s, at least 72 s" in checks)
-    demand("an error stands beside its value", "2.1 ± 1.4 mGal/h" in checks)
+    demand("values have units", "0.05 °C/h (limit 0.25 °C/h)" in checks and "180 s ago (needs 72 s)" in checks)
+    demand("an error is shown with its value", "2.1 ± 1.4 mGal/h" in checks)
 
 
 def show_without_colour(stub, browser):
@@ -47,11 +47,11 @@ def count_announcements(stub, browser):
     for held_s in (11, 12):
         stub.status["verdict"] = verdict("settling", held_s=held_s)
         browser.wait_for_text("verdict-held", f"{held_s} s")
-    demand("a verdict that holds is not read out again", browser.run("return window.announced") == 0)
+    demand("an unchanged verdict is not announced again", browser.run("return window.announced") == 0)
     stub.status["verdict"] = verdict("stable", held_s=0)
     browser.wait_for_text("verdict-word", "STABLE")
-    demand("a new one is, once", browser.run("return window.announced") == 1)
-    demand("the live region is polite",
+    demand("a new verdict is announced once", browser.run("return window.announced") == 1)
+    demand("the verdict is announced politely (aria-live)",
            browser.find("#verdict-word").get_attribute("aria-live") == "polite")
 
 
@@ -59,10 +59,10 @@ def show_occupations(stub, browser):
     stub.status["verdict"] = verdict("stable", held_s=430)
     stub.status["occupation"] = occupation()
     browser.wait_for_text("run-judgement", "still about 4 min 10 s needed (target 1.00 mGal)")
-    demand("value and standard error have their unit", "979861.32 ± 1.31 mGal" in browser.text("run-value"))
+    demand("value and standard error are shown with their unit", "979861.32 ± 1.31 mGal" in browser.text("run-value"))
     demand("the next set-up is not proposed yet", browser.text("run-propose") == "")
     above = {name: browser.is_above_fold(name) for name in ABOVE_FOLD + ["stop", "run-value"]}
-    demand(f"what matters is above the fold at 1366 x 768: {above}", all(above.values()))
+    demand(f"the main items are visible without scrolling at 1366 x 768: {above}", all(above.values()))
     browser.shot("occupation-1366")
 
     stub.status["occupation"] = occupation(propose_set_up=True,
@@ -70,7 +70,7 @@ def show_occupations(stub, browser):
     browser.wait_for_text("run-propose", "Half time: lift the box")
     browser.wait_for_text("run-warnings", "this is stay 2")
     browser.demand_readable("half time")
-    demand("stop stays above the fold", browser.is_above_fold("stop"))
+    demand("the stop button stays visible without scrolling", browser.is_above_fold("stop"))
     browser.shot("half-time-1366")
 
     stub.status["occupation"] = occupation(reading=reading(0.82, 0.0, True), set_up_count=2)
@@ -85,25 +85,25 @@ def show_occupations(stub, browser):
 
     stub.status["occupation"] = occupation(reading=reading(None, None))
     browser.wait_for_text("run-judgement", "time needed not known yet")
-    demand("no standard error is shown before there is one", browser.text("run-value") == "979861.32 mGal")
+    demand("no standard error is shown before it is known", browser.text("run-value") == "979861.32 mGal")
 
 
 def show_level(stub, browser):
-    browser.wait_for_text("level-numbers", "no tilt known yet")
+    browser.wait_for_text("level-numbers", "tilt not known yet")
     stub.status["tilt"] = tilt(2.4, -0.6, ["lower the +x side by 2.4'", "raise the +y side by 0.6'"])
     browser.wait_for_text("level-advice", "lower the +x side by 2.4′")
-    demand("both axes in arc minutes with their signs", browser.text("level-numbers") == "x +2.4′ y −0.6′")
-    demand("words say that it is too much", browser.text("level-word") == "✗ more than 1.2′")
+    demand("both axes are shown in arc minutes with their signs", browser.text("level-numbers") == "x +2.4′ y −0.6′")
+    demand("words say that the tilt is too large", browser.text("level-word") == "✗ more than 1.2′")
     x, y = (float(browser.find("#bubble-spot").get_attribute(key)) for key in ("cx", "cy"))
-    demand(f"the bubble is at the high side, +x and -y: {x:.0f}, {y:.0f} (down is positive)", x > 40 and y > 0)
+    demand(f"the bubble is on the high side, +x and -y: {x:.0f}, {y:.0f} (down is positive)", x > 40 and y > 0)
     browser.shot("tilted-1366")
     stub.status["tilt"] = tilt(60.0, 80.0, ["lower the +x side by 60.0'", "lower the +y side by 80.0'"])
     browser.wait_for_text("level-numbers", "+80.0′")
     x, y = (float(browser.find("#bubble-spot").get_attribute(key)) for key in ("cx", "cy"))
-    demand(f"a bubble far out stays at the rim: {x:.0f}, {y:.0f}", 80 < (x * x + y * y) ** 0.5 < 100)
+    demand(f"at a large tilt the bubble stays at the rim: {x:.0f}, {y:.0f}", 80 < (x * x + y * y) ** 0.5 < 100)
     stub.status["tilt"] = tilt(None, None)
-    browser.wait_for_text("level-numbers", "no tilt known yet")
-    demand("no bubble without a tilt", browser.find("#bubble-spot").get_attribute("visibility") == "hidden")
+    browser.wait_for_text("level-numbers", "tilt not known yet")
+    demand("without a known tilt no bubble is shown", browser.find("#bubble-spot").get_attribute("visibility") == "hidden")
     stub.status["tilt"] = tilt(0.4, 0.3)
     browser.wait_for_text("level-word", "✓ within 1.2′")
 
@@ -116,7 +116,7 @@ def show_day(stub, browser):
     browser.wait_for("the three occupations of the last 24 h are listed",
                      lambda: len(browser.text("day-rows").splitlines()) == 3)
     rows = browser.text("day-rows").splitlines()
-    demand(f"newest first, with set-ups, note and what is known of the value: {rows}",
+    demand(f"occupations are listed newest first, with set-ups, note and value if known: {rows}",
            "2 set-ups" in rows[0] and "–" in rows[1] and "windy" in rows[2] and "± 0.42" in rows[2])
     browser.find("#start-site").send_keys("No.0")
     browser.wait_for_text("start-warning", "was occupied at")

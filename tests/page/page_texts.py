@@ -1,4 +1,4 @@
-"""Names, notes and messages of anybody's making are shown as the texts they are, and leave the page usable."""
+"""Names, notes and messages with any characters are shown as plain text, and the page stays usable."""
 
 import time
 
@@ -43,34 +43,34 @@ with Browser() as page:
     elements = page.run(ELEMENTS)
     for name, (text, expected) in CASES.items():
         show_everywhere(daemon, text)
-        page.wait_for(f"{name}: the site is shown as it is", lambda: shown(page, "run-site") == expected)
-        page.wait_for(f"{name}: so it is in the day's list",
+        page.wait_for(f"{name}: the site is shown unchanged", lambda: shown(page, "run-site") == expected)
+        page.wait_for(f"{name}: the site is shown unchanged in the list of the day",
                       lambda: expected in shown(page, "day-rows"))
         for place in ("run-remark", "run-warnings", "verdict-checks", "level-advice", "level-reference", "trouble",
                       "health-rows"):
             said = shown(page, place).replace("′", "'")
-            demand(f"{name}: {place} holds the text", expected.replace("′", "'") in said)
+            demand(f"{name}: {place} shows the text", expected.replace("′", "'") in said)
         page.run("scrollTo(0, 0)")
         for size in (LAPTOP, PHONE):
             page.resize(size)
             page.demand_readable(f"{name} at {size[0]} px")
             if size == LAPTOP:
-                demand(f"{name}: verdict and stop are in view",
+                demand(f"{name}: verdict and stop button are visible without scrolling",
                        page.is_above_fold("verdict-word") and page.is_above_fold("stop"))
             page.shot(f"text-{name.replace(' ', '-')}-{size[0]}")
         page.resize(LAPTOP)
-        demand(f"{name}: no element has come of it", page.run(ELEMENTS) == elements)
-        demand(f"{name}: nor has the title been taken over: {page.driver.title[:60]!r}",
+        demand(f"{name}: the text created no element", page.run(ELEMENTS) == elements)
+        demand(f"{name}: the text did not change the title: {page.driver.title[:60]!r}",
                page.driver.title.startswith("SETTLING") and page.driver.title.endswith("a351"))
 
         daemon.status["occupation"] = None
-        page.wait_for(f"{name}: the site is in the list to start from",
+        page.wait_for(f"{name}: the list of sites shows the site",
                       lambda: page.text("start-site") != "" and expected[:200] in shown(page, "start-site"))
         page.run("const s = document.getElementById('start-site'); s.selectedIndex = 1;")
         page.click("#start")
         page.wait_for(f"{name}: the order carries the name unchanged",
                       lambda: daemon.posts and daemon.posts[-1][1].get("site") == text)
         page.click("#discard-last")
-        demand(f"{name}: the question names it", expected in shown(page, "confirm-text"))
-        demand(f"{name}: and its buttons are in the window", page.is_above_fold("confirm-yes"))
+        demand(f"{name}: the question shows the name", expected in shown(page, "confirm-text"))
+        demand(f"{name}: the buttons of the question are visible without scrolling", page.is_above_fold("confirm-yes"))
         page.click("#confirm-no")

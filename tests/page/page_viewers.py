@@ -1,5 +1,7 @@
-"""Sixteen look at once: a browser that stays, one that reloads every second, thirteen sockets, one that never reads.
-The record does not notice, and the page that stays is never stale."""
+"""Sixteen simultaneous viewers: a browser that stays, one that reloads every second, and fourteen sockets, one never read.
+
+The recording must not be disturbed, and the page that stays must never be stale.
+"""
 
 import threading
 import time
@@ -40,13 +42,14 @@ with Scratch() as scratch, Browser() as page, Browser(allowed_errors=LOST) as re
         oldest_s = max(oldest_s, float(page.text("age").split()[0]))
         banners.add(page.text("banner"))
         time.sleep(max(0.0, begin + 1 - time.monotonic()))
-    demand(f"over {loads} reloads of the other its data are {oldest_s} s old at most, less than 1", oldest_s < 1.0)
-    demand(f"and it never called them stale: {banners}", banners == {""})
+    demand(f"during {loads} reloads of the other browser the data of the page are at most {oldest_s} s old, limit 1",
+           oldest_s < 1.0)
+    demand(f"the page never called its data stale: {banners}", banners == {""})
     restless.wait_for_text("caption-x", "mean")
-    demand(f"every socket was served: {min(reader.count for reader in readers)} messages at least",
+    demand(f"every socket was served with at least {min(reader.count for reader in readers)} messages",
            min(reader.count for reader in readers) > 8 * CROWD_S)
     page.allowed_errors = restless.allowed_errors
     _, counters = session.end()
-    demand("nothing was dropped, skipped or missing", counters["gaps"] == counters["samples_missing"]
+    demand("the recording has no gap, no skipped byte and one session", counters["gaps"] == counters["samples_missing"]
            == counters["bytes_skipped"] == counters["queue_full"] == 0 and counters["sessions"] == 1)
     session.archive_is_true(missing=0)

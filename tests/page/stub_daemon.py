@@ -1,5 +1,7 @@
-"""A stand-in for the daemon that speaks the interface of the page with made-up data: states that the real one would
-need hours for, and names that no list of sites should hold."""
+"""Replacement for the daemon that serves the page with made-up data.
+
+It shows states that the real daemon would reach only after hours, and names that should not be in a list of sites.
+"""
 
 import base64
 import datetime
@@ -34,7 +36,7 @@ def first_status():
                                            "span_h": 2.5, "advice": ""}},
         "verdict": {"state": "settling", "since": None, "held_s": 75.0, "reasons": [],
                     "checks": [check("temperature slope", 0.31, "degC/h", 0.25, False),
-                               check("temperature off the set point", 0.02, "degC", 1.0, True)]},
+                               check("temperature differs from the set point by", 0.02, "degC", 1.0, True)]},
         "occupation": None, "target_mgal": 1.0, "tilt": None,
         "live": {"rate_hz": RATE_HZ, "interval_s": 1 / RATE_HZ,
                  "channels": [{"name": name, "unit": "mg", "scale": SCALE_MG, "offset": 0.0} for name in "xyz"]
@@ -50,13 +52,13 @@ def first_status():
     }
 
 
-def check(quantity, value, unit, limit, is_met, is_least=False, error=None):
-    return {"quantity": quantity, "value": value, "error": error, "unit": unit, "limit": limit, "is_least": is_least,
-            "is_met": is_met}
+def check(quantity, value, unit, limit, is_met, is_least=False, error=None, ending=""):
+    return {"quantity": quantity, "value": value, "error": error, "unit": unit, "ending": ending, "limit": limit,
+            "is_least": is_least, "is_met": is_met}
 
 
 def sample_counts(index):
-    """x, y, z, temperature of one sample, in counts."""
+    """Returns x, y, z and temperature of one sample, in counts."""
     noise = random.gauss
     t = index / RATE_HZ
     return (-412 + round(noise(0, 2.6)), 1033 + round(noise(0, 2.6)),
@@ -65,20 +67,23 @@ def sample_counts(index):
 
 
 class StubDaemon:
-    """Serves until the test ends.  `status` may be changed at any time; `is_sampling` off: no sample more; `is_away`
-    on: nobody answers.  `posts` are the orders that came, those refused as well."""
+    """HTTP server that runs until the test ends.
+
+    `status` may be changed at any time.  `is_sampling` False: no new samples; `is_away` True: no answers.  `posts` holds the
+    received orders, including the refused ones.
+    """
 
     def __init__(self):
         self.status = first_status()
         self.sites = []
         self.occupations = []
         self.posts = []
-        self.history_gap = None  # (begin, end) in Unix seconds: no bins there.
+        self.history_gap = None  # (begin, end) in Unix seconds of a gap in the history.
         self.peak_s = None  # Unix time of a peak of 2 mg in the history.
         self.is_sampling = True
         self.is_away = False
         self.token = "0123456789abcdef"
-        self.tells_token = True  # As on loopback.
+        self.tells_token = True  # The page gets the token, as on loopback.
         self.begin_s = time.time() - 70
         self.next_index = 0
         self.samples = []
@@ -112,7 +117,7 @@ class StubDaemon:
             time.sleep(0.05)
 
     def lose(self, seconds):
-        """A gap: samples up to now are there, those of the next seconds are not."""
+        """Makes a gap: the samples of the next seconds are missing."""
         self.is_sampling = False
         time.sleep(seconds)
         self.is_sampling = True
@@ -154,7 +159,7 @@ class StubDaemon:
             return self.reply(request, self.full_status())
         if path == "/api/token":
             if not self.tells_token:
-                return self.reply(request, {"error": "the token is the one in [page] token"}, status=403)
+                return self.reply(request, {"error": "the token is not given out here; use that of [page] token"}, status=403)
             return self.reply(request, {"token": self.token})
         if path == "/api/sites":
             return self.reply(request, {"sites": self.sites})
@@ -197,7 +202,7 @@ class StubDaemon:
             request.close_connection = True
             return
         if request.headers["X-A351-Token"] != self.token:
-            return self.reply(request, {"error": "X-A351-Token is missing or wrong"}, status=403)
+            return self.reply(request, {"error": "the token (header X-A351-Token) is missing or wrong"}, status=403)
         self.reply(request, {"message": f"took {request.path}", "occupation": self.status["occupation"]})
 
     def live(self, request):
@@ -221,7 +226,7 @@ class StubDaemon:
                     fresh = fresh[len(run):]
                 time.sleep(0.1)
         except OSError:
-            pass  # The browser is gone.
+            pass  # The browser has closed the connection.
 
     def block(self, run):
         first = run[0][0]

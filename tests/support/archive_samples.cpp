@@ -1,5 +1,5 @@
-// Prints what an archive holds: `channel=C samples=N first=UTC last=UTC`, and with an OUT directory writes the counts of
-// each channel to OUT/C, one a line.
+// Prints one line for each channel of an archive: `channel=C samples=N first=UTC last=UTC`.
+// With a directory OUT, also writes the counts of each channel to OUT/C, one on each line.
 //   archive-samples ARCHIVE [OUT]
 
 #include <fstream>

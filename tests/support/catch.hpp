@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Catch2 under the names of version 3 (Debian 13), also where version 2 is installed (Debian 12).
+/// Catch2 with the names of version 3 (Debian 13), also if version 2 is installed (Debian 12).
 
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
@@ -8,7 +8,7 @@ using Catch::Approx;  // Version 2 declares it globally itself.
 using Catch::Matchers::ContainsSubstring;
 #else
 #include <catch2/catch.hpp>
-/// Version 2 calls this matcher Contains.
+/// Returns the matcher that version 2 calls Contains.
 [[nodiscard]] inline auto ContainsSubstring(const std::string& part) {
     return Catch::Matchers::Contains(part);
 }

@@ -9,7 +9,8 @@
 
 namespace {
 
-/// Room for what runs at a time, and programs may be started there.
+/// Returns true if the directory has room for all tests that run at the same time and can hold
+/// executable files.
 bool holds_scratch_files(const char* directory) {
     constexpr auto kRoomBytes = 1UL << 30;
     struct statvfs disk {};
@@ -19,14 +20,14 @@ bool holds_scratch_files(const char* directory) {
 
 }  // namespace
 
-/// Scratch files lie in memory where they can: these tests make the trouble of disks themselves, and to wait for a real
-/// one to sync would be nearly all their time.
+/// Scratch files are in memory if possible: these tests simulate disk faults themselves, and
+/// waiting for a real disk to sync would take nearly all of their time.
 int main(int argc, char** argv) {
     const char* memory = "/dev/shm";
     if (holds_scratch_files(memory)) ::setenv("TMPDIR", memory, 0);
     const bool is_list = std::any_of(
         argv, argv + argc, [](std::string_view word) { return word.starts_with("--list"); });
-    if (is_list) return Catch::Session().run(argc, argv);  // Its status is a number of tests.
+    if (is_list) return Catch::Session().run(argc, argv);  // Its status is the number of tests.
     HostWatch watch;
     const int status = Catch::Session().run(argc, argv);
     return judge(status, watch.longest_pause(), argv);

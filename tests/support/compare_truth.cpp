@@ -1,13 +1,14 @@
-/// Compares an SDS archive with the emulator's truth file, sample for sample, with libmseed alone:
-/// none of the project's own readers takes part.
+/// Compares an SDS archive with the emulator's truth file, sample by sample.  Reads the archive
+/// with libmseed alone, without the project's own readers.
 ///
 ///     compare-truth ARCHIVE TRUTH
 ///
-/// Every frame that arrived intact belongs into the archive exactly once, none that was damaged, lost
-/// or a repetition; one with a misplaced counter may be there or not.  Prints one line per channel
-/// and exits 0 when nothing was altered or duplicated, which a damaged or repeated frame in the
-/// archive would count as; samples of the truth that the archive lacks are counted in runs, and so
-/// are record boundaries whose step is not the truth's to 15 ms.
+/// Every frame that arrived intact must be in the archive exactly once.  Damaged, lost and repeated
+/// frames must not be in it; they would count as altered or duplicated samples.  A frame with a
+/// misplaced counter may be in it or not.  Prints one line for each channel, with counts of missing
+/// samples and runs of them, and of record boundaries whose time step differs from the truth by
+/// more than 15 ms.  Exits with 0 if every channel has matching samples, none altered or
+/// duplicated, and no such time step.
 
 #include <libmseed.h>
 
@@ -40,7 +41,7 @@ struct TruthRow {
 static_assert(sizeof(TruthRow) == 40);
 
 struct Truth {
-    std::vector<TruthRow> rows;  ///< That may be in the archive, in order.
+    std::vector<TruthRow> rows;  ///< Frames that may be in the archive, in order.
     std::size_t intact = 0, damaged = 0, lost = 0, repeated = 0, misplaced = 0;
 };
 
@@ -67,14 +68,14 @@ Truth read_truth(const char* file) {
 constexpr std::array kChannels{"BN1", "BN2", "BNZ", "BK1"};
 
 struct ArchivedSample {
-    std::array<std::optional<std::int32_t>, kChannels.size()> counts;  // of this position, each
+    std::array<std::optional<std::int32_t>, kChannels.size()> counts;  // one for each channel
     double time_s;  // relative to the first truth row
     bool starts_record;
     bool follows_gap;
 };
 
-/// In all channels: a value of one of them, of some hundreds that noise takes, repeats too often to
-/// tell a place.
+/// Returns true if all known channels agree.  A single channel is not enough: its noise takes only
+/// some hundred values, which repeat too often to identify a position.
 bool is_same(const ArchivedSample& sample, const TruthRow& row) {
     const std::array true_counts{row.axes[0], row.axes[1], row.axes[2], row.temperature};
     for (std::size_t c = 0; c < kChannels.size(); ++c) {
@@ -90,7 +91,8 @@ struct ArchivedRecord {
     std::vector<std::int32_t> counts;
 };
 
-/// In the order of writing, which is not that of the day files where a leap second is inserted.
+/// Returns the records in the order in which they were written.  After an inserted leap second this
+/// is not the order of the day files.
 std::vector<ArchivedRecord> read_records(const std::filesystem::path& archive,
                                          const std::string& channel, std::int64_t zero_ns) {
     std::vector<std::string> files;
@@ -138,8 +140,9 @@ std::vector<ArchivedSample> read_channel(const std::filesystem::path& archive, s
     return samples;
 }
 
-// Less than a sample at 50 Hz, and more than the 12 ms by which the clock may be drawn nearer within a
-// record, by 200 us a second for 60 s: when the first frames of a stream all came late.
+// Largest error of a time step at a record boundary, in s.  Less than a sample at 50 Hz, and more
+// than 12 ms: if the first frames of a stream are all late, the clock is corrected by 200 us per
+// second, for up to 60 s within a record.
 constexpr double kStep_s = 0.015;
 
 struct Comparison {
@@ -148,7 +151,7 @@ struct Comparison {
     double largest_time_error_s = 0.0;
 };
 
-/// Aligns by value: a run of equal samples decides, since white noise repeats by chance only.
+/// Aligns both at runs of equal samples; in white noise such runs are rarely equal by chance.
 Comparison compare(const std::vector<ArchivedSample>& archived,
                    const std::vector<TruthRow>& truth) {
     constexpr std::size_t kRun = 24;

@@ -1,4 +1,5 @@
-// Preloaded into a program, shows it a machine of A351_CORES cores.  std::thread asks get_nprocs().
+// Preloaded into a program, lets it see a machine with A351_CORES cores.  std::thread calls
+// get_nprocs().
 #include <sys/sysinfo.h>
 
 #include <cstdlib>

@@ -1,7 +1,8 @@
 #pragma once
 /// @file
-/// Counts what one thread allocates by operator new.  Not counted: malloc(), by which Eigen's matrices are
-/// allocated, and over-aligned new.  It replaces the operator: for one file of a program of its own.
+/// Counts the allocations of one thread by operator new.  Not counted: malloc(), which allocates
+/// Eigen's matrices, and over-aligned new.  Replaces the global operator, so include it in one file
+/// of a separate program only.
 
 #include <unistd.h>
 
@@ -11,7 +12,7 @@
 
 namespace a351::test {
 
-inline std::atomic<pid_t> watched_thread{0};  ///< 0: none.
+inline std::atomic<pid_t> watched_thread{0};  ///< Thread whose allocations are counted; 0: none.
 inline std::atomic<int> allocations{0};
 
 inline void* allocate(std::size_t size, const std::nothrow_t&) noexcept {
@@ -25,7 +26,7 @@ inline void* allocate(std::size_t size) {
     return memory;
 }
 
-/// Inlined, g++ sees free() meet operator new.
+/// Not inlined, because g++ would then warn that memory from operator new is released by free().
 [[gnu::noinline]] inline void release(void* memory) noexcept { std::free(memory); }
 
 }  // namespace a351::test

@@ -20,7 +20,7 @@ namespace a351::test {
 }
 
 inline void write_bytes(const std::filesystem::path& file, std::span<const std::byte> bytes) {
-    std::filesystem::remove(file);  // ext4 flushes a file that is rewritten in place: slow.
+    std::filesystem::remove(file);  // ext4 is slow when a file is rewritten in place: it flushes.
     std::ofstream out(file, std::ios::binary | std::ios::trunc);
     out.write(reinterpret_cast<const char*>(bytes.data()),
               static_cast<std::streamsize>(bytes.size()));

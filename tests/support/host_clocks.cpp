@@ -1,6 +1,9 @@
-// Preloaded into a daemon, shows it a host that slept or whose clock was set: its clocks are those of the real host,
-// changed by what the file named by A351_HOST_CLOCKS says at that moment, four integers of 8 bytes:
-//   ns that the monotonic clocks stood still, ns that UTC is ahead, synchronised (0, 1), what adjtimex returns then.
+// Preloaded into a daemon, lets it see a host that slept or whose clock was set.
+//
+// The clocks are those of the real host, changed by the current contents of the file named by
+// A351_HOST_CLOCKS, four integers of 8 bytes: time in ns for which the monotonic clocks were
+// stopped, time in ns by which UTC is ahead, synchronised (0, 1), and state returned by adjtimex if
+// synchronised.
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -45,7 +48,7 @@ extern "C" int clock_gettime(clockid_t id, timespec* time) noexcept {
     return result;
 }
 
-// Its deadline is by the clock above, the kernel's is not.
+// Converts the deadline from the changed clock above to the kernel's clock.
 extern "C" int pthread_cond_clockwait(pthread_cond_t* condition, pthread_mutex_t* mutex,
                                       clockid_t id, const timespec* until) {
     using Wait = int (*)(pthread_cond_t*, pthread_mutex_t*, clockid_t, const timespec*);

@@ -11,7 +11,7 @@ namespace a351::sim {
 namespace {
 
 constexpr double kStep = IndoorRecord::kStepSeconds;
-constexpr double kCycleSeconds = 900.0;  ///< What the publication calls the 15-minute band.
+constexpr double kCycleSeconds = 900.0;  ///< Period of the publication's 15-minute band.
 
 double mean_of(std::span<const double> values) {
     double sum = 0.0;
@@ -19,7 +19,7 @@ double mean_of(std::span<const double> values) {
     return sum / static_cast<double>(values.size());
 }
 
-/// Sum of products of deviations from the means.
+/// Returns the sum of products of deviations from the means.
 double product(std::span<const double> x, std::span<const double> y) {
     const double mean_x = mean_of(x), mean_y = mean_of(y);
     double sum = 0.0;
@@ -27,7 +27,7 @@ double product(std::span<const double> x, std::span<const double> y) {
     return sum;
 }
 
-/// Of y on x.
+/// Linear regression of y on x.
 struct Regression {
     double slope = 0.0, r2 = 0.0;
 };
@@ -37,12 +37,12 @@ Regression regress(std::span<const double> x, std::span<const double> y) {
     return {xy / xx, xy * xy / (xx * yy)};
 }
 
-/// Peak to peak of a sine of that standard deviation.
+/// Returns the peak-to-peak value of a sine with the standard deviation of the values.
 double swing(std::span<const double> values) {
     return 2.0 * std::sqrt(2.0 * product(values, values) / static_cast<double>(values.size()));
 }
 
-/// Between rising zero crossings, in seconds.
+/// Returns the mean period between rising zero crossings.
 double mean_period_s(const std::vector<double>& values) {
     std::size_t first = 0, last = 0;
     int count = 0;
@@ -54,7 +54,7 @@ double mean_period_s(const std::vector<double>& values) {
     return kStep * static_cast<double>(last - first) / (count - 1);
 }
 
-/// Correlation of temperature with the acceleration `lag` steps later.
+/// Returns the correlation of the temperature with the acceleration `lag` steps later.
 double correlation(const IndoorRecord& record, int lag) {
     const auto shift = static_cast<std::size_t>(std::abs(lag));
     const std::span<const double> t(record.temperature_degc), a(record.difference_mgal);
@@ -63,7 +63,7 @@ double correlation(const IndoorRecord& record, int lag) {
     return product(x, y) / std::sqrt(product(x, x) * product(y, y));
 }
 
-/// Largest correlation of that sign between two lags, refined by a parabola.
+/// Largest correlation of one sign between two lags, refined by a parabola.
 struct Peak {
     double delay_s = 0.0, size = 0.0;
 };
@@ -81,7 +81,8 @@ Peak find_peak(const IndoorRecord& record, double sign, int from, int to) {
 
 constexpr int kHalfCycle = static_cast<int>(0.5 * kCycleSeconds / kStep);
 
-/// Acceleration with its sign turned and moved 280 s earlier, on temperature, as published.
+/// Regresses the acceleration, with its sign reversed and moved 280 s earlier, on the temperature,
+/// as published.
 Regression turned_and_moved(const IndoorRecord& record) {
     constexpr std::size_t kEarlier = 14;  // 280 s.
     const std::span<const double> t(record.temperature_degc), a(record.difference_mgal);
@@ -96,7 +97,7 @@ IndoorRecord in_band(const IndoorRecord& record) {
             corrector::band_pass(record.difference_mgal, kStep, kShorter, kLonger)};
 }
 
-/// The mode whose mean period is nearest to the cycle, by ratio.
+/// Returns the mode whose mean period is nearest to the cycle, by ratio.
 const corrector::Component& cycle_mode(const corrector::EemdResult& result) {
     const corrector::Component* best = &result.modes.front();
     const auto distance = [](const corrector::Component& mode) {

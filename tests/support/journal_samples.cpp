@@ -1,5 +1,5 @@
-// Prints what a journal holds, in order: a line `SESSION UTC_NS` for every header, by the clock of which it was written,
-// and a line `INDEX COUNT X Y Z TEMPERATURE` for every sample.
+// Prints the contents of a journal in order: a line `SESSION UTC_NS` for every header, with the
+// host's UTC at which it was written, and a line `INDEX COUNT X Y Z TEMPERATURE` for every sample.
 //   journal-samples JOURNAL
 
 #include <iostream>

@@ -1,6 +1,7 @@
-// Joins the records of an archive as libmseed does by itself, and prints the traces:
-// `channel=C traces=N samples=N records=N recorded=N end_error_s=S`.  `recorded` counts the samples in the records; the end's
-// error is that of the last trace's last sample, by its first start and rate, against the newest record.
+// Joins the records of an archive with libmseed's own rules and prints one line about the traces:
+// `channel=C traces=N samples=N records=N recorded=N end_error_s=S`.
+// `recorded` is the number of samples in the records.  `end_error_s` is the time of the last sample
+// of the last trace, computed from the trace's start and rate, minus the time in the newest record.
 //   mseed-traces ARCHIVE CHANNEL
 
 #include <libmseed.h>

@@ -1,8 +1,9 @@
 #pragma once
 /// @file
-/// Simulated records against the statistics of the published ones: Matsuda et al.,
-/// tests/golden/tsukuba/README.md.  Each figure is the mean over seeds and has a range to lie in;
-/// ranges allow for what the publication leaves open and for the scatter of single records.
+/// Statistics of simulated records, to be compared with the published ones (Matsuda et al.,
+/// tests/golden/tsukuba/README.md).  Each figure is the mean over seeds and has an accepted range.
+/// The ranges allow for details that the publication does not give and for the scatter of single
+/// records.
 
 #include <cstdint>
 #include <string>
@@ -13,17 +14,17 @@
 namespace a351::sim {
 
 struct Figure {
-    std::string name;       ///< With its unit.
-    std::string published;  ///< As printed; a dash where the publication has no number.
+    std::string name;       ///< Name with its unit.
+    std::string published;  ///< Value as published, or words if the publication has no number.
     double low = 0.0, high = 0.0;
-    std::vector<double> values;  ///< One per seed.
+    std::vector<double> values;  ///< One value per seed.
 
     [[nodiscard]] double mean() const;
-    [[nodiscard]] double deviation() const;  ///< Of single values.
+    [[nodiscard]] double deviation() const;  ///< Standard deviation of the single values.
     [[nodiscard]] bool is_accepted() const { return mean() >= low && mean() <= high; }
 };
 
-/// Means over one occupation without its first and last minute, which handling spoils.
+/// Means over one occupation without its first and last minute, which handling disturbs.
 struct DayRow {
     double temperature_degc = 0.0;
     double difference_mgal = 0.0;  ///< Reading minus gravity minus tide.
@@ -31,7 +32,7 @@ struct DayRow {
 };
 [[nodiscard]] std::vector<DayRow> survey_day(const Scenario& scenario, std::uint64_t seed);
 
-/// 20 s means of a record at one point.
+/// Means over 20 s of a record at one point.
 struct IndoorRecord {
     static constexpr double kStepSeconds = 20.0;
     std::vector<double> temperature_degc;
@@ -39,13 +40,14 @@ struct IndoorRecord {
 };
 [[nodiscard]] IndoorRecord indoor_record(const Scenario& scenario, std::uint64_t seed);
 
-/// Seeds 1 ... `seeds` of the scenario tsukuba, without the samples between whole seconds.
+/// Returns figures for seeds 1 ... `seeds` of the scenario tsukuba, from samples at whole seconds
+/// only.
 [[nodiscard]] std::vector<Figure> survey_day_figures(int seeds);
 
-/// Seeds 1 ... `seeds` of the scenario indoor.
+/// Returns figures for seeds 1 ... `seeds` of the scenario indoor.
 [[nodiscard]] std::vector<Figure> indoor_figures(int seeds);
 
-/// The same decomposed by EEMD: 10 modes, 60 members.
+/// Returns figures of the same records decomposed by EEMD: 10 modes, 60 members.
 [[nodiscard]] std::vector<Figure> indoor_eemd_figures(int seeds);
 
 }  // namespace a351::sim

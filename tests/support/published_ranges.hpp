@@ -1,7 +1,8 @@
 #pragma once
 /// @file
-/// Ranges in which the statistics of simulated nights indoors lie as means over ten seeds or more: those of
-/// indoor_statistics.cpp, which computes them without the product, by the product's keys.
+/// Accepted ranges of the statistics of simulated nights indoors, as means over ten seeds or more.
+/// They are the ranges of indoor_statistics.cpp, which computes them independently, under the
+/// product's keys.
 
 #include <array>
 #include <string_view>
@@ -9,7 +10,7 @@
 namespace a351::sim {
 
 struct PublishedRange {
-    std::string_view key;  ///< In the result.json of `a351-correct record`.
+    std::string_view key;  ///< Key in the result.json of `a351-correct record`.
     double low, high;
 };
 
@@ -28,7 +29,7 @@ inline constexpr std::array<PublishedRange, 15> kPublishedRanges{{
     {"mode_r2", 0.2, 0.6},
     {"mode_negative_delay_s", 220.0, 300.0},
     {"trend_slope_mgal_per_degc", 0.0, 1e9},
-    // Of the plant's transfer function at 900 s: 271 mGal/degC at +76 degrees.
+    // The plant's transfer function at 900 s has 271 mGal/degC at +76 degrees.
     {"band_phase_deg", 66.0, 86.0},
 }};
 

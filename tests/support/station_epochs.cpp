@@ -1,5 +1,5 @@
-// Writes station metadata as they grow to OUT: one.xml, two.xml (another sensor, at a declared rate) and oven.xml (the
-// same with an oven).
+// Writes station metadata with a growing number of epochs to OUT: one.xml, two.xml (then another
+// sensor with a declared rate) and oven.xml (then the same sensor with an oven).
 //   station-epochs OUT
 
 #include <chrono>

@@ -10,7 +10,7 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kSleep = std::chrono::milliseconds(10);
-/// Limit as in tests/system/steady_host.py, with its reason.
+/// Longest delay that is not a pause, as in tests/system/steady_host.py, which gives the reason.
 constexpr nanoseconds kLongestDelay = std::chrono::milliseconds(250);
 constexpr int kFailed = 1;
 constexpr auto kIsSecondRun = "A351_HOST_PAUSED";
@@ -20,7 +20,8 @@ constexpr auto kIsSecondRun = "A351_HOST_PAUSED";
 HostWatch::HostWatch()
     : thread_([this](const std::stop_token& is_over) {
           while (!is_over.stop_requested()) {
-              // Also the clock on which the cases wait.  changed_clocks_test.cpp changes the others.
+              // The clock on which the test cases wait too.  changed_clocks_test.cpp changes the
+              // other clocks.
               const auto before = std::chrono::steady_clock::now();
               std::this_thread::sleep_for(kSleep);
               const nanoseconds pause = std::chrono::steady_clock::now() - before - kSleep;
@@ -36,7 +37,8 @@ std::chrono::duration<double> HostWatch::longest_pause() {
 
 int judge(int status, std::chrono::duration<double> pause, char** arguments) {
     if (pause.count() > 0)
-        std::fprintf(stderr, "steady_host: the host paused for %.1f s; the run ended with %d\n",
+        std::fprintf(stderr,
+                     "steady_host: the host paused for %.1f s; the run ended with status %d\n",
                      pause.count(), status);
     if (status == 0) return 0;
     if (pause.count() == 0 || std::getenv(kIsSecondRun) != nullptr) return kFailed;

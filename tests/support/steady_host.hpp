@@ -1,18 +1,20 @@
 #pragma once
 /// @file
-/// Repeats a program's tests once if they failed while the host paused, as tests/system/steady_host.py does for scripts.
+/// Repeats the tests of a program once if they failed while the host paused, as
+/// tests/system/steady_host.py does for scripts.
 
 #include <atomic>
 #include <chrono>
 #include <thread>
 
-/// Looks for pauses of the host until it is destroyed: sleeps 10 ms again and again and compares the clock.
+/// Detects pauses of the host until it is destroyed: sleeps 10 ms repeatedly and compares the
+/// clock.
 class HostWatch {
 public:
     HostWatch();
 
     /// Ends the watch.
-    /// @return the longest pause, zero if none was too long.
+    /// @return the longest pause; zero if there was none longer than 0.25 s
     [[nodiscard]] std::chrono::duration<double> longest_pause();
 
 private:
@@ -21,8 +23,10 @@ private:
     std::jthread thread_;
 };
 
-/// Returns the exit status for tests that ended with `status` after this longest pause, or runs the program again.
+/// Returns the exit status of tests that ended with `status`, or runs the program again if they
+/// failed in a pause.
 ///
-/// 0 is passed on, and a failure becomes 1.  A failure with a pause starts the program again in the same process, once:
-/// most cases only compute, and what fails twice is not excused by a busy machine.
+/// Returns 0 for success and 1 for a failure.  A failure with a pause starts the program again in
+/// the same process, once.  A second failure counts even with a pause, because most cases only
+/// compute and do not depend on time.
 [[nodiscard]] int judge(int status, std::chrono::duration<double> pause, char** arguments);

@@ -8,7 +8,7 @@
 namespace a351::sim {
 namespace {
 
-/// Straight line of difference on temperature through the rows the publication used.
+/// Straight line of the difference on temperature, fitted to the rows that the publication used.
 struct Line {
     double slope = 0.0, r2 = 0.0, rms = 0.0;
     std::vector<double> left_out_mgal;  ///< Residuals of the other rows.
@@ -49,8 +49,9 @@ Line fit_line(const std::vector<DayRow>& rows, const Scenario& scenario) {
     return line;
 }
 
-/// Coefficient of the rate, in mGal per degC/h, of difference = constant + temperature + rate + time.
-/// The rate is the step from the row before, whether used or not, over the time between.
+/// Returns the coefficient of the temperature rate, in mGal per degC/h, from a fit of the
+/// difference to constant + temperature + rate + time.  The rate is the change from the row before,
+/// used or not, divided by the time between.
 double rate_coefficient(const std::vector<DayRow>& rows, const Scenario& scenario,
                         bool with_outliers) {
     std::vector<Eigen::Vector4d> columns;

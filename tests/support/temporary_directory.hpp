@@ -8,7 +8,7 @@
 
 namespace a351::test {
 
-/// A new directory, removed with its content when the test ends.
+/// New directory, removed with its content when the object is destroyed.
 class TemporaryDirectory {
 public:
     TemporaryDirectory() {
@@ -25,7 +25,7 @@ public:
 
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 
-    /// Writes a file below the directory, and the folders that its name has.
+    /// Writes a file below the directory, creates the folders of its name, and returns its path.
     std::filesystem::path write(const std::string& name, const std::string& content) const {
         std::filesystem::create_directories((path_ / name).parent_path());
         std::ofstream(path_ / name) << content;

@@ -21,7 +21,7 @@ TwoPathTruth two_path_truth(const Scenario& scenario, std::uint64_t seed) {
     const SensorParameters& sensor = scenario.sensor;
     const double fast = -unit.crystal_dynamic_mgal_per_degc * unit.crystal_tau_s / kSecondsPerHour;
 
-    // A first-order lag of exp(-t / shown_s) is that times 1 / (1 - lag / shown_s).
+    // The first-order lag of exp(-t / shown_s) is exp(-t / shown_s) times 1 / (1 - lag / shown_s).
     const double shown_s = kSecondsPerHour * sensor.temperature_warm_up_tau_h;
     const auto follows = [shown_s](double lag_s) { return 1.0 / (1.0 - lag_s / shown_s); };
     const double since_h = sensor.power_on_before_start_h;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What a two-path fit should find in a simulated record.
+/// True parameters that a two-path fit should find in a simulated record.
 
 #include <array>
 #include <cstdint>
@@ -11,21 +11,22 @@
 namespace a351::sim {
 
 struct TwoPathTruth {
-    /// In the order of TwoPathTerm, in the units of the fit; lags and time in seconds.
+    /// True values in the order of TwoPathTerm, in the units of the fit; lags and time in s.
     std::array<double, corrector::kTwoPathTerms> values{};
 
     [[nodiscard]] double operator[](corrector::TwoPathTerm term) const {
         return values.at(static_cast<std::size_t>(term));
     }
-    [[nodiscard]] double static_slope() const;  ///< rA + rS, mGal/degC.
+    [[nodiscard]] double static_slope() const;  ///< Level + slow path (rA + rS), mGal/degC.
 };
 
-/// Of the unit that the seed draws.  The warm-up is the one that the thermometer does not show, less what
-/// the paths make of the thermometer's own: two exponentials, taken as one of their size and slope at the
-/// record's begin.
+/// Returns the truth for the unit drawn by the seed.  The warm-up is the part that the thermometer
+/// does not show, minus the response of the paths to the warm-up of the thermometer.  These two
+/// exponentials are replaced by one with their size and slope at the begin of the record.
 [[nodiscard]] TwoPathTruth two_path_truth(const Scenario& scenario, std::uint64_t seed);
 
-/// Estimate less truth in standard errors; of lags and time by logarithm.
+/// Returns estimate minus truth in standard errors; for lags and time by the logarithm of their
+/// ratio.
 [[nodiscard]] double deviation(const corrector::TwoPathFit& fit, const TwoPathTruth& truth,
                                corrector::TwoPathTerm term);
 [[nodiscard]] double static_slope_deviation(const corrector::TwoPathFit& fit,

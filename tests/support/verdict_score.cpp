@@ -42,7 +42,7 @@ VerdictScore score(const std::vector<VerdictState>& told, const std::vector<Allo
         return from;
     };
     const auto is_overtaken = [&](std::size_t i) {
-        const std::size_t from = i < kSeeSeconds ? 0 : i - kSeeSeconds;
+        const std::size_t from = i < kUnnoticedSeconds ? 0 : i - kUnnoticedSeconds;
         return std::count(&truth[from], &truth[i], Allowed::yes) > 0;
     };
     for (std::size_t i = 1; i < truth.size(); ++i) {

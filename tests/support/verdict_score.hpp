@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// How well a verdict does against the truth, by the operator's watch: a value of the live series
-/// counts from the instant at which it can be seen.
+/// Compares a verdict with the truth, in the operator's time: a value of the live series counts
+/// from the time at which it can be seen.
 
 #include <vector>
 
@@ -10,25 +10,29 @@
 
 namespace a351::sim {
 
+/// Time in s by which STABLE may come before the truth allows it.
 inline constexpr int kMostEarlySeconds = 60;
-/// A hand that comes gently (it grows over 5 to 25 s) is not above traffic at once: what becomes
-/// STABLE meanwhile, after the truth had allowed it, counts as false, not as early.
-inline constexpr std::size_t kSeeSeconds = 20;
+/// Time in s in which a touch can stay unnoticed: a gentle one grows over 5 to 25 s and is at first
+/// not stronger than traffic.  A verdict that becomes STABLE in this time after the truth last
+/// allowed it counts as false, not as early.
+inline constexpr std::size_t kUnnoticedSeconds = 20;
 
 struct VerdictScore {
-    int onsets = 0;               ///< STABLE was said where the truth is known.
-    std::vector<double> early_s;  ///< Onsets more than 1 min before the truth allowed: when.
-    std::vector<double>
-        delays_s;           ///< From the truth's beginning to STABLE; infinite: not before its end.
-    double stable_s = 0.0;  ///< Told STABLE, truth known ...
-    double false_s = 0.0;   ///< ... and against it.
+    int onsets = 0;  ///< Number of times the verdict became STABLE while the truth is known.
+    /// Times of onsets more than 1 min before the truth allowed them.
+    std::vector<double> early_s;
+    /// Delays from the time at which the truth allows STABLE to the verdict; infinite: not before
+    /// the truth forbids it again.
+    std::vector<double> delays_s;
+    double stable_s = 0.0;  ///< Time for which the verdict was STABLE and the truth is known.
+    double false_s = 0.0;   ///< Part of stable_s in which the truth forbids STABLE.
 
     void add(const VerdictScore& other);
     [[nodiscard]] double median_delay_s() const;
     [[nodiscard]] double false_share() const { return stable_s > 0.0 ? false_s / stable_s : 0.0; }
 };
 
-/// What was told, once a second from the start of the record; no_data before the first sample.
+/// Returns the verdict once a second from the start of the record; no_data before the first sample.
 [[nodiscard]] std::vector<daemon::VerdictState> told(const VerdictRecord& record);
 
 [[nodiscard]] VerdictScore score(const std::vector<daemon::VerdictState>& told,

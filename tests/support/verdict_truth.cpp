@@ -38,7 +38,7 @@ std::vector<double> error_course(const Scenario& scenario, const std::vector<Pla
     return error_mgal;
 }
 
-/// A vehicle does not touch the box.
+/// Returns the touches of the box; passing vehicles are not touches.
 std::vector<Touch> touches_of(const Scenario& scenario, const std::vector<PlannedSetUp>& plan,
                               std::uint64_t seed) {
     std::vector<Touch> touches;
@@ -53,7 +53,7 @@ std::vector<Touch> touches_of(const Scenario& scenario, const std::vector<Planne
     return touches;
 }
 
-/// The raw samples as the daemon thins them.
+/// Returns the raw samples decimated as in the daemon.
 std::vector<daemon::LiveSample> live_series(const Scenario& scenario, std::uint64_t seed,
                                             std::optional<DegC> switched_on_to) {
     const wire::DeviceProfile& profile = *wire::find_profile("A351");
@@ -99,7 +99,7 @@ std::vector<daemon::LiveSample> live_series(const Scenario& scenario, std::uint6
     return samples;
 }
 
-/// Settings of a record that the cases share: occupations at these centres.
+/// Returns the scenario that the cases share, with occupations centred at these times.
 Scenario visits(std::vector<double> centres_min, const std::vector<std::string>& sites) {
     Scenario scenario = load_scenario("tsukuba");
     const UtcTime zero = scenario.occupations.front().centre;
@@ -116,7 +116,7 @@ Scenario visits(std::vector<double> centres_min, const std::vector<std::string>&
     return scenario;
 }
 
-/// The air in the box is another at each stay; it changes while the box is driven.
+/// Gives each occupation another ambient temperature; it changes during the drives between them.
 void place_ambient(Scenario& scenario, RandomStream& draws, double most_degc) {
     double degc = draws.uniform(20.0, 32.0);
     const auto knot = [&](UtcTime utc) {
@@ -134,8 +134,8 @@ void place_ambient(Scenario& scenario, RandomStream& draws, double most_degc) {
     }
 }
 
-/// Nobody could know what the drives will bring: the truth is told while the box stands, but for
-/// the end of the stay, from where it reaches into the drive.
+/// Sets the truth to unknown during drives and at the end of each occupation, where it would depend
+/// on the drive that follows, which no verdict can foresee.
 void leave_out_drives(VerdictRecord& record) {
     std::vector<bool> is_judged(record.truth.size());
     for (const PlannedSetUp& first : record.plan) {

@@ -1,9 +1,10 @@
-"""arm64, cross-built in a fresh Debian: unit and golden tests under qemu, files beside amd64's, the emulator, packages.
+"""Builds for arm64 with a cross compiler in a fresh Debian and tests the result under qemu.
 
-    A351_LONG=1 python3 tests/system/arm64.py [bookworm|trixie]     by default the suite of this host
+    A351_LONG=1 python3 tests/system/arm64.py [bookworm|trixie]     default: the suite of this host
 
-Wants root, debootstrap, a mirror and an amd64 host.  Nothing is compiled under qemu.  The amd64 programs, of the same tree
-and suite, are compiled in the same root.
+Runs the unit and golden tests, compares the files of the programs with those of amd64, runs the emulator and makes the
+packages.  Needs root, debootstrap, a Debian mirror and an amd64 host.  Nothing is compiled under qemu.  The amd64 programs
+are compiled from the same tree in the same root.
 """
 
 import os
@@ -21,15 +22,16 @@ from programs import IS_LONG, IS_SANITIZED, TOP, Scratch, demand, run, skip
 QEMU = "qemu-aarch64-static"
 CATCH2 = {"bookworm": "catch2", "trixie": "libcatch2-dev:arm64"}
 SURVEY_MODELS = ["auto", "paper", "t-rate-drift-axes", "network", "robust", "day"]
-TABLE_MODELS = ["auto", "paper", "t-rate-drift", "network", "robust"]  # A table has neither axes nor a day.
+TABLE_MODELS = ["auto", "paper", "t-rate-drift", "network", "robust"]  # A table has neither horizontal axes nor a whole day.
 GOLDEN = "/a351/tests/golden/tsukuba"
 
-# All other numbers are amd64's to the byte on processors with FMA, where the C library computes as on arm64 (methods.md).  Of
-# the model `day` a leave-one-station-out search can end one step of its grid apart: measured 4e-5 of loso_mgal.
+# Largest relative differences between arm64 and amd64.  All other numbers are equal to the byte on processors with FMA, where
+# the C library computes as on arm64 (methods.md).  In the model `day` a leave-one-station-out search can end one grid step
+# apart; loso_mgal then differed by 4e-5 (measured).
 LIMITS = {(f"survey/{model}/{file}", "loso_mgal"): 1e-4 for model in ("auto", "day") for file in ("models.csv", "result.json")}
 
-# Tests of the programs, as for amd64.  A351_PRESET_SANITIZE makes them fit for slow programs.  None has a daemon at a port:
-# libserialport asks the terminal by TCGETS2, which qemu 7.2 does not know ("Function not implemented").
+# System tests that are also run with the arm64 programs.  A351_PRESET_SANITIZE adapts them to slow programs.  None of them
+# has a daemon at a port, because libserialport calls TCGETS2, which qemu 7.2 does not implement.
 TOGETHER = ["transcripts.py"]
 
 
@@ -58,7 +60,7 @@ def unit_and_golden(root):
 
 
 def make_files(root, preset, runner):
-    """A simulated day, its correction by each model, the published table, a night and what is calibrated from it."""
+    """Makes a simulated day, its correction by each model, the published table, a night's record and its calibration."""
     bin = f"/a351/build/{preset}/bin"
     correct, sim = f"{runner} {bin}/a351-correct", f"{runner} {bin}/a351-sim"
     began = time.monotonic()
@@ -79,13 +81,13 @@ def compare(amd64, arm64):
         for name, apart_by_key in found.items():
             for key, apart in apart_by_key.items():
                 limit = LIMITS.get((f"{folder}/{name}", key), 0)
-                demand(f"{folder}/{name}: {key or 'the text'} differs by {apart:.1e} of its value, limit {limit:g}",
+                demand(f"{folder}/{name}: {key or 'the text'} differs by {apart:.1e} (relative), limit {limit:g}",
                        apart <= limit)
-        demand(f"{folder}: {count - len(found)} of {count} files are amd64's to the byte", count > 0)
+        demand(f"{folder}: {count - len(found)} of {count} files are byte for byte the same as on amd64", count > 0)
 
 
 def wrap(root):
-    """Programs that start as others do, for tests that know nothing of qemu."""
+    """Writes a script for each program that starts it under qemu, for tests that know nothing of qemu."""
     for folder in ("bin", "tests"):
         (root / "arm64" / folder).mkdir(parents=True)
         for program in (root / "a351/build/arm64" / folder).iterdir():
@@ -113,21 +115,21 @@ def packages(root, suite):
     for deb in debs:
         fields = run("dpkg-deb", "-f", deb, "Architecture", "Depends").stdout
         print(deb.name, fields, sep="\n")
-        demand(f"{deb.name} is for arm64 and depends on what it links",
+        demand(f"{deb.name} is for arm64 and depends on the libraries it links",
                "Architecture: arm64" in fields and "libc6 (>= " in fields and "libstdc++6" in fields)
-    # apt solves the dependencies for arm64 and unpacks; what the packages run at their installation needs arm64 itself.
+    # apt only resolves the dependencies for arm64, because the installation scripts would need an arm64 system.
     inside(root, "apt-get install -y --no-install-recommends --simulate " +
            " ".join(f"/debs/{deb.name}" for deb in debs))
-    print("apt finds every dependency in arm64")
+    print("apt finds every dependency for arm64")
 
 
 if not IS_LONG or IS_SANITIZED:
-    skip("a fresh root with a cross compiler: A351_LONG=1")
+    skip("needs a fresh root with a cross compiler, which takes long; set A351_LONG=1 to run it")
 if os.geteuid() != 0 or shutil.which("debootstrap") is None or " fma " not in pathlib.Path("/proc/cpuinfo").read_text():
     skip("needs root, debootstrap and an amd64 host with FMA")
 suite = sys.argv[1] if len(sys.argv) > 1 else platform.freedesktop_os_release().get("VERSION_CODENAME")
 if suite not in CATCH2:
-    skip(f"{suite}: not one of {', '.join(CATCH2)}")
+    skip(f"{suite}: unknown suite; allowed: {', '.join(CATCH2)}")
 with Scratch() as scratch:
     root = scratch / "root"
     make_root(root, suite)

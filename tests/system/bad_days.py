@@ -1,4 +1,7 @@
-"""Survey days with something missing or wrong, by the whole-day model: said in table and report, the rest computed."""
+"""Survey days with missing or wrong input, corrected by the whole-day model.
+
+The table and the report must name each fault, and all other readings must be computed.
+"""
 
 import json
 import struct
@@ -7,25 +10,26 @@ from programs import BIN, Scratch, demand, read_json, rows, run
 
 READINGS = 19
 RECORD_BYTES = 512
-# Of the reading itself, which no other occupation touches; the day model cuts the ends of the day's temperature elsewhere.
+# Largest change of a reading, in mGal.  Other occupations do not affect a reading, but the whole-day model cuts the ends of
+# the day's temperature at other places.
 LARGEST_SHIFT_MGAL = 0.01
 LARGEST_ERROR_IN_U = 3.0
 
 
 def hour_of(record):
-    """Of the day, at which a miniSEED record starts (field 8 of its header)."""
+    """Returns the hour of the day at which a miniSEED record starts (field 8 of its header)."""
     hour, minute, second = struct.unpack(">BBB", record[24:27])
     return hour + minute / 60 + second / 3600
 
 
 def cut(root, channels, from_hour, to_hour):
-    """Takes the records that start within these hours of the second day out of the archive."""
+    """Removes the records that start within these hours of the second day from the archive."""
     for channel in channels:
         file, = root.glob(f"archive/2017/XX/A351/{channel}.D/*.2017.197")
         data = file.read_bytes()
         records = [data[at:at + RECORD_BYTES] for at in range(0, len(data), RECORD_BYTES)]
         kept = [record for record in records if not from_hour <= hour_of(record) < to_hour]
-        demand(f"{channel}: {len(records) - len(kept)} of {len(records)} records are taken out", 0 < len(kept) < len(records))
+        demand(f"{channel}: {len(records) - len(kept)} of {len(records)} records are removed", 0 < len(kept) < len(records))
         file.write_bytes(b"".join(kept))
 
 
@@ -34,7 +38,7 @@ def key(row):
 
 
 class Day:
-    """A simulated day, corrected as it is and with slips."""
+    """A simulated day, corrected without and with faults in its input."""
 
     def __init__(self, scratch):
         self.scratch = scratch
@@ -48,7 +52,7 @@ class Day:
         demand(f"{len(self.whole)} readings", len(self.whole) == READINGS)
 
     def correct(self, title, stays=None, lost=(), model="day", **keys):
-        """Corrects it; demands `lost` without a value, all others with that of their own record, near the truth."""
+        """Corrects the day.  Demands that exactly the readings `lost` have no value and all others are near the truth."""
         name = title.replace(" ", "-")
         (self.scratch / "occupations.csv").write_text("\n".join(stays or self.schedule) + "\n")
         settings = {"name": name, "root": "day", "sites": "day/sites.csv", "occupations": "occupations.csv",
@@ -59,19 +63,19 @@ class Day:
         self.report = (self.scratch / name / "report.html").read_text()
         self.table = rows(self.scratch / name / "occupations.csv")
         result = read_json(self.scratch / name / "result.json")
-        print(f"{title}: {self.said.strip() or 'nothing said'}")
-        demand(f"{title}: by the model {result['model']}", result["model"] == model)
+        print(f"{title}: {self.said.strip() or 'no message'}")
+        demand(f"{title}: corrected by the model {result['model']}, expected {model}", result["model"] == model)
         empty = {key(row) for row in self.table if not row["corrected_mgal"]}
-        demand(f"{title}: of {len(self.table)} rows {len(empty)} are without a value", empty == set(lost))
+        demand(f"{title}: {len(empty)} of {len(self.table)} rows have no value, expected {len(set(lost))}", empty == set(lost))
         starts = [row["start_utc"] for row in self.table]
-        demand(f"{title}: the rows are in the order of time", starts == sorted(starts))
+        demand(f"{title}: the rows are in order of time", starts == sorted(starts))
         good = [row for row in self.table if row["corrected_mgal"]]
         errors = [(float(row["corrected_mgal"]) - self.gravity[key(row)]) / float(row["u_corrected_mgal"]) for row in good]
-        demand(f"{title}: {len(good)} values within {max(map(abs, errors)):.2f} u of the truth",
+        demand(f"{title}: {len(good)} values within {max(map(abs, errors)):.2f} u of the truth, limit {LARGEST_ERROR_IN_U:g}",
                max(map(abs, errors)) < LARGEST_ERROR_IN_U)
         if self.whole and model == "day":
             shifts = [abs(float(row["acceleration_mgal"]) - float(self.whole[key(row)]["acceleration_mgal"])) for row in good]
-            demand(f"{title}: their readings are those of the day as it is, to {max(shifts):.4f} mGal",
+            demand(f"{title}: readings change by {max(shifts):.4f} mGal against the complete day, limit {LARGEST_SHIFT_MGAL}",
                    max(shifts) < LARGEST_SHIFT_MGAL)
         for row in self.table:
             if key(row) in empty:
@@ -79,7 +83,7 @@ class Day:
                 demand(f"{title}: its flag is {row['flags']}", row["flags"] != "" and row["used"] == "0")
 
     def demand_said(self, title, words):
-        demand(f"{title}: stderr and report say {words!r}", words in self.said and words in self.report)
+        demand(f"{title}: stderr and report contain {words!r}", words in self.said and words in self.report)
 
 
 with Scratch() as scratch:
@@ -101,23 +105,23 @@ with Scratch() as scratch:
     sites = [[name, "", "", "", gravity] if name == "No.1" else [name, *place, gravity] for name, *place, gravity in sites]
     (scratch / "sites.csv").write_text("".join(",".join(site) + "\n" for site in sites))
     day.correct(title, sites="sites.csv")
-    day.demand_said(title, "No.1: no position in the table of sites; the mean of the others is taken")
+    day.demand_said(title, "No.1: no position in the table of sites; the mean of the others is used")
 
     title = "a log in another order"
     log = day.root / "events" / "2017-07.jsonl"
     events = log.read_text().splitlines()
     log.write_text("\n".join(events[-6:] + events[8:-6] + ['{"type":"st'] + events[:8]) + "\n")
     day.correct(title, occupations="")
-    day.demand_said(title, "2017-07.jsonl:31: not an event, passed over")
+    day.demand_said(title, "2017-07.jsonl:31: not an event, skipped")
 
-    # What follows damages the archive, the one on top of the other.
+    # The following cases damage the archive; the damage adds up.
     title = "half a day missing"
     late = {key(row) for row in day.table if row["start_utc"] > "2017-07-16T05:00"}
-    demand(f"{title}: {len(late)} readings", 5 < len(late) < READINGS - 5)
+    demand(f"{title}: {len(late)} readings affected", 5 < len(late) < READINGS - 5)
     cut(day.root, ["BNZ", "BN1", "BN2", "BK1"], 5, 24)
     day.correct(title, lost=late)
 
     title = "the temperature of 40 minutes missing on the way"
     cut(day.root, ["BK1"], 1.32, 2.08)
     day.correct(title, lost=late, model="t-rate")
-    demand(f"{title}: the report says why", "not the whole-day model: the temperature is missing for" in day.report)
+    demand(f"{title}: the report gives the reason", "not the whole-day model: the temperature has a gap of" in day.report)

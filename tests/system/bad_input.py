@@ -1,4 +1,4 @@
-"""Bad input from outside: one line naming file, line, key and what is allowed; status 2; nothing written."""
+"""Bad input: the program prints one line with file, line, key and allowed values, ends with status 2 and writes nothing."""
 
 import shutil
 
@@ -117,7 +117,7 @@ with Scratch() as scratch:
                    "--truth", "truth.bin")
     refuse("truth in place of a foreign file", scratch, ["taken", "no truth file"], *device, "sensor", "--truth",
            "taken")
-    demand("the foreign file is what it was", (scratch / "taken").read_text() == "somebody's")
+    demand("the foreign file is unchanged", (scratch / "taken").read_text() == "somebody's")
     refuse("missing fault script", scratch, ["absent.toml"], *device, "sensor", "--faults", "absent.toml")
     (scratch / "flash.toml").write_text("format = 1\n[registers]\nSIG_CTRL = 0x1FFFF\n")
     refuse("impossible flash memory", scratch, ["flash.toml:3", "registers.SIG_CTRL", "65535"], *device,

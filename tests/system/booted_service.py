@@ -1,4 +1,4 @@
-"""a351d@.service under the systemd of a fresh root, with the emulator for a sensor; called by packages.py."""
+"""Tests a351d@.service under the systemd of a fresh root, with the emulator as its sensor; called by fresh_install.py."""
 
 import json
 import time
@@ -7,11 +7,11 @@ from emulated_session import wait_for
 from fresh_root import Booted
 from programs import compare_truth, demand
 
-SETTLED_S = 5  # Of signal before the next thing happens; times are known, and archived, after 2.
+SETTLED_S = 5  # Signal before the next step, in s; after 2 s the times are known and samples are archived.
 
 
 class Recorder:
-    """a351d@box1 and what it says of itself."""
+    """The service a351d@box1 and its status."""
 
     def __init__(self, system):
         self.system = system
@@ -21,8 +21,8 @@ class Recorder:
                    "a351-sim device --link /run/emulator/sensor --truth /var/lib/emulator/truth.bin")
         began = time.monotonic()
         system.run("systemctl start a351d@box1")
-        print(f"told to be ready after {time.monotonic() - began:.1f} s")
-        self.wait_for_samples("it records")
+        print(f"the service reported ready after {time.monotonic() - began:.1f} s")
+        self.wait_for_samples("the daemon records")
 
     def status(self):
         said = self.system.try_run("a351ctl status --json").stdout
@@ -46,10 +46,10 @@ class Recorder:
 
 def is_confined(recorder):
     own = recorder.system.run(f"cat /proc/{recorder.pid()}/status")
-    demand("it runs without capabilities, under the filter of system calls",
+    demand("the daemon runs without capabilities and with a system call filter",
            all(line in own for line in ("CapBnd:\t0000000000000000", "NoNewPrivs:\t1", "Seccomp:\t2")))
     tried = recorder.system.try_run(f"nsenter --target={recorder.pid()} --mount --root --wd touch /var/lib/a351/other")
-    demand("of files it can only write those below its own directory", "Read-only file system" in tried.stderr)
+    demand("the daemon cannot write outside its own directory", "Read-only file system" in tried.stderr)
 
 
 def reloads(recorder):
@@ -59,32 +59,35 @@ def reloads(recorder):
 
 def comes_back(recorder):
     session = recorder.status()["session"]
-    for fault in ("KILL", "STOP"):  # A daemon that stands still is for the watchdog.
+    for fault in ("KILL", "STOP"):  # The watchdog ends a stopped daemon.
         before, began = recorder.pid(), time.monotonic()
         recorder.system.run(f"kill -{fault} {before}")
-        wait_for(f"another daemon after SIG{fault}", lambda: recorder.is_another(before), seconds=120)
-        print(f"SIG{fault}: the next one began after {time.monotonic() - began:.0f} s")
-        recorder.wait_for_samples("it records again")
-    demand("the session of the sensor went on", recorder.status()["session"] == session)
+        wait_for(f"a new daemon process after SIG{fault}", lambda: recorder.is_another(before), seconds=120)
+        print(f"SIG{fault}: a new process started after {time.monotonic() - began:.0f} s")
+        recorder.wait_for_samples("the daemon records again")
+    demand("the session of the sensor continued", recorder.status()["session"] == session)
 
 
 def follows_the_package(recorder, install):
     before = recorder.pid()
     recorder.system.run(install)
-    demand("a recorder that runs is restarted by an upgrade", recorder.is_another(before))
-    recorder.wait_for_samples("it records after the upgrade")
+    demand("an upgrade restarts the running daemon", recorder.is_another(before))
+    recorder.wait_for_samples("the daemon records after the upgrade")
     began = time.monotonic()
     recorder.system.run("dpkg -r a351")
-    demand(f"and ended by the removal, in {time.monotonic() - began:.1f} s",
+    demand(f"removing the package stops the daemon, in {time.monotonic() - began:.1f} s",
            recorder.unit("MainPID", "Result") == {"MainPID": "0", "Result": "success"})
 
 
 def as_a_service(root, deb):
-    """@param deb  the package a351 in the root's /root, which is installed before and afterwards."""
+    """Tests the service in the root.
+
+    @param deb  the package a351 in the root's /root; it is installed before and after the test
+    """
     install = f"dpkg -i ~root/{deb.name}"
     with Booted(root) as system:
         if system.trouble:
-            print(f"not run as a service: {system.trouble}")
+            print(f"the test of the service is skipped: {system.trouble}")
             return
         recorder = Recorder(system)
         is_confined(recorder)
@@ -93,5 +96,5 @@ def as_a_service(root, deb):
         follows_the_package(recorder, install)
         system.run(f"systemctl stop emulator && {install}")
     channels = compare_truth(root / "var/lib/a351/box1/archive", root / "var/lib/emulator/truth.bin").values()
-    demand("nothing is altered or twice, and of two kills no more than 0.2 s and a cut frame each is missing",
+    demand("no sample is altered or duplicated; at most 22 are missing: 0.2 s and a cut frame for each of two kills",
            all(one["altered"] + one["duplicated"] == 0 and one["missing"] <= 22 < one["matched"] for one in channels))

@@ -1,5 +1,7 @@
-"""record on a night that broke: a power cycle, steps, gaps, a channel that is stuck or constant; segments, or refused with
-the reason."""
+"""`record` on a night with a power cycle, steps, gaps, or a stuck or constant channel.
+
+The record must be divided into segments, or refused with the reason.
+"""
 
 import csv
 import datetime
@@ -10,9 +12,10 @@ from programs import BIN, Scratch, demand, read_json, rows, run
 STEP_S = 20
 COLUMNS = ("time_utc", "acceleration_mgal", "temperature_degc")
 NIGHT = 'base = "indoor"\nname = "part"\n[schedule]\nstart_utc = "{start}"\nduration_h = 5.0\n'
-# Twenty minutes off: of the 0.94 degC by which the sensor heats itself a body of 1034 s loses 0.6, and regains it.
+# Switched off for twenty minutes.  The sensor heats itself by 0.94 degC; with a time constant of 1034 s it loses 0.6 degC of
+# this, and regains it after power-on.
 POWER_CYCLE = "[sensor]\npower_on_before_start_h = 0.25\ntemperature_warm_up_degc = -0.6\n[oven]\nrun_in_h = 0.25\n"
-THERMOMETER_DEGC = 0.0015  # white noise of 20 s samples
+THERMOMETER_DEGC = 0.0015  # Standard deviation of the thermometer's white noise, 20 s samples.
 
 
 def record(folder, out, *files, check=True):
@@ -20,7 +23,7 @@ def record(folder, out, *files, check=True):
 
 
 def analysed(folder, title, *files):
-    """What record found, its divisions printed; its files are in a folder of the title."""
+    """Runs `record` with its output in a folder named `title`, prints the segments and returns result.json."""
     record(folder, title, *files)
     result = read_json(folder / title / "result.json")
     print(f"{title}:", [(part["samples"], part["bridged"], part["begins_with"]) for part in result["segments"]],
@@ -31,12 +34,12 @@ def analysed(folder, title, *files):
 def demand_refused(folder, title, words, *files):
     bad = record(folder, title, *files, check=False)
     print(f"{title}: {bad.stderr.strip()}")
-    demand(f"{title}: one line with the reason, status 2, nothing written", bad.returncode == 2 and
+    demand(f"{title}: refused in one line with the reason, status 2, nothing written", bad.returncode == 2 and
            bad.stderr.count("\n") == 1 and words in bad.stderr and not (folder / title).exists())
 
 
 def write(folder, table, change=lambda i, row: row):
-    """record.csv's rows, each as `change` makes it; without those it makes None."""
+    """Writes the rows of record.csv, each changed by `change`; rows for which it returns None are left out."""
     with open(folder / "changed.csv", "w", newline="") as file:
         out = csv.writer(file)
         out.writerow(COLUMNS)
@@ -60,21 +63,22 @@ with Scratch() as scratch:
         (scratch / f"{name}.toml").write_text(NIGHT.format(start=start) + more)
         run(BIN / "a351-sim", "survey", "--scenario", scratch / f"{name}.toml", "--seed", 721, "--out", scratch / name)
     result = analysed(scratch, "power cycle", "evening", "night")
-    demand("a power cycle in the middle divides and is called a restart",
+    demand("a power cycle in the middle divides the record and is reported as a restart",
            len(result["segments"]) == 2 and begins(result)[1].endswith("a restart"))
 
-    # One piece without trouble, to be broken.
+    # A night without faults, from which the faulty ones are made.
     run(BIN / "a351-sim", "survey", "--scenario", "indoor", "--seed", 722, "--out", scratch / "whole")
     result = analysed(scratch, "no trouble", "whole")
     table = [row for row in rows(scratch / "no trouble" / "record.csv") if row["segment"]]
     count, middle = len(table), len(table) // 2
-    demand("a night without trouble is one segment", samples_of(result) == [count] and not result["refused"])
+    demand("a night without faults is one segment", samples_of(result) == [count] and not result["refused"])
 
     def stepped(i, row):
         return [row[0], f"{float(row[1]) + (40.0 if i >= middle else 0.0):.6f}", row[2]]
 
     result = analysed(scratch, "step", write(scratch, table, stepped))
-    demand("a step of 40 mGal divides where it is, and is measured to 5 mGal", samples_of(result) == [middle, count - middle]
+    demand("a step of 40 mGal divides the record at its place, and its size is found to 5 mGal",
+           samples_of(result) == [middle, count - middle]
            and abs(float(begins(result)[1].removeprefix("step of ").removesuffix(" mGal")) - 40.0) < 5.0)
 
     for missing, is_divided in ((14, False), (16, True)):
@@ -83,10 +87,10 @@ with Scratch() as scratch:
 
         result = analysed(scratch, f"{missing} samples missing", write(scratch, table, gap))
         if is_divided:
-            demand("a gap of 340 s divides, and nothing is made up",
+            demand("a gap of 340 s divides the record, and no sample is interpolated",
                    begins(result)[1] == "gap of 340 s" and [part["bridged"] for part in result["segments"]] == [0, 0])
         else:
-            demand("one of 300 s is bridged, and counted", samples_of(result) == [count] and
+            demand("a gap of 300 s is bridged, and the bridged samples are counted", samples_of(result) == [count] and
                    result["segments"][0]["bridged"] == missing)
 
     stuck = 180
@@ -96,15 +100,15 @@ with Scratch() as scratch:
 
     result = analysed(scratch, "temperature stuck for an hour", write(scratch, table, stuck_temperature))
     reason = f"the temperature is stuck at {float(table[middle]['temperature_degc']):.4f} degC"
-    demand("an hour of a stuck temperature is refused with its value, and analysed on either side of it",
+    demand("an hour of stuck temperature is refused with its value, and the record before and after it is analysed",
            [part["reason"] for part in result["refused"]] == [reason] and len(result["segments"]) == 2 and
-           sum(samples_of(result)) == count - stuck and begins(result)[1] == "the sensor goes on")
+           sum(samples_of(result)) == count - stuck and begins(result)[1] == "end of the stuck values")
 
     demand_refused(scratch, "temperature stuck throughout", reason, write(
         scratch, table, lambda i, row: [row[0], row[1], table[middle]["temperature_degc"]]))
     demand_refused(scratch, "a gap every two hours", "too short", write(scratch, table, lambda i, row: row if i % 360 > 20 else None))
 
-    # An oven that does not move at all: the thermometer shows its noise alone.
+    # An oven whose temperature does not change: the thermometer shows only its noise.
     noise = random.Random(7)
     start = datetime.datetime(2017, 6, 1, 9)
     still = [{"time_utc": f"{(start + datetime.timedelta(seconds=STEP_S * i)).isoformat()}Z",
@@ -113,10 +117,10 @@ with Scratch() as scratch:
     result = analysed(scratch, "constant temperature", write(scratch, still))
     paths = result["two_paths"]
     open_ones = [key for key, value in paths["parameters"].items() if not value["determined"]]
-    print("left open:", open_ones)
-    demand("at constant temperature no band shows a response",
+    print("not determined:", open_ones)
+    demand("at constant temperature no band has a response",
            all(point["refused"] for way in ("spectrum", "modes") for point in result[f"response_by_{way}"]) and
            "shows no response" in result["causal_reading"])
-    demand("and no path is determined, its lags neither",
+    demand("at constant temperature no path and no lag is determined",
            {"level_mgal_per_degc", "fast_mgal_per_degc_per_h", "slow_mgal_per_degc", "fast_lag_s", "slow_lag_s"}
            <= set(open_ones) and not paths["static_slope_determined"])

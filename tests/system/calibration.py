@@ -1,4 +1,4 @@
-"""A unit's axis biases, measured on a simulated tilt series and used on a day of the same unit."""
+"""Axis biases of a unit, measured on a simulated tilt series and used on a survey day of the same unit."""
 
 import math
 import shutil
@@ -14,7 +14,10 @@ def correct(*arguments, check=True, cwd=None):
 
 
 def true_biases(series):
-    """From what tilting by 2 degrees did in truth.csv: a bias times the sine of the angle, odd in it."""
+    """Returns the biases of x and y in mGal/g, computed from the effect of tilts by 2 degrees in truth.csv.
+
+    The effect is the bias times the sine of the angle, so it changes sign with the tilt.
+    """
     sine = math.sin(math.radians(2.0))
     odd = {"x": 0.0, "y": 0.0}
     for row in rows(series / "truth.csv"):
@@ -25,7 +28,7 @@ def true_biases(series):
 
 
 def keys(value):
-    """All of a table and of what it holds."""
+    """Returns all keys of a table and of the tables in it."""
     if isinstance(value, list):
         return set().union(*map(keys, value))
     return value.keys() | set().union(*map(keys, value.values())) if isinstance(value, dict) else set()
@@ -39,13 +42,13 @@ with Scratch() as scratch:
     unit = tomllib.loads(text)
     page = (TOP / "protocol" / "unit" / "calibration-format.md").read_text()
     lacking = sorted(key for key in keys(unit) if f"`{key}`" not in page and f"`[{key}]`" not in page and f"`[[{key}]]`" not in page)
-    demand(f"it is TOML; of {len(keys(unit))} keys its page lacks {lacking or 'none'}", not lacking)
+    demand(f"the file is TOML; of {len(keys(unit))} keys the format page lacks {lacking or 'none'}", not lacking)
     values, covariance = unit["axis_bias"]["values"], unit["axis_bias"]["covariance"]
     for k, (axis, truth) in enumerate(zip("xy", true_biases(scratch / "tilt-series"))):
         error = math.sqrt(covariance[3 * k])
         print(f"{axis}: {values[k]:.1f} +- {error:.1f} mGal/g, true {truth:.1f}")
-        demand(f"the bias of {axis} is within three of its errors", abs(values[k] - truth) < 3.0 * error)
-        demand(f"the bias of {axis} is known to 40 mGal/g", error < 40.0)
+        demand(f"the bias of {axis} is within three standard errors of the truth", abs(values[k] - truth) < 3.0 * error)
+        demand(f"the standard error of the bias of {axis} is {error:.1f} mGal/g, below 40", error < 40.0)
     correct("calibrate", "--tilt", "tilt-series", "--out", "again.toml", cwd=scratch)
     demand("a second run gives the same bytes", (scratch / "again.toml").read_text() == text)
 
@@ -54,17 +57,18 @@ with Scratch() as scratch:
     merge = ("calibrate", "--tilt", "tilt-series", "--merge", "ended.toml", "--out")
     refused = correct(*merge, "merged.toml", check=False, cwd=scratch)
     print(refused.stderr.strip())
-    demand("a validity that ended before the series is not taken over",
+    demand("a validity that ended before the tilt series is refused",
            refused.returncode == 2 and "ended.toml: valid_to_utc" in refused.stderr and not (scratch / "merged.toml").exists())
     correct(*merge, "merged.toml", "--valid-to", "2030-01-01T00:00:00Z", cwd=scratch)
 
     merged = (scratch / "merged.toml").read_text()
-    demand("a file that both have is listed once", merged.count("[[data]]") == text.count("[[data]]") > 4)
+    demand("a data file that both calibrations used is listed once", merged.count("[[data]]") == text.count("[[data]]") > 4)
     shutil.copytree(scratch / "tilt-series", scratch / "copy")
     for again in ("tilt-series", "copy"):
         refused = correct("calibrate", "--tilt", "tilt-series", again, "--out", "twice.toml", check=False, cwd=scratch)
         print(refused.stderr.strip())
-        demand(f"a series and {again} are one series", refused.returncode == 2 and "each reading once" in refused.stderr and
+        demand(f"the tilt series given again as {again} is refused as the same series",
+               refused.returncode == 2 and "each reading once" in refused.stderr and
                not (scratch / "twice.toml").exists())
 
     for bad in (("calibrate", "--tilt", "tilt-series", "--out", "tilt-series/"),
@@ -72,7 +76,7 @@ with Scratch() as scratch:
                 ("record", "tilt-series", "--out", "c.toml")):
         refused = correct(*bad, check=False, cwd=scratch)
         print(refused.stderr.strip())
-        demand(f"{bad[0]} refuses {bad[-1]} for an output before any work",
+        demand(f"{bad[0]} refuses the output {bad[-1]} before it starts computing",
                refused.returncode == 2 and f"--out = {bad[-1]}" in refused.stderr)
 
     survey = ("survey", "tilted/survey.toml", "--out", "result", "--calibration")
@@ -81,29 +85,30 @@ with Scratch() as scratch:
     demand("the result names the calibration", result["settings"]["calibration"] == "c.toml" and
            result["calibration"]["serial_number"] == "00000001" and
            any(file["role"] == "calibration" for file in result["inputs"]))
-    demand("the biases were a prior and are not contradicted", result["calibration"]["axis_bias"]["use"] == "prior" and
+    demand("the biases were used as a prior and the readings do not contradict them",
+           result["calibration"]["axis_bias"]["use"] == "prior" and
            not result["calibration"]["axis_bias"]["contradicted"] and result["calibration"]["thermal"] is None)
     report = (scratch / "result" / "report.html").read_text()
-    demand("the report names it", "calibration of unit 00000001" in report)
-    demand("the day was not contradicted in the report", "contradict" not in report)
+    demand("the report names the calibration", "calibration of unit 00000001" in report)
+    demand("the report mentions no contradiction", "contradict" not in report)
     warnings = " ".join(result["settings"]["warnings"])
-    demand("a day after the calibration's begin is within its validity", "calibration is valid" not in warnings)
+    demand("a day after the start of the validity gives no warning", "validity of the calibration" not in warnings)
 
     (scratch / "turned.toml").write_text(text.replace("values = [", "values = [-").replace("[--", "["))
     correct(*survey, "turned.toml", cwd=scratch)
-    demand("biases of the other sign are contradicted, and the report says so",
+    demand("biases with the wrong sign are reported as contradicted",
            "s axis biases: chi-square" in (scratch / "result" / "report.html").read_text())
     (scratch / "late.toml").write_text(text.replace("valid_from_utc = \"2017", "valid_from_utc = \"2018"))
-    demand("a day before its validity is said",
-           "calibration is valid" in correct(*survey, "late.toml", cwd=scratch).stderr)
+    demand("a day before the validity gives a warning",
+           "validity of the calibration" in correct(*survey, "late.toml", cwd=scratch).stderr)
 
     (scratch / "other.toml").write_text(text.replace("00000001", "00000002"))
     refused = correct("survey", "tilted/survey.toml", "--out", "other", "--calibration", "other.toml", check=False, cwd=scratch)
     print(refused.stderr.strip())
-    demand("another unit's calibration is refused in one line",
+    demand("the calibration of another unit is refused in one line",
            refused.returncode == 2 and refused.stderr.count("\n") == 1 and "unit 00000002" in refused.stderr)
-    demand("and nothing is written", not (scratch / "other").exists())
+    demand("the refused survey writes nothing", not (scratch / "other").exists())
     refused = correct("calibrate", "--tilt", "tilted/survey.toml", "--out", "no.toml", check=False, cwd=scratch)
     print(refused.stderr.strip())
-    demand("a survey day is no tilt series", refused.returncode == 2 and "one point" in refused.stderr and
+    demand("a survey day given as a tilt series is refused", refused.returncode == 2 and "one point" in refused.stderr and
            not (scratch / "no.toml").exists())

@@ -1,4 +1,4 @@
-"""How far the files of two runs differ: not at all, or in the numbers of named columns and keys."""
+"""Compares the files of two runs and lists the columns and keys that differ, with their differences."""
 
 import csv
 import io

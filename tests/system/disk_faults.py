@@ -1,7 +1,7 @@
-"""Trouble of the disk under the unmodified daemon, at 5x: whatever it is, in the end the archive is the truth.
+"""Disk faults under the unmodified daemon at 5x: at the end the archive must hold every sample that the emulator sent.
 
     disk_faults.py full        a small disk, filled up and emptied
-    disk_faults.py failing     system calls of the running daemon that fail or stall
+    disk_faults.py failing     system calls of the running daemon fail or stall
 """
 
 import contextlib
@@ -18,11 +18,11 @@ import small_disk
 from programs import BIN, Scratch, compare_truth, daemon_config, daemon_status, demand, run, skip, unused_port
 from small_disk import RESERVE
 
-SPEED = 5  # strace stops every call of the daemon twice.
+SPEED = 5  # Low, because strace stops the daemon twice in every system call.
 
 
 class Day:
-    """Emulator and daemon side by side."""
+    """Emulator and daemon running together."""
 
     def __init__(self, scratch):
         self.scratch = scratch
@@ -47,7 +47,7 @@ class Day:
         return self.status()["counters"]
 
     def wait_for(self, claim, is_true, seconds=60):
-        """The first status of which it is true."""
+        """Waits until `is_true` holds for the status, and returns that status."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             state = self.status()
@@ -65,19 +65,22 @@ class Day:
                    check=False).returncode == 0
 
     def end(self):
-        """Silence first, so that every frame the emulator sent was read."""
+        """Ends both programs and compares the archive with the truth.
+
+        The sensor is silenced first, so that the daemon reads every frame that was sent.
+        """
         with socket.socket(socket.AF_UNIX) as control:
             control.connect(str(self.scratch / "control"))
             control.sendall(b"silence seconds=100000\n")
             control.recv(65536)
         time.sleep(1.0)
         self.daemon.send_signal(signal.SIGTERM)
-        demand("the daemon ends cleanly: everything is on disk", self.daemon.wait(timeout=60) == 0)
+        demand("the daemon ends cleanly after writing everything to disk", self.daemon.wait(timeout=60) == 0)
         self.sim.send_signal(signal.SIGTERM)
         self.sim.wait(timeout=30)
         for name, counted in compare_truth(self.scratch / "data" / "archive",
                                            self.scratch / "truth.bin").items():
-            demand(f"{name}: all {counted['truth']:.0f} samples are archived, none altered or doubled",
+            demand(f"{name}: all {counted['truth']:.0f} samples are archived, none altered or duplicated",
                    counted["matched"] == counted["truth"] > 1000
                    and counted["missing"] == counted["altered"] == counted["duplicated"] == 0)
 
@@ -99,37 +102,37 @@ def full_disk():
         small_disk.mount(data)
         day = Day(scratch)
         reserve = data / "state" / "reserve"
-        demand("64 MiB are set aside, blocks and all", day.status()["disk"]["reserve"] == "present"
+        demand("the reserve of 64 MiB exists and its blocks are allocated", day.status()["disk"]["reserve"] == "present"
                and reserve.stat().st_size == RESERVE and reserve.stat().st_blocks * 512 >= RESERVE)
 
         small_disk.fill(data / "filler")
-        day.wait_for("the reserve is given up", lambda state: state["disk"]["reserve"] == "given_up")
+        day.wait_for("the reserve is released", lambda state: state["disk"]["reserve"] == "given_up")
         before = archive_size(scratch)
         day.wait_for_more(3000)
         state = day.status()
-        demand(f"the status says so: {state['reasons']}",
+        demand(f"the status reports the fault: {state['reasons']}",
                state["level"] == "fault" and has_reason(state, "disk full"))
-        demand(f"{state['disk']['free_bytes']} bytes are free for the journal, which has no fault",
+        demand(f"{state['disk']['free_bytes']} bytes are free for the journal, and the journal has no fault",
                0 < state["disk"]["free_bytes"] <= RESERVE and state["counters"]["journal_faults"] == 0)
-        demand("the archive waits", archive_size(scratch) == before
+        demand("the archive is not written meanwhile", archive_size(scratch) == before
                and state["counters"]["archive_records_waiting"] > 0)
-        demand("an event goes through", day.is_noted("in the reserve"))
+        demand("an event is accepted", day.is_noted("in the reserve"))
 
         small_disk.fill(data / "filler2")
         state = day.wait_for("the journal has a fault",
                              lambda state: state["counters"]["journal_faults"] > 0)
-        demand(f"the status says so: {state['reasons']}", has_reason(state, "journal: "))
+        demand(f"the status reports the fault: {state['reasons']}", has_reason(state, "journal: "))
         time.sleep(5.0)
         journaled = day.status()["journaled"]
 
         (data / "filler").unlink()
         (data / "filler2").unlink()
-        state = day.wait_for("all is well again", lambda state: state["disk"]["reserve"] == "present"
+        state = day.wait_for("the fault is over and the reserve is back", lambda state: state["disk"]["reserve"] == "present"
                              and state["journaled"] > journaled + 5 * 50 * SPEED and state["level"] != "fault")
-        demand("the reserve is there again", reserve.stat().st_blocks * 512 >= RESERVE)
-        demand("it was given up once", state["counters"]["reserve_given_up"] == 1)
+        demand("the blocks of the reserve are allocated again", reserve.stat().st_blocks * 512 >= RESERVE)
+        demand("the reserve was released once", state["counters"]["reserve_given_up"] == 1)
         day.end()
-        demand("the event is there", "in the reserve" in "".join(
+        demand("the event is in the event log", "in the reserve" in "".join(
             file.read_text() for file in (data / "events").iterdir()))
         run("umount", data)
 
@@ -138,7 +141,7 @@ def full_disk():
 
 @contextlib.contextmanager
 def injecting(day, *injections):
-    """While strace has hold of the daemon."""
+    """Injects faults into system calls of the daemon with strace, until the block ends."""
     names = ",".join(injection.split(":")[0] for injection in injections)
     tracer = subprocess.Popen(
         ["strace", "-f", "-q", "-o", day.scratch / "strace.txt", "-p", str(day.daemon.pid), "-e", f"trace={names}"]
@@ -148,7 +151,7 @@ def injecting(day, *injections):
     if tracer.poll() is not None:
         day.daemon.kill()
         day.sim.kill()
-        skip(f"strace cannot attach: {tracer.stderr.read().strip()}")
+        skip(f"strace cannot attach to the daemon: {tracer.stderr.read().strip()}")
     try:
         yield
     finally:
@@ -161,17 +164,17 @@ STALL = "the disk stalls"
 
 def failing_sync(day, part, n):
     before = day.counters()
-    with injecting(day, f"fdatasync:error=EIO:when={n}"):  # strace counts in each thread.
+    with injecting(day, f"fdatasync:error=EIO:when={n}"):  # strace counts the calls of each thread separately.
         state = day.wait_for(f"a fault of the {part} is counted", lambda state: state["counters"][f"{part}_faults"]
                              > before[f"{part}_faults"])
-        demand(f"{part}, sync {n} fails: alarm {state['reasons']}",
+        demand(f"{part}: sync {n} fails, and the status reports a fault: {state['reasons']}",
                state["level"] == "fault" and has_reason(state, f"{part}: "))
     day.wait_for_more()
 
 
 def stall(day, call, n, seconds):
     with injecting(day, f"{call}:delay_enter={seconds * 1_000_000}:when={n}"):
-        day.wait_for(f"{call} {n} stalls", lambda state: has_reason(state, STALL))
+        day.wait_for(f"the stall of {call} {n} is reported", lambda state: has_reason(state, STALL))
         longest_s, is_stalled = 0.0, True
         while is_stalled:
             asked = time.monotonic()
@@ -179,23 +182,25 @@ def stall(day, call, n, seconds):
             longest_s = max(longest_s, time.monotonic() - asked)
             is_stalled = state is None or has_reason(state, STALL)
             time.sleep(0.05)
-        demand(f"{call} {n} stalled, the status came within {longest_s:.3f} s all the time", longest_s < 1.0)
+        demand(f"during the stall of {call} {n} the status was answered within {longest_s:.3f} s, limit 1", longest_s < 1.0)
         longest_ms = state["disk"]["longest_sync_ms"]
-        demand(f"it tells {longest_ms} ms of {seconds} s", longest_ms >= 1000 * seconds - 100)
+        demand(f"the status reports a longest sync of {longest_ms} ms after a stall of {seconds} s",
+               longest_ms >= 1000 * seconds - 100)
     day.wait_for_more()
 
 
 def read_only(day):
-    """Syncs and whatever makes or opens a file, as on a file system that turned read-only."""
+    """Makes syncs and all calls that create, open or change a file fail, as on a file system that turned read-only."""
     before = day.counters()
     calls = ("fdatasync", "fsync", "openat", "mkdir", "rename", "unlink", "ftruncate", "fallocate")
     with injecting(day, *(f"{call}:error=EROFS" for call in calls)):
-        state = day.wait_for("two tries fail", lambda state: state["counters"]["journal_faults"]
+        state = day.wait_for("two attempts to write fail", lambda state: state["counters"]["journal_faults"]
                              >= before["journal_faults"] + 2)
-        demand(f"read-only: alarm {state['reasons']}", state["level"] == "fault" and has_reason(state, "journal: "))
-        time.sleep(12.0)  # Longer than the 10 s between tries.
-        demand("it is an alarm still", has_reason(day.status(), "journal: "))
-    day.wait_for("the journal goes on", lambda state: not has_reason(state, "journal: "))
+        demand(f"read-only: the status reports a fault: {state['reasons']}",
+               state["level"] == "fault" and has_reason(state, "journal: "))
+        time.sleep(12.0)  # Longer than the 10 s between two attempts.
+        demand("the fault is still reported after another attempt", has_reason(day.status(), "journal: "))
+    day.wait_for("the journal is written again", lambda state: not has_reason(state, "journal: "))
     day.wait_for_more()
 
 
@@ -211,7 +216,7 @@ def failing_calls():
         stall(day, "fdatasync", 2, 10)
         read_only(day)
         with injecting(day, "fdatasync:error=EIO:when=1", "fsync:delay_enter=3000000:when=1"):
-            day.wait_for("the stall of a new segment", lambda state: has_reason(state, STALL))
+            day.wait_for("a stall at a new segment is reported", lambda state: has_reason(state, STALL))
         day.wait_for_more()
         print("counters:", day.counters())
         day.end()

@@ -1,4 +1,4 @@
-"""Emulator and daemon side by side, faults on demand, and the emulator's truth of what became of every frame."""
+"""Runs emulator and daemon together, orders faults, and reads the emulator's truth: the fate of every frame."""
 
 import atexit
 import datetime
@@ -16,7 +16,7 @@ FRAME = 24  # Bytes
 
 
 def ask(scratch, line):
-    """One order through the control socket, and the answer."""
+    """Sends one order to the control socket and returns the answer."""
     with socket.socket(socket.AF_UNIX) as control:
         control.connect(str(scratch / "control"))
         control.sendall(line.encode() + b"\n")
@@ -24,7 +24,7 @@ def ask(scratch, line):
         while not answer.endswith(b"\n"):
             more = control.recv(65536)
             if not more:
-                demand(f"the emulator answers the order {line}, came: {answer}", False)
+                demand(f"the emulator answers the order {line} completely, received: {answer}", False)
             answer += more
     return answer.decode()
 
@@ -39,15 +39,17 @@ def wait_for(claim, is_true, seconds=60):
 
 
 class Session:
-    """Emulator and daemon side by side; both are stopped in the end, the emulator's report read."""
+    """Emulator and daemon running together.  end() stops both and reads the emulator's report."""
 
     def __init__(self, scratch, faults="", speed=20, scenario="tsukuba", start=None, config="", prepare_port=None,
                  on_host_clock=False, **options):
-        """@param start  of simulated time, RFC 3339; by default that of the scenario.
-        @param config  lines added to the daemon's [sensor].
-        @param prepare_port  what is done to the emulator's terminal before the daemon starts.
-        @param on_host_clock  both run on the host's clock: speed 1, `start` not after now.
-        @param options  with which the daemon is started, of subprocess.Popen.
+        """Starts both.
+
+        @param start  begin of simulated time, RFC 3339; default: that of the scenario
+        @param config  lines added to the daemon's [sensor]
+        @param prepare_port  function called with the emulator's terminal before the daemon starts
+        @param on_host_clock  both run on the host's clock; speed must be 1, and `start` must not be in the future
+        @param options  options of subprocess.Popen for the daemon
         """
         self.scratch = scratch
         self.port = unused_port()
@@ -64,7 +66,7 @@ class Session:
             [BIN / "a351-sim", "device", "--link", "sensor", "--scenario", scenario, "--clock", self.clock,
              "--faults", "faults.toml", "--control", "control", "--truth", "truth.bin", "--report",
              "report.json"])
-        wait_for("the control socket", (scratch / "control").exists)
+        wait_for("the control socket exists", (scratch / "control").exists)
         if prepare_port:
             prepare_port(scratch / "sensor")
         self.on_host_clock, self.options = on_host_clock, options
@@ -72,7 +74,7 @@ class Session:
         self.daemon = self.start_daemon()
 
     def _start(self, command, **options):
-        """A program that does not outlive the test: one left behind would hold its output open."""
+        """Starts a program that is killed when the test ends; otherwise it would keep the test's output open."""
         process = subprocess.Popen(command, cwd=self.scratch, **options)
         atexit.register(process.kill)
         return process
@@ -85,7 +87,7 @@ class Session:
     def order(self, line):
         answer = ask(self.scratch, line)
         if not answer.startswith("ok"):
-            demand(f"the emulator takes the order {line}: {answer}", False)
+            demand(f"the emulator accepts the order {line}: {answer}", False)
         return answer[3:].strip()
 
     def emulated(self):
@@ -100,13 +102,16 @@ class Session:
         wait_for(f"{count} frames", lambda: self.status().get("counters", {}).get("frames", 0) >= count)
 
     def settled(self):
-        """Counters of the daemon once it has all that the emulator had sent by now, and 100 frames more."""
+        """Waits until the daemon has all frames sent so far and 100 more, and returns its counters."""
         sent = self.emulated()["frames_sent"]
         self.wait_for_frames(sent + 100)
         return self.status()["counters"]
 
     def end(self):
-        """Silence first, so that nothing is under way when the counters are read."""
+        """Stops both and returns the emulator's report and the daemon's counters.
+
+        The sensor is silenced first, so that no frame is in transit.
+        """
         self.order("silence seconds=100000")
         time.sleep(1.0)
         counters = self.status()["counters"]
@@ -117,19 +122,19 @@ class Session:
         self.log.close()
         report = read_json(self.scratch / "report.json")
         report.pop("faults_applied")
-        demand("every fault could be had", report["faults_refused"] == [])
-        demand("every frame made is settled once, second copies apart",
+        demand("the emulator refused no fault", report["faults_refused"] == [])
+        demand("every frame made is counted once as sent, damaged, lost or pending, apart from duplicates",
                report["frames_made"] + report["faults"].get("duplicate_frame", 0)
                == report["frames_sent"] + report["frames_damaged"] + report["frames_lost"]
                + report["frames_pending"])
         print("emulator:", report)
         print("daemon:", counters)
-        demand("the control socket and the link are gone",
+        demand("the control socket and the link are removed",
                not (self.scratch / "control").exists() and not (self.scratch / "sensor").is_symlink())
         return report, counters
 
     def rows(self):
-        """Instant, x, y, z, temperature, COUNT, run, grid index, fate of every frame, in the order sent."""
+        """Returns time in ns, x, y, z, temperature, COUNT, run, grid index and fate of every frame, in the order sent."""
         data = (self.scratch / "truth.bin").read_bytes()[16:]
         return list(struct.iter_unpack("<q4iHHIB7x", data))
 
@@ -140,13 +145,16 @@ class Session:
         return {row[0]: row[1:5] for row in self.rows()}
 
     def counted(self):
-        """Per channel, against the truth."""
+        """Compares the archive with the truth and returns the counts of each channel."""
         return compare_truth(self.scratch / "data" / "archive", self.scratch / "truth.bin")
 
     def archive_is_true(self, missing, steps=0):
-        """Without `steps`, where times begin anew, only the values."""
+        """Demands that the archive agrees with the truth.
+
+        @param steps  expected time steps; None if times start again in the test, then only values are compared
+        """
         for name, counted in self.counted().items():
-            demand(f"{name}: no damaged, lost or repeated frame is in the archive, none altered",
+            demand(f"{name}: the archive holds no damaged, lost, repeated or altered frame",
                    counted["altered"] == counted["duplicated"] == 0 and counted["matched"] > 0)
             demand(f"{name}: {counted['missing']:.0f} of {counted['truth']:.0f} intact frames missing, "
                    f"{counted['steps']:.0f} time steps (allowed {missing} and {steps})",
@@ -161,7 +169,7 @@ def require_unread(report, frames, outages):
 
 
 def gaps_of(truth):
-    """Gaps and missing samples between the first and the last intact frame."""
+    """Returns the numbers of gaps and of missing samples between the first and the last intact frame."""
     placed = {instant for instant, fate in truth if fate == INTACT}
     instants = sorted({instant for instant, _ in truth if min(placed) <= instant <= max(placed)})
     missing = [instant not in placed for instant in instants]

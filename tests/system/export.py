@@ -1,4 +1,4 @@
-"""`export`: an exact 50 Hz grid of UTC, in both formats the same, beside the sensor's own samples; refusals."""
+"""`export`: values on an exact 50 Hz grid of UTC, the same in both formats and with the sensor's mean; bad input is refused."""
 
 import datetime
 import math
@@ -19,9 +19,9 @@ with Scratch() as scratch:
     run(BIN / "a351-sim", "survey", "--scenario", "ideal", "--seed", 3, "--out", root)
     print(export(root, scratch / "grid.csv", 50, "csv").stdout, end="")
     grid = rows(scratch / "grid.csv")
-    demand(f"{len(grid)} values over a midnight, none missing", len(grid) == 50 * SECONDS)
+    demand(f"{len(grid)} values across midnight, none missing", len(grid) == 50 * SECONDS)
     first = datetime.datetime.fromisoformat(FROM.replace("Z", "+00:00"))
-    demand("each on a whole multiple of 20 ms", all(
+    demand("each time is a whole multiple of 20 ms", all(
         row["time_utc"] == (first + datetime.timedelta(milliseconds=20 * i)).strftime("%Y-%m-%dT%H:%M:%S.%f000Z")
         for i, row in enumerate(grid)))
 
@@ -31,16 +31,16 @@ with Scratch() as scratch:
     fast = [float(row["counts"]) for row in grid]
     means = [sum(fast[50 * i - 25:50 * i + 25]) / 50 for i in range(1, SECONDS)]
     offset = sum(a - b for a, b in zip(slow[1:], means)) / len(means)
-    demand(f"1 Hz and the means of 50 Hz agree in the mean ({offset:+.4f} counts)", abs(offset) < 0.05)
+    demand(f"values at 1 Hz and means of 50 Hz differ by {offset:+.4f} counts on average, limit 0.05", abs(offset) < 0.05)
 
     export(root, scratch / "grid.mseed", 50, "mseed")
     traces = run(TOOLS / "mseed-traces", scratch, "grid.mseed").stdout
     print(traces, end="")
     found = dict(part.split("=") for part in traces.split())
-    demand("libmseed joins its records to one trace that ends when it should",
+    demand("libmseed joins the records to one trace with the correct end time",
            found["traces"] == "1" and int(found["samples"]) == 50 * SECONDS and abs(float(found["end_error_s"])) < 2e-6)
     raw = (scratch / "grid.mseed").read_bytes()
-    demand("its location code is 10, its rate 50 Hz", raw[13:15] == b"10" and raw[32:36] == b"\0\x32\0\1")
+    demand("the location code is 10 and the rate 50 Hz", raw[13:15] == b"10" and raw[32:36] == b"\0\x32\0\1")
 
     for rate, channel, form, word in ((60, "BNZ", "csv", "--rate = 60"), (50, "BNX", "csv", "no samples of BNX"),
                                       (50, "BNZ", "wav", "--format")):
@@ -53,11 +53,12 @@ with Scratch() as scratch:
     day_file.write_bytes(whole[:at] + bytes(512) + whole[at + 512:])
     damaged = export(root, scratch / "damaged.csv", 50, "csv")
     print(damaged.stderr + damaged.stdout, end="")
-    demand("a damaged record is told once, by its offset", damaged.stderr.count("\n") == 1 and
-           damaged.stderr.endswith(f"{day_file.name}: offset {at}: 512 bytes are no record\n"))
+    demand("a damaged record is reported once, with its offset", damaged.stderr.count("\n") == 1 and
+           damaged.stderr.endswith(f"{day_file.name}: offset {at}: 512 bytes are not a record\n"))
     left = {row["time_utc"]: row["counts"] for row in rows(scratch / "damaged.csv")}
     good = {row["time_utc"]: row["counts"] for row in grid}
     kept = sum(left.get(time) == counts for time, counts in good.items())
-    demand(f"{len(good) - kept} of {len(good)} values go with it, the others stay", 0 < len(good) - kept < 1000)
+    demand(f"{len(good) - kept} of {len(good)} values are lost with the damaged record, the others are unchanged",
+           0 < len(good) - kept < 1000)
 
-    demand("a refusal leaves nothing", not list(scratch.glob("refused*")))
+    demand("a refused export leaves no file", not list(scratch.glob("refused*")))

@@ -1,4 +1,7 @@
-"""Midnights of fault-list.md, #29: of a month, a leap day, a year; each with an emulator and a daemon of its own."""
+"""Fault 29 of fault-list.md: midnight at the end of a month, of a leap day and of a year.
+
+Each midnight has its own emulator and daemon.
+"""
 
 import datetime
 
@@ -8,10 +11,10 @@ from miniseed_headers import end_us, headers
 from programs import IS_SANITIZED, Scratch
 
 SPEED = 20 if IS_SANITIZED else 100
-# Between a sample's time and its place by the header's rate; as three_days.py allows a live archive.
+# Largest difference between the time of a sample and its place by the header's rate, in us; as in three_days.py.
 LARGEST_DEPARTURE_US = 4500
 BEFORE_MIN = 10  # Of simulated time: at 100x the daemon has 6 s to start sampling before midnight.
-# The first instant of a day, and the days of the year before and after it.
+# Day that begins at the midnight, name of the case, and the days before and after the midnight as year.day-of-year.
 MIDNIGHTS = [("2023-03-01", "end of February", "2023.059", "2023.060"),
              ("2024-02-29", "leap day begins", "2024.059", "2024.060"),
              ("2024-03-01", "leap day ends", "2024.060", "2024.061"),

@@ -1,5 +1,8 @@
-"""Faults of the host, of fault-list.md: its clock is set or slewed while the daemon runs on it (with faketime, where
-that is installed), it starts in 1970, it sleeps, it inserts a leap second, and its log cannot be written."""
+"""Faults of the host, numbered as in fault-list.md.
+
+The clock is set or slewed while the daemon runs (needs faketime), the host starts in 1970, sleeps or inserts a leap
+second, and the log cannot be written.
+"""
 
 import datetime
 import os
@@ -16,13 +19,13 @@ from programs import BIN, IS_SANITIZED, TOOLS, Scratch, run
 
 FAKETIME = shutil.which("faketime")
 SLEW = 500e-6
-BEFORE_S, AFTER_S = 8, 16  # A clock that nobody synchronises is believed a minute after it was set.
-STEP_S = 0.050             # What the mapping to UTC takes for one: host_clock_rules.hpp.
-LARGEST_ERROR_S = 0.0045   # As three_days.py allows a live archive, where no frame is sent late.
-SLEEP_S = 40               # More than the counter's 16.384 s twice.
+BEFORE_S, AFTER_S = 8, 16  # Recording before and after the fault.  Without synchronisation a set clock is trusted after 60 s.
+STEP_S = 0.050             # Change that the mapping to UTC takes for a clock step: host_clock_rules.hpp.
+LARGEST_ERROR_S = 0.0045   # Largest time error of a live archive if no frame is sent late, as in three_days.py.
+SLEEP_S = 40               # More than twice the counter's wrap of 16.384 s.
 UNDER_WAY_S = 0.5
 LEAP_AFTER_S = 30
-TIME_INS, TIME_WAIT = 1, 4  # What adjtimex returns before and after it: <sys/timex.h>.
+TIME_INS, TIME_WAIT = 1, 4  # States that adjtimex returns before and after a leap second: <sys/timex.h>.
 SCENARIO = '''base = "indoor"
 name = "now"
 [schedule]
@@ -46,7 +49,7 @@ def session_on_host(scratch, library, **environment):
 
 
 def session_with_clock(clock):
-    """On the host's clock as that file says; raw and boot clocks stay what they are."""
+    """Starts a session on the host's clock changed by the file `clock`; the raw and boot clocks are not changed."""
     scratch = scratch_directory()
     (scratch / "clock").write_text(clock)
     library = run(FAKETIME, "-m", "-f", "+0", "printenv", "LD_PRELOAD").stdout.strip()
@@ -55,7 +58,7 @@ def session_with_clock(clock):
 
 
 def set_clocks(scratch, slept_s=0.0, ahead_s=0.0, is_synchronised=True, state=0):
-    """Of tests/support/host_clocks.cpp, at one instant for all who read them."""
+    """Writes the file that tests/support/host_clocks.cpp reads; it changes at one instant for all readers."""
     (scratch / "clocks.new").write_bytes(
         struct.pack("=4q", round(slept_s * 1e9), round(ahead_s * 1e9), is_synchronised, state))
     (scratch / "clocks.new").rename(scratch / "clocks")
@@ -68,7 +71,7 @@ def session_on_clocks(**clocks):
 
 
 def errors_s(session, root):
-    """Of the start of each record of axis z: seconds of truth since the first, stamp - truth."""
+    """Returns for each record of axis z the true start in s since the first one, and the error of its time stamp in s."""
     instants = [row[0] / 1e9 for row in session.rows() if row[8] == INTACT]
     found, at = [], 0
     for record in headers(sorted((root / "archive").rglob("*.BNZ.D.*"))):
@@ -78,7 +81,7 @@ def errors_s(session, root):
 
 
 def largest_error_s(report):
-    """Of any time: also what the emulator itself was late by, which nobody at the other end can know."""
+    """Returns the limit for time errors in s.  It includes the emulator's own lateness, which the daemon cannot know."""
     return LARGEST_ERROR_S + report["steady_lateness_s"]
 
 
@@ -101,15 +104,15 @@ def clocks_set():
         largest_s = max((abs(error) for _, error in errors), default=9e9)
         run(BIN / "a351-correct", "retime", session.scratch / "data", "--out", session.scratch / "re-timed")
         last_s = (errors_s(session, session.scratch / "re-timed") or [(0.0, 0.0)])[-1][1]
-        table.note(25, f"host clock set by {hours:+d} h", f"{len(errors)} records stay within {1e3 * largest_s:.2f} ms "
-                   f"of the old line; re-timed, the last is at {last_s:+.3f} s", largest_s < STEP_S
+        table.note(25, f"host clock set by {hours:+d} h", f"{len(errors)} records continue the old times within "
+                   f"{1e3 * largest_s:.2f} ms; re-timed, the last is at {last_s:+.3f} s", largest_s < STEP_S
                    and abs(last_s - 3600 * hours) < STEP_S and values_are_true(session))
     report, _ = slewed.end()
     errors = errors_s(slewed, slewed.scratch / "data")
     followed = [error - SLEW * at for at, error in errors]
     spread_s = max(followed) - min(followed) if followed else 9e9
     ahead_s = errors[-1][1] if errors else 0.0
-    table.note(26, "host clock slewed by 500 ppm", f"ahead by {1e3 * ahead_s:.1f} ms in the end, followed within "
+    table.note(26, "host clock slewed by 500 ppm", f"times ahead by {1e3 * ahead_s:.1f} ms at the end, following it within "
                f"{1e3 * spread_s:.2f} ms",
                ahead_s > 2 * LARGEST_ERROR_S and spread_s < largest_error_s(report) and values_are_true(slewed))
 
@@ -130,7 +133,7 @@ def end_in_1970(session):
     run(BIN / "a351-correct", "retime", session.scratch / "data", "--out", session.scratch / "re-timed")
     errors = errors_s(session, session.scratch / "re-timed")
     largest_s = max((abs(error) for _, error in errors), default=9e9)
-    table.note(27, "host starts in 1970", f"archived then: {years}; {withheld} of "
+    table.note(27, "host starts in 1970", f"archived before the clock was set: {years or 'nothing'}; {withheld} of "
                f"{withheld + sum(record.samples for record in records)} samples withheld; re-timed, all are within "
                f"{1e3 * largest_s:.2f} ms",
                years == [] and before <= withheld < before + 50 * 4
@@ -138,12 +141,13 @@ def end_in_1970(session):
 
 
 def fall_asleep(session):
-    """The raw clock stands still, the sensor does not; what it sends is lost.
-    @return  a thread that wakes the host again, and tells in `slept_s` how long it slept.
+    """Stops the raw clock and the daemon, as in a sleep of the host; frames that the sensor sends meanwhile are lost.
+
+    @return  thread that wakes the host again and then has the length of the sleep in `slept_s`
     """
     session.wait_for_frames(50 * BEFORE_S)
     session.order(f"silence seconds={SLEEP_S + 2 * UNDER_WAY_S}")
-    time.sleep(UNDER_WAY_S)  # What was sent is read before the sleep, nothing is sent in it.
+    time.sleep(UNDER_WAY_S)  # Frames already sent are read before the sleep; none is sent during it.
     session.daemon.send_signal(signal.SIGSTOP)
     since = time.monotonic()
 
@@ -177,7 +181,7 @@ def end_awake(session, alarm):
 
 
 def start_before_leap_second():
-    """@return the session, how far its host is ahead, when it will be midnight there."""
+    """Returns the session, how far the clock of its host is ahead in s, and the real time at which it shows midnight."""
     midnight = (time.time() // 86400 + 1) * 86400
     ahead_s = midnight - LEAP_AFTER_S - time.time()
     return session_on_clocks(ahead_s=ahead_s, state=TIME_INS), ahead_s, midnight - ahead_s
@@ -191,7 +195,7 @@ def end_after_leap_second(session, ahead_s, midnight):
     records = headers(sorted((session.scratch / "data" / "archive").rglob("*.BNZ.D.*")))
     errors = [error - ahead_s for _, error in errors_s(session, session.scratch / "data")] or [9e9]
     is_said = "a leap second is inserted" in (session.scratch / "a351d.log").read_text()
-    table.note(29, "leap second inserted", f"{'announced' if is_said else 'nothing'} in the log; the first record is at "
+    table.note(29, "leap second inserted", f"{'announced' if is_said else 'not announced'} in the log; the first record is at "
                f"{errors[0]:+.4f} s of the old time, the last at {errors[-1]:+.4f} s; "
                f"{sum(record.is_time_questionable for record in records)} of {len(records)} are questionable",
                is_said and max(abs(errors[0]), abs(errors[-1] + 1.0)) < largest_error_s(report)
@@ -202,8 +206,8 @@ def start_with_lost_logs():
     reader, gone = os.pipe()
     os.close(reader)
     full = os.open("/dev/full", os.O_WRONLY)
-    return {"is on a full disk": Session(scratch_directory(), stderr=full),
-            "goes to a reader that is gone": Session(scratch_directory(), stderr=gone)}
+    return {"on a full disk": Session(scratch_directory(), stderr=full),
+            "to a reader that has ended": Session(scratch_directory(), stderr=gone)}
 
 
 def logs_lost(sessions):
@@ -223,11 +227,11 @@ if not IS_SANITIZED:
     end_after_leap_second(*before_leap)
     end_awake(sleeper, alarm)
 else:
-    print("left out: #27, #28 and #29, for what is preloaded would come before a sanitizer")
+    print("skipped: #27, #28 and #29, because a sanitizer must be the first preloaded library")
 if FAKETIME and not IS_SANITIZED:
     clocks_set()
 else:
-    print("left out: #25 and #26, for faketime is not installed, or would come before a sanitizer")
+    print("skipped: #25 and #26, because faketime is not installed, or because a sanitizer must be the first preloaded library")
 for scratch in scratches:
     scratch.__exit__(None, None, None)
 table.finish()

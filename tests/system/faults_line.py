@@ -1,5 +1,8 @@
-"""Faults of the line and of the counter at 20x, of fault-list.md: lost bytes, garbage, markers and control characters
-in the data, frames in pieces and in heaps, outages longer than the counter's wrap."""
+"""Faults of the line and of the counter at 20x, numbered as in fault-list.md.
+
+Lost bytes, garbage, markers and control characters in the data, single bytes and many frames in one read, and outages
+longer than the counter's wrap.
+"""
 
 import os
 import signal
@@ -21,7 +24,7 @@ table = FaultTable()
 
 
 def leave_cooked(port):
-    """As a getty leaves it: echo, XON/XOFF, CR and NL exchanged, signals, seven bits."""
+    """Sets a terminal as a login prompt leaves it: echo, XON/XOFF, CR and NL exchanged, signals, seven bits."""
     terminal = os.open(port, os.O_RDWR | os.O_NOCTTY)
     settings = termios.tcgetattr(terminal)
     settings[0] |= termios.IXON | termios.IXOFF | termios.IXANY | termios.ICRNL | termios.ISTRIP
@@ -31,7 +34,7 @@ def leave_cooked(port):
 
 
 def longest_outage(truth):
-    """Frames in a row that did not arrive; the silence in the end is none."""
+    """Returns the largest number of consecutive frames that did not arrive; the silence at the end does not count."""
     longest = now = 0
     for _, fate in truth[:max(at for at, row in enumerate(truth) if row[1] == INTACT)]:
         now = 0 if fate == INTACT else now + 1
@@ -51,7 +54,7 @@ def order_and_settle(session, orders):
 
 
 def pause_daemon(session, seconds):
-    """The receiver keeps 4095 bytes meanwhile."""
+    """Stops the daemon for some seconds; the receive buffer keeps 4095 bytes meanwhile."""
     session.daemon.send_signal(signal.SIGSTOP)
     time.sleep(seconds)
     session.daemon.send_signal(signal.SIGCONT)
@@ -78,7 +81,7 @@ with Scratch() as scratch:
     truth, rows = session.truth(), session.rows()
 
     table.note(12, "lost bytes",
-               f"1 to 23 bytes out of a frame, 23 times: {incidents['samples_missing']} samples missing",
+               f"1 to 23 bytes removed from a frame, 23 times: {incidents['samples_missing']} samples missing",
                incidents["samples_missing"] == 23 and is_true)
     table.note(13, "garbage", f"20 times 10 kB: {noise['bytes_skipped']} bytes skipped, {noise['samples_missing']} "
                f"samples missing, {counters['frames'] - report['frames_sent']} false frames",
@@ -90,7 +93,7 @@ with Scratch() as scratch:
     table.note(14, "markers in the data",
                f"{with_markers} of {len(payloads)} frames carry 80 or 0D in the data, all archived",
                with_markers > 50 and is_true)
-    table.note(15, "control characters", f"terminal left cooked; {len(seen)} byte values seen, all archived",
+    table.note(15, "control characters", f"terminal left in cooked mode; {len(seen)} byte values seen, all archived",
                seen.issuperset(CONTROL) and is_true)
     table.note(16, "500 frames in one read",
                f"{heap['samples_missing']} missing, {heap['bytes_skipped']} bytes skipped",
@@ -98,10 +101,10 @@ with Scratch() as scratch:
     outage_s = longest_outage(truth) / 50
     counted, true = (counters["gaps"], counters["samples_missing"]), gaps_of(truth)
     table.note(10, "outage longer than a wrap",
-               f"of {outage_s:.2f} s; gaps and samples missing {counted}, truly {true}",
+               f"{outage_s:.2f} s; gaps and samples missing {counted}, truth {true}",
                outage_s > WRAP_S and counted == true and counters["sessions"] == 1 and is_true)
 
-# From 768 on a step is one back: sample_index.hpp.
+# Steps ahead, in samples.  A step of 768 or more counts as a step back (sample_index.hpp).
 JUMPS = (1, 40, 400, 767)
 with Scratch() as scratch:
     (scratch / "pieces.toml").write_text('base = "tsukuba"\nname = "pieces"\n[line]\nis_bytewise = true\n')
@@ -115,10 +118,10 @@ with Scratch() as scratch:
     table.note(16, "frames byte by byte", f"{pieces['bytes_skipped']} bytes skipped, {pieces['gaps']} gaps in "
                f"{pieces['frames']} frames", pieces["bytes_skipped"] == pieces["gaps"] == 0 and is_true)
     in_archive = gaps_in_samples(headers(sorted((scratch / "data" / "archive").rglob("*.BNZ.D.*"))))
-    table.note(17, "counter jumps ahead", f"by {JUMPS}: {jumps['samples_missing']} missing in {jumps['gaps']} gaps; in "
+    table.note(17, "counter jumps ahead", f"by {JUMPS} samples: {jumps['samples_missing']} missing in {jumps['gaps']} gaps; in "
                f"the archive {in_archive}", jumps["gaps"] == len(JUMPS) and jumps["samples_missing"] == sum(JUMPS)
                and in_archive[:len(JUMPS)] == list(JUMPS) and is_true)
-    table.note(18, "counter stands still", f"{stuck['duplicates']} of 19 frames dropped as repeated, a gap of "
+    table.note(18, "counter stuck", f"{stuck['duplicates']} of 19 frames dropped as repeated, a gap of "
                f"{stuck['samples_missing']}", stuck["duplicates"] == stuck["samples_missing"] == 19 and is_true)
     demand("one session", counters["sessions"] == 1)
 

@@ -1,4 +1,4 @@
-"""Fault 5 of fault-list.md: a disk that is nearly full, and a journal older than journal_keep_days."""
+"""Fault 5 of fault-list.md: a nearly full disk, with journal segments older than journal_keep_days."""
 
 import hashlib
 
@@ -7,7 +7,7 @@ from emulated_session import Session, wait_for
 from fault_table import FaultTable
 from programs import Scratch, run
 
-KEEPER_S = 60  # Between two looks at old segments.
+KEEPER_S = 60  # Interval in s at which the daemon looks for old segments.
 LONG_AGO, LATER, NOW = "2024-03-01T00:00:00Z", "2024-06-01T00:00:00Z", "2024-09-01T00:00:00Z"
 SCENARIO = """base = "indoor"
 name = "month"
@@ -23,7 +23,7 @@ def begin(scratch, start, speed):
 
 
 def record(session, frames):
-    """Those the emulator sends: the daemon's count includes what it replays."""
+    """Records until the emulator has sent so many frames; the daemon's own count includes replayed frames."""
     wait_for(f"{frames} frames", lambda: session.emulated()["frames_sent"] >= frames)
     session.settled()
     session.end()
@@ -58,17 +58,17 @@ with Scratch() as scratch:
         reason.startswith("disk full") for reason in session.status().get("reasons", [])))
     wait_for("old segments are removed", lambda: session.status()["counters"]["journal_segments_removed"] > 0,
              seconds=2 * KEEPER_S)
-    wait_for("the archive goes on", lambda: session.status()["archived"])
+    wait_for("the archive is written again", lambda: session.status()["archived"])
     removed = session.status()["counters"]["journal_segments_removed"]
     is_kept = middle <= segments(scratch) and not oldest & segments(scratch)
     session.end()
     is_untouched = checksums(scratch).items() >= archived.items()
-    run("rm", *archived)  # What remains is the last session's.
+    run("rm", *archived)  # Only the files of the last session remain.
     counted = session.counted().values()
     is_true = all(one["matched"] == one["truth"] > 0 and one["altered"] == one["duplicated"] == 0 for one in counted)
-    table.note(5, "nearly full, old journal", f"{removed} segments of {len(oldest)} that a later session's mark covers "
-               f"removed, {oldest_bytes} bytes; the session without one after it kept: {is_kept}; {len(archived)} day "
-               f"files untouched: {is_untouched}; the archive went on: {is_true}",
+    table.note(5, "nearly full, old journal", f"{removed} of {len(oldest)} segments that a later session's mark covers are "
+               f"removed, {oldest_bytes} bytes; the segments without a later mark are kept: {is_kept}; {len(archived)} day "
+               f"files are unchanged: {is_untouched}; the archive continued without loss: {is_true}",
                removed == len(oldest) and is_kept and is_untouched and is_true)
     run("umount", data)
 table.finish()

@@ -1,6 +1,6 @@
-"""Ports that go and come back, and sensors that speak otherwise than agreed: what the daemon finds, and what it costs.
+"""Ports that are unplugged and plugged in again, and a sensor that changes its baud rate, numbered as in fault-list.md.
 
-At 20x, so that a counter that is a second of signal off is 50 ms of the host's off.
+At 20x one second of signal is 50 ms of the host's time.
 """
 
 import re
@@ -20,7 +20,7 @@ def is_archive_true(session, missing=0):
 
 
 def unplug(session, order):
-    """@return frames that the daemon has, once it has more than before."""
+    """Unplugs the port by this order, waits for new frames and returns the daemon's counters."""
     before = session.emulated()["frames_sent"]
     session.order(order)
     wait_for("the port is gone", lambda: not (session.scratch / "sensor").is_symlink())
@@ -29,7 +29,7 @@ def unplug(session, order):
     return session.settled()
 
 
-# The device keeps sampling: its counter tells what each outage cost.
+# The device continues sampling; its counter shows how many samples each outage cost.
 with Scratch() as scratch:
     session = Session(scratch)
     session.wait_for_frames(1000)
@@ -47,14 +47,14 @@ with Scratch() as scratch:
     is_true = is_archive_true(session, unread)
     is_one = (status["session"] == first and counters["sessions"] == len(report["runs"]) == 1
               and counters["link_adoptions"] == 4 and status["device"]["assumed"])
-    table.note(9, "unplugged, back under another name",
+    table.note(9, "unplugged, plugged in under another name",
                f"4 outages, {report['frames_lost_unplugged']} frames lost, {counters['samples_missing']} samples "
                f"missing, {counters['sessions']} session, {len(set(names))} names", len(set(names)) > 1 and is_one and is_true)
     table.note(10, "outages of 5, 30, 100 and 300 s",
                f"{counters['gaps']} gaps of {counters['samples_missing']}, truth {gaps} of {missing}",
                (counters["gaps"], counters["samples_missing"]) == (gaps, missing))
 
-# A host that does not read for so long that the counter comes round; the receiver keeps 4095 bytes.
+# A host that does not read for longer than several wraps of the counter; the receive buffer keeps 4095 bytes.
 with Scratch() as scratch:
     session = Session(scratch)
     session.wait_for_frames(1000)
@@ -66,12 +66,12 @@ with Scratch() as scratch:
         session.settled()
     report, counters = session.end()
     gaps, missing = gaps_of(session.truth())
-    table.note(10, "nobody reads for 88, 94 and 120 s",
+    table.note(10, "host does not read for 88, 94 and 120 s",
                f"{counters['gaps']} gaps of {counters['samples_missing']}, truth {gaps} of {missing}",
                (counters["gaps"], counters["samples_missing"]) == (gaps, missing) and counters["sessions"] == 1
                and is_archive_true(session))
 
-# It does not keep its power: a new session, and no gap is claimed.
+# The device loses its power: a new session begins, and no gap is counted.
 with Scratch() as scratch:
     session = Session(scratch)
     session.wait_for_frames(1000)
@@ -86,7 +86,7 @@ with Scratch() as scratch:
                counters["sessions"] == len(report["runs"]) == 2 and counters["link_adoptions"] == 0
                and status["session"] != first and not status["device"]["assumed"] and is_archive_true(session))
 
-# A daemon that is killed and comes back.
+# The daemon is killed and started again.
 with Scratch() as scratch:
     session = Session(scratch, speed=5)
     session.wait_for_frames(1000)
@@ -95,31 +95,32 @@ with Scratch() as scratch:
     session.daemon.wait()
     time.sleep(1)
     session.daemon = session.start_daemon()
-    wait_for("the daemon again", lambda: session.status().get("counters", {}).get("link_adoptions") == 1)
+    wait_for("the new daemon adopts the stream", lambda: session.status().get("counters", {}).get("link_adoptions") == 1)
     session.wait_for_frames(2000)
     status = session.status()
     report, counters = session.end()
     missing = {int(one["missing"]) for one in session.counted().values()}
-    table.note(1, "the stream of a killed daemon", f"{max(missing)} samples missing (bound 50), {len(report['runs'])} run",
+    table.note(1, "the stream of a killed daemon", f"{max(missing)} samples missing, limit 50; {len(report['runs'])} run",
                status["session"] == first and len(report["runs"]) == 1 and max(missing) <= 50
                and is_archive_true(session, *missing))
 
-# The device changes its speed: it is found, and used as it is.
+# The device changes its baud rate: the daemon finds the new rate and uses it.
 with Scratch() as scratch:
     session = Session(scratch)
     session.wait_for_frames(1000)
     session.order("change_baud")
-    wait_for("frames at the other speed", lambda: session.status()["counters"]["link_sessions"] == 2
+    wait_for("frames at the other baud rate", lambda: session.status()["counters"]["link_sessions"] == 2
              and session.emulated()["runs"][-1]["frames"] > 500)
     status = session.status()
     reason = " ".join(status["reasons"])
     session.settled()
     report, counters = session.end()
-    drained = report["frames_sent"] - counters["frames"]  # Before the daemon had stopped it at its speed.
+    drained = report["frames_sent"] - counters["frames"]  # Sent before the daemon had stopped the sensor at its baud rate.
     baud = re.search(rb'"baud":(\d+)', sorted((scratch / "data" / "journal").glob("*.a351j"))[-1].read_bytes())
-    table.note(22, "another baud rate",
-               f"{report['frames_damaged']} frames until it was found, {drained} drained, then {status['device']['port'].split(',')[1]}",
-               "115200 baud, not at the 460800" in reason and baud is not None and baud[1] == b"115200"
+    table.note(22, "changed baud rate",
+               f"{report['frames_damaged']} frames until the rate was found, {drained} drained, "
+               f"then {status['device']['port'].split(',')[1]}",
+               "115200 baud, not at the configured 460800" in reason and baud is not None and baud[1] == b"115200"
                and counters["sessions"] == 2 and 0 <= drained < 5000 and is_archive_true(session, drained))
 
 table.finish()

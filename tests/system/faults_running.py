@@ -1,5 +1,7 @@
-"""Faults that a running daemon has to bear, of fault-list.md: a device that resets, reports errors or is another one,
-a second daemon, SIGHUP, and clients of its page."""
+"""Faults that a running daemon must withstand, numbered as in fault-list.md.
+
+A device that resets, reports errors or is replaced by another one, a second daemon, SIGHUP, and hostile clients of the page.
+"""
 
 import os
 import signal
@@ -11,10 +13,10 @@ from emulated_session import Session, wait_for
 from fault_table import FaultTable
 from programs import IS_SANITIZED, Scratch, daemon_config, daemon_status
 
-SPEED = 2  # Silence of 2 s ends a session, but never less than 1 s of real time.
+SPEED = 2  # At this speed the silence that ends a session, 2 s of signal, is its minimum of 1 s of real time.
 OWN, OTHER = "00000001", "87654321"
 HARD_ERR = 0x00E0
-SEATS = 32  # Connections served at a time.
+SEATS = 32  # Connections that the daemon serves at the same time.
 table = FaultTable()
 
 
@@ -33,7 +35,7 @@ def seconds_until(claim, is_true):
 
 
 def undisturbed(session, act):
-    """@return  what `act` returns, and whether no sample was lost and no session began meanwhile."""
+    """Calls `act`; returns its result, and True if no sample was lost and no session began meanwhile."""
     before = session.settled()
     result = act()
     after = session.settled()
@@ -42,7 +44,7 @@ def undisturbed(session, act):
 
 
 def second_daemon(session, name, old, new):
-    """@return  exit status, seconds, and what it said."""
+    """Starts a second daemon and returns its exit status, its run time in s, and its log."""
     (session.scratch / f"{name}.toml").write_text(daemon_config(session.port + 1).replace(old, new))
     begin = time.monotonic()
     with open(session.scratch / f"{name}.log", "w") as log:
@@ -73,11 +75,11 @@ def reset(session):
 def error_flags(session):
     before = session.settled()
     session.order("error_flags count=7 diag_stat=32")
-    wait_for("flags", lambda: session.emulated()["faults"].get("error_flags", 0) == 7)
+    wait_for("the error flags are sent", lambda: session.emulated()["faults"].get("error_flags", 0) == 7)
     after = session.settled()
-    # In one line or, if a second ends among them, in two a minute apart.
-    told = f"more, {before['error_flags'] + 7} in all"
-    wait_for("the log tells of them",
+    # The daemon logs them in one line or, if they fall into two seconds, in two lines a minute apart.
+    told = f"more, {before['error_flags'] + 7} in total"
+    wait_for("the error flags are logged",
              lambda: any("frames with error flags" in line and told in line
                          for line in (session.scratch / "a351d.log").read_text().splitlines()), seconds=90)
     flags, missing = (after[key] - before[key] for key in ("error_flags", "samples_missing"))
@@ -88,25 +90,25 @@ def error_flags(session):
 def failing_tests(session):
     session.order(f"failing_tests diag_stat={HARD_ERR}")
     session.order("power_cycle")
-    wait_for("the failure is told", lambda: "HARD_ERR" in reasons(session))
+    wait_for("the failed test is reported", lambda: "HARD_ERR" in reasons(session))
     said, level = reasons(session), session.status()["level"]
     session.order("failing_tests diag_stat=0")
     session.order("power_cycle")
     wait_for("it samples again", lambda: is_sampling(session))
-    session.settled()  # A single frame in front of what comes next would be confirmed by none.
-    table.note(24, "device fails its start-up test", f"{level}: {said}; healed, it samples", level == "fault")
+    session.settled()  # The next fault must not follow a single frame, because no second frame would confirm it.
+    table.note(24, "device fails its start-up test", f"{level}: {said}; repaired, it samples", level == "fault")
 
 
 def other_device(session):
     session.order(f"other_unit serial_number={OTHER}")
-    wait_for("the other one is told", lambda: OTHER in reasons(session))
+    wait_for("the other device is reported", lambda: OTHER in reasons(session))
     said, frames = reasons(session), session.status()["counters"]["frames"]
     time.sleep(2.0)
     taken = session.status()["counters"]["frames"] - frames
     session.order(f"other_unit serial_number={OWN}")
-    wait_for("the own one samples again", lambda: is_sampling(session))
-    table.note(21, "other device plugged in",
-               f"{said}; {taken} of its frames recorded; the own one samples again",
+    wait_for("the configured device samples again", lambda: is_sampling(session))
+    table.note(21, "another device plugged in",
+               f"{said}; {taken} of its frames recorded; the configured device samples again",
                taken == 0 and f"expected {OWN}" in said)
 
 
@@ -143,7 +145,7 @@ def request(session, path="/api/status"):
 
 
 def answer(client):
-    """The status of the answer, or 0: closed without one."""
+    """Returns the HTTP status of the answer, or 0 if the connection was closed without one."""
     try:
         line = client.makefile("rb").readline()
     except OSError:
@@ -166,14 +168,14 @@ def many_tabs(session):
 
     answers, is_undisturbed = undisturbed(session, act)
     served, refused = answers.count(200), answers.count(503)
-    wait_for("seats are free again", lambda: daemon_status(session.port) is not None)
-    table.note(32, "100 connections at a time",
-               f"{served} served, {refused} told to come back, {answers.count(0)} closed; "
+    wait_for("connections are accepted again", lambda: daemon_status(session.port) is not None)
+    table.note(32, "100 connections at the same time",
+               f"{served} served, {refused} answered with 503, {answers.count(0)} closed; "
                f"{no(is_undisturbed)}disturbed", served >= SEATS and refused > 0 and is_undisturbed)
 
 
 def hostile_clients(session):
-    """Ten that send a byte a second, ten that ask and do not listen, and a stream of nonsense: 12 s of it."""
+    """Runs for 12 s ten clients that send a byte a second, ten that ask and do not read, and a stream of nonsense."""
     text = request(session)
 
     def act():
@@ -185,7 +187,7 @@ def hostile_clients(session):
                 try:
                     client.sendall(part)
                 except OSError:
-                    pass  # Cut, or full.
+                    pass  # The connection is closed, or its buffer is full.
             for junk in (os.urandom(3000), b"\r\n" * 100, b"GET / HTTP/9.9\r\n\r\n"):
                 with connect(session) as client:
                     client.sendall(junk)
@@ -200,7 +202,7 @@ def hostile_clients(session):
     grown_mb = resident_mb(session.daemon.pid) - memory_before
     wait_for("the page answers", lambda: daemon_status(session.port) is not None)
     table.note(31, "slow, deaf and hostile clients",
-               f"{cut} of 10 slow ones cut after 10 s, memory {grown_mb:+.1f} MB; "
+               f"{cut} of 10 slow clients disconnected, memory {grown_mb:+.1f} MB (limit 8); "
                f"{no(is_undisturbed)}disturbed", cut == 10 and (grown_mb < 8 or IS_SANITIZED) and is_undisturbed)
 
 
@@ -225,7 +227,7 @@ with Scratch() as scratch:
     for fault in (second_daemons, hang_ups, many_tabs, hostile_clients, error_flags, reset, failing_tests,
                   other_device):
         fault(session)
-    session.settled()  # The first frame of a session counts once a second one confirms it.
+    session.settled()  # The first frame of a session counts only after a second frame confirms it.
     report, counters = session.end()
     session.archive_is_true(missing=0)
 table.finish()

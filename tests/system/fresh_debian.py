@@ -1,10 +1,10 @@
-"""A newcomer's way in a fresh Debian: a clean clone, sim/demo, tests/run; the packages, made twice at two places, then
-installed and used in a second fresh root.
+"""Tests a fresh Debian as a new user would: a clean clone, sim/demo, tests/run and the packages.
 
     python3 tests/system/fresh_debian.py bookworm|trixie [--architecture arm64] [--without-tests]
 
-Wants root, debootstrap, a mirror, 6 GB in TMPDIR, and a build of this tree for its tools; takes up to an hour.  Of this
-tree only what is committed is seen.
+The packages are made twice in two directories, compared, and then installed and used in a second fresh root.  Needs root,
+debootstrap, a Debian mirror, 6 GB in TMPDIR, and a build of this tree for its tools; takes up to an hour.  Only committed
+files of this tree are tested.
 """
 
 import argparse
@@ -30,22 +30,22 @@ def timed(root, title, command):
 
 def clone_into(root):
     run("git", "clone", "--bare", "--no-hardlinks", TOP, root / "srv/a351.git")
-    # Debian's minimal root has no git; a newcomer has, or could not have cloned.
+    # Debian's minimal root has no git, but a user who clones has it.
     inside(root, "apt-get update -qq && apt-get install -y --no-install-recommends git")
     inside(root, f"git clone /srv/a351.git {CLONE}")
 
 
 def packages_of(root, suite, scratch):
-    """The packages that the clone's build gives, twice the same; and newer ones, for an upgrade."""
+    """Makes the packages in the clone and again at another place, demands equal bytes, and makes newer ones for an upgrade."""
     inside(root, "apt-get install -y --no-install-recommends lintian python3")
-    said = timed(root, "packages built and looked into", f"cd {CLONE} && python3 tests/system/packages.py")
-    demand("lintian was asked", "lintian finds neither error nor warning" in said)
+    said = timed(root, "packages built and checked", f"cd {CLONE} && python3 tests/system/packages.py")
+    demand("lintian was run", "lintian finds neither error nor warning" in said)
     inside(root, f"cd {CLONE}/build/release && cpack -B /srv/debs && cpack -R 99.0.0 -B /srv/newer")
-    timed(root, "built again, at another place",
+    timed(root, "built again in another directory",
           f"git clone -q /srv/a351.git '{ELSEWHERE}' && cd '{ELSEWHERE}' && cmake --preset release -DA351_TESTS=OFF && "
           f"cmake --build --preset release --target {PROGRAMS} && cd build/release && cpack -B /srv/debs-elsewhere")
     print(inside(root, "cd /srv/debs && for file in *.deb *.json; do cmp $file ../debs-elsewhere/$file; sha256sum $file; done"))
-    print("holds: built at another place and time, they are the same bytes")
+    print("holds: packages built in another directory at another time have the same bytes")
     found = []
     for folder in ("debs", "newer"):
         shutil.copytree(root / "srv" / folder, scratch / folder, ignore=shutil.ignore_patterns("_CPack_Packages"))
@@ -56,14 +56,14 @@ def packages_of(root, suite, scratch):
 parser = argparse.ArgumentParser()
 parser.add_argument("suite", choices=SUITES)
 parser.add_argument("--architecture", help="Debian's name of another architecture, run by qemu-user-static")
-parser.add_argument("--without-tests", action="store_true", help="leave tests/run out")
+parser.add_argument("--without-tests", action="store_true", help="do not run tests/run")
 asked = parser.parse_args()
 if os.geteuid() != 0 or shutil.which("debootstrap") is None or shutil.which("git") is None:
-    skip("a fresh root needs root, debootstrap and git")
+    skip("a fresh root needs root rights, debootstrap and git")
 if not (TOOLS / "compare-truth").is_file():
-    skip(f"{TOOLS}/compare-truth is missing; tests/run builds it")
+    skip(f"{TOOLS}/compare-truth is missing; build it with tests/run")
 if changed := run("git", "-C", TOP, "status", "--short").stdout:
-    print(f"not committed, and left out:\n{changed}")
+    print(f"these changes are not committed and therefore not tested:\n{changed}")
 with Scratch() as scratch:
     root = scratch / "root"
     began = time.monotonic()

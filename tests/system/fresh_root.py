@@ -1,4 +1,7 @@
-"""A fresh Debian in a directory: commands in it, and its systemd booted.  Wants root, debootstrap and a mirror."""
+"""Makes a fresh Debian in a directory, runs commands in it, and boots its systemd.
+
+Needs root, debootstrap and a Debian mirror.
+"""
 
 import os
 import pathlib
@@ -14,8 +17,8 @@ ENVIRONMENT = ["/usr/bin/env", "-u", "TMPDIR", "PATH=/usr/local/bin:/usr/sbin:/u
                "DEBIAN_FRONTEND=noninteractive", "HOME=/tmp"]
 MOUNTS = pathlib.Path("/proc/self/mounts")
 
-# The first process of namespaces of its own, in a cgroup of its own: it sees neither the host's processes nor its
-# network, and what of the kernel is not divided (clock, settings, devices) it may only read.
+# Starts systemd as the first process of its own namespaces, in its own cgroup.  It sees neither the host's processes nor its
+# network, and has no write access to shared parts of the kernel (clock, settings, devices).
 BOOT = """root=$0
 mount --bind $root $root
 mount -t tmpfs -o mode=755 tmpfs $root/dev
@@ -45,14 +48,17 @@ def is_of_a_package(file):
 
 
 def make_root(root, suite, architecture=None):
-    """@param architecture  Debian's name, by default this machine's; another one wants qemu-user-static and its binfmt."""
+    """Installs a minimal Debian in `root`.
+
+    @param architecture  Debian's name; default: that of this machine.  Another one needs qemu-user-static and its binfmt.
+    """
     run("debootstrap", "--variant=minbase", *([f"--arch={architecture}"] if architecture else []), suite, root)
-    # It asks the mirrors that this host asks, in its way.
+    # The root uses the same Debian mirrors and network settings as this host.
     for name in ("resolv.conf", "hosts", "ssl/certs"):
         copy("/etc" / pathlib.Path(name), root / "etc" / name)
     copy(pathlib.Path("/usr/local/share/ca-certificates"), root / "usr/local/share/ca-certificates")
     for file in pathlib.Path("/etc/apt/apt.conf.d").iterdir():
-        if not is_of_a_package(file):  # The others would be in the way of the packages in the root.
+        if not is_of_a_package(file):  # Files of packages would conflict with the packages in the root.
             copy(file, root / "etc/apt/apt.conf.d" / file.name)
     own_suite = platform.freedesktop_os_release().get("VERSION_CODENAME")
     sources = [file for file in map(pathlib.Path, ("/etc/apt/sources.list", "/etc/apt/sources.list.d/debian.sources"))
@@ -73,15 +79,15 @@ def copy(source, target):
 
 
 def output(result, command):
-    """What a command wrote in the root, or the end of the test."""
+    """Returns the standard output of a command; ends the test if the command failed."""
     if result.returncode != 0:
         print(result.stdout[-3000:], result.stderr[-3000:], sep="\n")
-        demand(f"in the fresh root: {command}", False)
+        demand(f"this command succeeds in the fresh root: {command}", False)
     return result.stdout
 
 
 def inside(root, command, user=None):
-    """Runs a shell command in the root, with terminals and processes of its own, as root or as a user."""
+    """Runs a shell command in the root, with its own terminals and processes, as root or as another user."""
     as_user = f"setpriv --reuid={user} --regid={user} --init-groups " if user else ""
     script = (f"mount --bind /dev {root}/dev && mount -t devpts -o newinstance,ptmxmode=0666 devpts {root}/dev/pts && "
               f"mount --bind {root}/dev/pts/ptmx {root}/dev/ptmx && mount -t proc proc {root}/proc && "
@@ -91,7 +97,7 @@ def inside(root, command, user=None):
 
 
 class Booted:
-    """The systemd of the root, running as that of a machine; `trouble` says why it does not."""
+    """Systemd of the root, booted as on a machine; `trouble` is None or the reason why it does not run."""
 
     def __init__(self, root):
         tops = [line.split()[1] for line in MOUNTS.read_text().splitlines() if line.split()[2] == "cgroup2"]
@@ -102,7 +108,7 @@ class Booted:
         try:
             self.cgroup.mkdir()
         except OSError as error:
-            self.trouble = f"no cgroup of version 2: {error}"
+            self.trouble = f"there is no cgroup of version 2: {error}"
             return self
         self.messages = open(self.root / "var/log/boot.log", "w+")
         self.outer = subprocess.Popen(
@@ -113,13 +119,13 @@ class Booted:
         while (state := self.try_run("systemctl is-system-running").stdout.strip()) not in ("running", "degraded"):
             if time.monotonic() > end or self.outer.poll() is not None:
                 self.messages.seek(0)
-                self.trouble = f"systemd is {state or 'not there'}: {self.messages.read()[-1000:]}"
+                self.trouble = f"systemd is {state or 'not running'}: {self.messages.read()[-1000:]}"
                 break
             time.sleep(0.5)
         return self
 
     def try_run(self, command):
-        """A shell command beside systemd; `outer` is unshare, and systemd its only child."""
+        """Runs a shell command in the namespaces of systemd; `outer` is unshare, and systemd is its only child."""
         try:
             first = pathlib.Path(f"/proc/{self.outer.pid}/task/{self.outer.pid}/children").read_text().split()[0]
         except (OSError, IndexError):
@@ -136,7 +142,7 @@ class Booted:
         self.outer.kill()
         self.outer.wait()
         self.messages.close()
-        while (self.cgroup / "cgroup.events").read_text().startswith("populated 1"):  # Processes not yet buried.
+        while (self.cgroup / "cgroup.events").read_text().startswith("populated 1"):  # Wait for ended processes to be removed.
             time.sleep(0.1)
         for folder in sorted(self.cgroup.rglob("*/"), reverse=True):
             folder.rmdir()

@@ -1,7 +1,7 @@
-"""GSadjust reads gsadjust.csv: its stations are our occupations, with their values, deviations, times and tides.
+"""GSadjust reads gsadjust.csv: its stations must be the occupations, with the same values, deviations, times and tides.
 
-A351_GSADJUST names the folder of its source that holds main.py (https://code.usgs.gov/sgp/gsadjust); its reader needs
-NumPy and Matplotlib, its stations PyQt5.
+A351_GSADJUST is the folder of GSadjust's source that holds main.py (https://code.usgs.gov/sgp/gsadjust).  The reader needs
+NumPy and Matplotlib, the stations need PyQt5.
 """
 
 import datetime
@@ -14,13 +14,13 @@ import types
 from programs import BIN, TOP, Scratch, demand, rows, run, skip
 
 if "A351_GSADJUST" not in os.environ:
-    skip("A351_GSADJUST names no source of GSadjust")
+    skip("A351_GSADJUST is not set; set it to the source folder of GSadjust")
 SOURCE = pathlib.Path(os.environ["A351_GSADJUST"])
 GOLDEN = TOP / "tests" / "golden" / "tsukuba"
 
 
 def gsadjust(module):
-    """Of its package, whose windows are not opened."""
+    """Imports a module of GSadjust without opening its windows."""
     for package in ("gsadjust", "gsadjust.obstree"):
         if package not in sys.modules:
             sys.modules[package] = types.ModuleType(package)
@@ -28,14 +28,14 @@ def gsadjust(module):
     try:
         return importlib.import_module(module)
     except ImportError as error:
-        skip(f"GSadjust of {SOURCE}: {error}")
+        skip(f"GSadjust in {SOURCE} cannot be imported: {error}")
 
 
 read, loop = gsadjust("gsadjust.file.read"), gsadjust("gsadjust.obstree.loop")
 
 
 def stations(file):
-    """What its window would list: one for each run of lines of one name."""
+    """Returns the stations that GSadjust's window would list: one for consecutive lines of the same name."""
     with open(file) as text:
         readings = read.file_reader("csv", text)
     tree = loop.ObsTreeLoop("day")
@@ -48,10 +48,10 @@ def number(row, column):
 
 
 def compare(title, result):
-    """Its figures are in microgal, its times in days since 1970."""
+    """Compares GSadjust's stations with occupations.csv; its values are in microgal, its times in days since 1970."""
     ours = [row for row in rows(result / "occupations.csv") if row["used"] == "1"]
     theirs = stations(result / "gsadjust.csv")
-    demand(f"{title}: its {len(theirs)} stations are the {len(ours)} occupations",
+    demand(f"{title}: GSadjust's {len(theirs)} stations are the {len(ours)} occupations",
            [(station.station_name, station.station_count) for station in theirs]
            == [(row["site"], row["occupation"]) for row in ours])
     worst = {"value": 0.0, "deviation": 0.0, "tide": 0.0, "time": 0.0}
@@ -65,8 +65,8 @@ def compare(title, result):
                                  ("time", station.tmean * 86400 - time)):
             worst[what] = max(worst[what], abs(difference))
     print(f"{title}: largest differences: " + ", ".join(f"{what} {size:.2g}" for what, size in worst.items()))
-    # Both files have 1e-6 mGal and GSadjust has whole seconds; the value is the sum of five rounded numbers.
-    demand(f"{title}: its values, deviations and tides are ours within 4e-6 mGal, its times within a second",
+    # Both files are rounded to 1e-6 mGal, GSadjust's times to seconds; a value is the sum of five rounded numbers.
+    demand(f"{title}: GSadjust's values, deviations and tides agree within 4e-6 mGal, its times within a second",
            max(worst["value"], worst["deviation"], worst["tide"]) < 4e-6 and worst["time"] < 1.001)
 
 

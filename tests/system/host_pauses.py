@@ -1,4 +1,4 @@
-"""Made-up tests, scripts and a case of Catch2: what a pause of the host excuses, what it does not, and what is reported."""
+"""Tests the repetition of tests after a pause of the host, with made-up scripts and a made-up case of Catch2."""
 
 import os
 import signal
@@ -13,7 +13,7 @@ from stopped_host import stop
 RUNNER = [sys.executable, str(TOP / "tests" / "system" / "steady_host.py")]
 STOPPED_S = 1.0
 
-# Counts its runs, leaves a process in a session of its own that holds the port, and fails if it was delayed.
+# Counts its runs, leaves a process in another session that holds the port, and fails if it was delayed.
 DELICATE = """import os, socket, sys, time
 port, result_of_steady = int(sys.argv[1]), int(sys.argv[2])
 held = socket.create_server(("127.0.0.1", port))
@@ -29,7 +29,7 @@ for _ in range(100):
         sys.exit(1)
 sys.exit(result_of_steady)
 """
-# Does not care.
+# Does not fail when it is delayed.
 STURDY = """import time
 open("runs", "a").write("run\\n")
 time.sleep(1)
@@ -46,7 +46,9 @@ def runs_in(scratch):
 
 
 def play(command, script="", stopped_runs=(), stop_run=lambda runner: stop(runner.pid, STOPPED_S), **environment):
-    """@param stopped_runs  numbers of the runs in which the host pauses.
+    """Runs a command with some of its runs stopped, as by a pause of the host.
+
+    @param stopped_runs  numbers of the runs that are stopped
     @return status, number of runs, output
     """
     with Scratch() as scratch:
@@ -59,7 +61,8 @@ def play(command, script="", stopped_runs=(), stop_run=lambda runner: stop(runne
             time.sleep(0.2)
             stop_run(runner)
         said = runner.communicate(timeout=60)[0]
-        print(*(f"  {line}" for line in said.splitlines()), sep="\n")  # tests/run lists lines that begin otherwise.
+        # Indented, because tests/run lists lines that begin with steady_host.
+        print(*(f"  {line}" for line in said.splitlines()), sep="\n")
         return runner.returncode, runs_in(scratch), said
 
 
@@ -75,35 +78,36 @@ def stop_script_alone(runner):
 
 
 status, runs, said = play_script(DELICATE, unused_port(), 0)
-demand("a test that succeeds on a steady host runs once, and nothing is said", (status, runs, said) == (0, 1, ""))
+demand("a test that succeeds on a steady host runs once, and nothing is printed", (status, runs, said) == (0, 1, ""))
 
 status, runs, said = play_script(DELICATE, unused_port(), 3)
 demand("a test that fails on a steady host fails at once", (status, runs, said) == (3, 1, ""))
 
 status, runs, said = play_script(STURDY, stopped_runs=[1])
-demand("a test that bears a pause runs once, and the pause is named",
-       (status, runs) == (0, 1) and "paused for 1." in said and "all the same" in said)
-demand("once, although the script and its runner saw it", said.count(" UTC") == 1)
+demand("a test that succeeds despite a pause runs once, and the pause is reported",
+       (status, runs) == (0, 1) and "paused for 1." in said and "nevertheless ended" in said)
+demand("the pause is reported once, although both the script and its runner saw it", said.count(" UTC") == 1)
 
 status, runs, said = play_script(DELICATE, unused_port(), 0, stopped_runs=[1])
-demand("a test that failed in a pause is repeated, finds its port free and is green; the pause is named",
+demand("a test that failed in a pause is repeated, finds its port free and passes; the pause is reported",
        (status, runs) == (0, 2) and "paused for 1." in said and "is repeated once" in said)
 
 status, runs, said = play_script(DELICATE, unused_port(), 0, stopped_runs=[1], stop_run=stop_script_alone)
-demand("so is one that was stopped alone", (status, runs) == (0, 2) and "paused for 1." in said)
+demand("a test that was stopped without its runner is repeated too", (status, runs) == (0, 2) and "paused for 1." in said)
 
 status, runs, said = play_script(DELICATE, unused_port(), 3, stopped_runs=[1])
-demand("a repetition that fails on a steady host fails", (status, runs) == (3, 2) and "it counts" in said)
+demand("a test whose repetition fails on a steady host fails", (status, runs) == (3, 2) and "it counts" in said)
 
 status, runs, said = play_script(DELICATE, unused_port(), 0, stopped_runs=[1, 2])
-demand("two pauses are reported as what they are, and nothing is judged",
-       (status, runs) == (SKIPPED, 2) and said.count("paused for 1.") == 2 and "skipped: nothing was judged" in said)
+demand("a test that fails in two runs with pauses is skipped, and both pauses are reported",
+       (status, runs) == (SKIPPED, 2) and said.count("paused for 1.") == 2 and "skipped: the result is unknown" in said)
 
 status, runs, said = play_script(HANGING, options=["--at-most", "1.5"])
 demand("a run that takes too long is killed and fails", (status, runs) == (128 + signal.SIGKILL, 1))
 
 status, runs, said = play_script(HANGING, stopped_runs=[1], options=["--at-most", "1.5"])
-demand("after a pause it is repeated, and fails", (status, runs) == (128 + signal.SIGKILL, 2) and "it counts" in said)
+demand("a run that takes too long in a pause is repeated, and its second failure counts",
+       (status, runs) == (128 + signal.SIGKILL, 2) and "it counts" in said)
 
 CASE = [TOOLS / "core_test", "[host_pauses]"]
 for name, how, expected in (("succeeds on a steady host", {}, (0, 1)),

@@ -1,4 +1,4 @@
-"""The rooms of the product include each other as the map in CONTRIBUTING.md says, and never upwards."""
+"""The rooms (source directories) must include each other as in the map of CONTRIBUTING.md, and no room of a later row."""
 
 import collections
 import re
@@ -6,13 +6,13 @@ import re
 from programs import TOP, demand
 
 COMPONENTS = ("protocol", "daemon", "sim", "corrector")
-MOST_MODULES = 22  # More than a reader keeps in view; the largest rooms have as many today.
+MOST_MODULES = 22  # Largest number of modules in a room; the largest rooms have as many today.
 ROW = re.compile(r"^\| `([a-z0-9_/]+)` \|[^|]*\|([^|]*)\|$", re.MULTILINE)
 INCLUDE = re.compile(r'^#include "([^"]+)/[^/"]+"', re.MULTILINE)
 
 
 def rooms_of_map():
-    """Returns the rooms in the order of the map, each with the rooms that it may include."""
+    """Returns the rooms in the order of the map, each with the rooms that it includes."""
     text = (TOP / "CONTRIBUTING.md").read_text()
     return {room: set(re.findall(r"`([a-z0-9_/]+)`", below)) for room, below in ROW.findall(text)}
 
@@ -30,15 +30,15 @@ def rooms_of_sources():
 
 allowed = rooms_of_map()
 included, modules = rooms_of_sources()
-demand(f"every one of {len(modules)} rooms is on the map, and no other", set(allowed) == set(modules))
+demand(f"the map lists the {len(modules)} rooms of the sources and no others", set(allowed) == set(modules))
 above = set(allowed)
 for room, below in allowed.items():
     above.discard(room)
-    demand(f"{room} includes what the map says: not on the map {sorted(included[room] - below)}, "
+    demand(f"{room} includes the rooms of its row: missing on the map {sorted(included[room] - below)}, "
            f"no longer included {sorted(below - included[room])}", included[room] == below)
     demand(f"{room} includes no room of a later row", not below & above and room not in below)
 largest = max(modules, key=lambda room: len(modules[room]))
 demand(f"the largest room is {largest} with {len(modules[largest])} modules, must be at most {MOST_MODULES}",
        len(modules[largest]) <= MOST_MODULES)
 arrows = sum(len(below) for below in included.values())
-print(f"{len(modules)} rooms, {arrows} arrows, {sum(len(one) for one in modules.values())} modules")
+print(f"{len(modules)} rooms, {arrows} include relations, {sum(len(one) for one in modules.values())} modules")

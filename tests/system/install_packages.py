@@ -1,4 +1,4 @@
-"""config/install-packages with apt-get, sudo and dpkg-query played by scripts that note how they were called."""
+"""Tests config/install-packages with scripts in place of apt-get, sudo and dpkg-query that log how they are called."""
 
 import shutil
 
@@ -9,7 +9,7 @@ LIST = "# build\nmake\nplotter-nox|plotter-qt\n# library\nlibm-dev # with a comm
 
 
 class Machine:
-    """A PATH of its own; `installed` names what its dpkg-query knows."""
+    """Folder used as PATH, with made-up tools; `installed` lists the packages that its dpkg-query knows."""
 
     def __init__(self, folder, installed="", user_id=0, has_sudo=False, apt_get="exit 0", is_debian=True):
         self.folder, self.calls = folder, folder / "calls"
@@ -19,7 +19,7 @@ class Machine:
         self.write("id", f"echo {user_id}")
         self.write("apt-get", f'echo "${{DEBIAN_FRONTEND:-}} apt-get $*" >>{self.calls}\n{apt_get}')
         if has_sudo:
-            # As sudo does, without the caller's environment.
+            # Like sudo, without the caller's environment.
             self.write("sudo", f'echo "sudo $*" >>{self.calls}\nshift\n[ "$1" = true ] || env -i PATH={folder} "$@"')
         if is_debian:
             self.write("dpkg-query", f'for name; do :; done\ncase " {installed} " in *" $name "*) echo "install ok installed" ;; '
@@ -30,7 +30,7 @@ class Machine:
         (self.folder / name).chmod(0o755)
 
     def install(self, *lists):
-        """Status, lines on stderr, calls."""
+        """Runs the script and returns its status, its lines on stderr, and the calls of the tools."""
         result = run("/bin/sh", SCRIPT, *lists, check=False, env={"PATH": str(self.folder), "DEBIAN_FRONTEND": ""})
         demand(f"nothing on stdout: {result.stdout!r}", result.stdout == "")
         calls = self.calls.read_text().splitlines() if self.calls.exists() else []
@@ -44,29 +44,31 @@ with Scratch() as scratch:
     (scratch / "empty").write_text("# nothing\n")
     for name in ("absent", "empty", "."):
         status, lines, calls = Machine(scratch / f"bad-{name.strip('.')}").install(scratch / "list", scratch / name)
-        demand(f"a list that is {name}: status 2, one line with its name, nothing installed",
+        demand(f"unusable list {name!r}: status 2, one line with its name, nothing installed",
                status == 2 and len(lines) == 1 and str(scratch / name) in lines[0] and not calls)
 
     complete = "make plotter-qt libm-dev"
-    demand("all present: nothing is called, as without a network",
+    demand("all packages are installed: no tool is called, so no network is needed",
            Machine(scratch / "complete", complete, user_id=1000).install(scratch / "list") == (0, [], []))
     wanted = "install -y --no-install-recommends plotter-nox libm-dev"
-    demand("root: update, and what is missing, the first of a choice",
+    demand("as root: update, then installation of the missing packages, of alternatives the first",
            Machine(scratch / "root", "make").install(scratch / "list")[::2] ==
            (0, [" apt-get update -qq", f"noninteractive apt-get {wanted}"]))
-    demand("two lists are one", Machine(scratch / "two", complete).install(scratch / "list", scratch / "more")[2][-1] ==
+    demand("packages of two lists are installed together",
+           Machine(scratch / "two", complete).install(scratch / "list", scratch / "more")[2][-1] ==
            "noninteractive apt-get install -y --no-install-recommends tester")
     status, _, calls = Machine(scratch / "sudo", "make", user_id=1000, has_sudo=True).install(scratch / "list")
-    demand("with sudo, and without a question even so", status == 0 and calls[-1] == f"noninteractive apt-get {wanted}")
+    demand("with sudo: the installation asks no question either",
+           status == 0 and calls[-1] == f"noninteractive apt-get {wanted}")
     status, lines, calls = Machine(scratch / "user", "make", user_id=1000).install(scratch / "list")
-    demand("neither root nor sudo: the one line for apt-get, status 1",
+    demand("neither root nor sudo: one line with the apt-get command, status 1",
            status == 1 and len(lines) == 1 and lines[0].endswith(f"apt-get update && apt-get {wanted}") and not calls)
     status, lines, calls = Machine(scratch / "failing", "make", apt_get="exit 100").install(scratch / "list")
-    demand("what apt-get cannot install is named, status 1",
+    demand("apt-get fails: the packages are named, status 1",
            status == 1 and lines[-1].endswith("plotter-nox libm-dev") and len(calls) == 2)
     status, lines, _ = Machine(scratch / "other", is_debian=False).install(scratch / "list")
-    demand("another system is told the packages; without CMake, status 1",
+    demand("on another system without CMake: one line with the packages, status 1",
            status == 1 and len(lines) == 1 and lines[0].endswith("make plotter-nox|plotter-qt libm-dev"))
     for name in ("packages.txt", "test-packages.txt", "page-test-packages.txt"):
         status, lines, _ = Machine(scratch / name, user_id=1000).install(TOP / "config" / name)
-        demand(f"{name} is a list", status == 1 and "apt-get install" in lines[0])
+        demand(f"{name} is a valid list of packages", status == 1 and "apt-get install" in lines[0])

@@ -1,14 +1,16 @@
-"""kill -9 at random instants, of start and recovery too: what was published as journaled stays, nothing is altered.
+"""Kills the daemon with kill -9 at random times, also during start and recovery.
 
-Every session has one emulator and many lives of the daemon.  At 20x; and a few kills at factor 1, where the bound is
-the real one.  The stream is adopted when the counter tells it: at 20x what the killed daemon had read but not written
-may be more than the second of signal within which that is sure, then the sensor is configured anew.  Either is right
-there; at factor 1 there must be adopted ones.
+Samples that were published as journaled must stay, and no sample may be altered.  Every session has one emulator and many
+runs ("lives") of the daemon.  Most sessions run at 20x; a few kills are at factor 1, where the loss has its real limit.
 
-The bounds are the daemon's, not the host's: a session whose emulator the host held up is run again, and one that was
-held up each time is not judged.
+After a kill the new daemon adopts the running stream if the counter shows how many samples are missing.  At 20x the samples
+that the killed daemon had read but not written may cover more than the second of signal for which this is certain; then
+the daemon configures the sensor again.  Both are correct at 20x; at factor 1 some streams must be adopted.
 
-A kill loses nothing that was handed to the kernel, so the data may lie in memory; a disk that stalls is another test's.
+The limits are for the daemon, not for the host: a session whose emulator was delayed by the host is repeated, and if all
+repetitions are delayed, the test is skipped.
+
+A kill loses nothing that was handed to the kernel, so the data may be in memory; disk_faults.py tests disks that stall.
 """
 
 import collections
@@ -22,23 +24,23 @@ from emulated_session import INTACT, Session, wait_for
 from programs import IS_LONG, TOOLS, Scratch, daemon_status, demand, run, skip
 
 RATE_HZ = 50
-LOSS_S = 0.2  # Before a kill, of real time.
-LATE_S = 0.1  # Real time; an emulator later than half the bound says that the host had no time for the daemon either.
+LOSS_S = 0.2  # Largest loss before a kill, in s of real time.
+LATE_S = 0.1  # Largest lateness of the emulator, in s of real time.  If it is later, the host has delayed the daemon too.
 TRIALS = 3
-LEFT_OPEN = 200  # Frames; of a stream of fewer than about 100 a clean end leaves the archive to the next start.
-# From the instant a sample stands for until its frame is sent: 511 / 2 samples of the filter at 4000 Hz, 430 us to data
+LEFT_OPEN = 200  # Frames of the last stream; with fewer than about 100 a clean end leaves archiving to the next start.
+# Delay from the time of a sample to the sending of its frame: 511 / 2 samples of the filter at 4000 Hz, 430 us to data
 # ready, 24 bytes of 10 bits at 460800 baud (M-A352AD10 data sheet, 5.4, table 2.2, 6.2).
 DELAY_NS = 63_875_000 + 430_000 + 24 * 10 * 1_000_000_000 // 460_800
-# Of simulated time, of any sample.  At 20x the 10 ms of factor 1 are those of the host.
+# Largest time error of any sample, in s of simulated time, by speed.  In host time the limit is 10 ms at both speeds.
 TIME_ERROR_S = {1: 0.01, 20: 0.2}
 
-Life = collections.namedtuple("Life", "killed_ns phase")  # Simulated time of its end, what it did then.
-Part = collections.namedtuple("Part", "session began_ns samples")  # Behind a header of the journal.
-Gap = collections.namedtuple("Gap", "kills is_adopted before_kill whole")  # From part to part; may be of no samples.
+Life = collections.namedtuple("Life", "killed_ns phase")  # Simulated time of the kill, and the daemon's phase at that time.
+Part = collections.namedtuple("Part", "session began_ns samples")  # Samples that follow one header of the journal.
+Gap = collections.namedtuple("Gap", "kills is_adopted before_kill whole")  # Missing samples between two parts; may be none.
 
 
 class Killed(Session):
-    """A session whose daemon is killed again and again."""
+    """Session whose daemon is killed repeatedly."""
 
     def __init__(self, scratch, speed):
         self.speed, self.lives, self.published = speed, [], set()
@@ -51,20 +53,20 @@ class Killed(Session):
         return round(((start - epoch).total_seconds() + self.speed * seconds) * 1e9)
 
     def kill_after(self, seconds, begun="", has_begun=lambda: True):
-        """Watches the daemon that runs until then; counted from when it has begun what it is to be killed in."""
+        """Kills the daemon these seconds after `has_begun` and watches it until then; `begun` names the event in messages."""
         end = time.monotonic() + 60
         while not has_begun():
             if time.monotonic() > end or self.daemon.poll() is not None:
-                demand(f"a daemon {begun} within 60 s: {self.said_by_last()}", False)
+                demand(f"the daemon {begun} within 60 s: {self.said_by_last()}", False)
         timer = threading.Timer(seconds, self.kill)
         timer.start()
         while self.daemon.poll() is None:
             self.publishes()
         timer.join()
         if self.daemon.returncode != -signal.SIGKILL:
-            demand(f"nothing but the kill ends the daemon: {self.daemon.returncode}, {self.said_by_last()}", False)
+            demand(f"only the kill ends the daemon: status {self.daemon.returncode}, {self.said_by_last()}", False)
         if not self.is_archive_whole():
-            demand("right after a kill the archive is whole records, but for its very end", False)
+            demand("right after a kill the archive consists of whole records, except at its end", False)
         self.recovery_is_good()
         self.lives.append(Life(self.killed_ns, self.phase()))
 
@@ -73,7 +75,7 @@ class Killed(Session):
         self.daemon.kill()
 
     def publishes(self):
-        """Whether the daemon that runs has published an index as journaled; it begins with none."""
+        """Returns True if the running daemon has published a journaled index; after its start it has none."""
         time.sleep(0.02)
         state = daemon_status(self.port)
         if not state or state["journaled"] is None:
@@ -82,18 +84,18 @@ class Killed(Session):
         return True
 
     def kill_in(self, phase, generator):
-        """Recording counts from the first that is published, so that each such life must publish."""
+        """Kills the daemon in a phase.  Recording begins with the first published index, so each such life must publish one."""
         if phase == "recording":
             self.kill_after(generator.uniform(0.0, 3.0), "publishes", self.publishes)
-        elif phase == "recovery":  # Which begins with the page and takes some 10 ms.
+        elif phase == "recovery":  # Recovery begins when the page is served and takes about 10 ms.
             self.kill_after(generator.uniform(0.0, 0.004), "serves its page", lambda: "page at" in self.said_by_last())
-        elif phase == "start":  # Up to the page it takes 20 ms.
+        elif phase == "start":  # The page is served after about 20 ms.
             self.kill_after(generator.uniform(0.0, 0.01))
         else:
             self.kill_after(0.002 * 500 ** generator.random())
 
     def phase(self):
-        """By what the last life said."""
+        """Returns the phase in which the last life was killed, found from its log."""
         said = self.said_by_last()
         if "page at" not in said:
             return "start"
@@ -102,7 +104,7 @@ class Killed(Session):
     def recovery_is_good(self):
         bad = [line for line in self.said_by_last().splitlines() if "error: recovery" in line]
         if bad:
-            demand(f"no recovery disagrees with the archive or lacks a part of the journal: {bad}", False)
+            demand(f"recovery agrees with the archive and finds the whole journal: {bad}", False)
 
     def start_again(self):
         self.log.close()
@@ -126,9 +128,9 @@ class Killed(Session):
         self.daemon.send_signal(signal.SIGTERM)
         demand("a daemon without its sensor ends cleanly", self.daemon.wait(timeout=30) == 0)
         said = [line for line in self.said_by_last().splitlines() if "recovery" in line]
-        demand(f"after a clean end a start adds nothing and disagrees with nothing: {said}",
+        demand(f"a start after a clean end adds no record and reports no error: {said}",
                len(said) == 1 and " 0 records added" in said[0])
-        demand(f"the archive of {len(before)} files stays as it is", len(before) > 4 and self.files() == before)
+        demand(f"the archive of {len(before)} files is unchanged", len(before) > 4 and self.files() == before)
 
     def journal(self):
         parts = []
@@ -141,7 +143,7 @@ class Killed(Session):
         return parts
 
     def archive_is_journal(self, parts):
-        """Each sample of the journal once, in its order."""
+        """Demands that the archive holds each sample of the journal once, in the same order."""
         out = self.scratch / "counts"
         out.mkdir()
         run(TOOLS / "archive-samples", self.scratch / "data" / "archive", out)
@@ -150,11 +152,11 @@ class Killed(Session):
             demand(f"{channel}: the archive holds the {len(samples)} samples of the journal, bit for bit",
                    [int(line) for line in open(out / channel)] == [sample[place] for sample in samples])
         held = {(part.session, sample[0]) for part in parts for sample in part.samples}
-        demand(f"all {len(self.published)} indices that were published as journaled are among them",
+        demand(f"all {len(self.published)} indices that were published as journaled are in the journal",
                self.published <= held)
 
     def gaps(self, parts):
-        """What of the truth the journal lacks between its parts, one after the other; nothing is lacking elsewhere."""
+        """Returns the gaps between the parts of the journal; demands that the journal lacks no other samples of the truth."""
         rows = [row for row in self.rows() if row[8] == INTACT]
         at, before, gaps = 0, Part(None, 0, []), []
         for part in parts:
@@ -163,27 +165,28 @@ class Killed(Session):
                 while at < len(rows) and (rows[at][5], *rows[at][1:5]) != sample[1:]:
                     at += 1
                 if at == len(rows):
-                    demand(f"sample {sample} of the journal was sent, after the one before it", False)
+                    demand(f"sample {sample} of the journal was sent, after the sample before it", False)
                 kills = [life.killed_ns for life in self.lives if before.began_ns < life.killed_ns < part.began_ns]
                 if at > first or (kills and before.samples):
                     gaps.append(self.gap(kills, before.session == part.session, rows[first:at], rows[at][6]))
                 before = part
                 at += 1
-        demand(f"nothing is missing in the end: {len(rows) - at}", at == len(rows))
+        demand(f"no sample is missing at the end: {len(rows) - at}", at == len(rows))
         return gaps
 
     @staticmethod
     def gap(kills, is_adopted, missing, next_run):
         if not kills:
-            demand(f"samples are missing at a kill, not elsewhere: {len(missing)}", False)
+            demand(f"samples are missing only at kills: {len(missing)} elsewhere", False)
         if not is_adopted and any(row[6] == next_run for row in missing):
-            demand("a new session misses nothing of its run", False)
+            demand("a new session has all samples of its run", False)
         return Gap(len(kills), is_adopted, sum(row[0] + DELAY_NS < kills[0] for row in missing), len(missing))
 
 
 def session_of_kills(number, kills, speed):
-    """Kills of start and recovery, and of the rest a third within a second, the others while it records.
-    @return  how many in which phase; None when the host held up the emulator.
+    """Kills the daemon once during start, once during recovery, and otherwise early (a third of the kills) or while recording.
+
+    @return  number of kills in each phase; None if the host delayed the emulator
     """
     generator = random.Random(number)
     aims = {kills // 2: "start", kills - 1: "recovery"}
@@ -206,39 +209,39 @@ def session_of_kills(number, kills, speed):
         gaps = session.gaps(parts)
         late_s = report["largest_lateness_real_s"]
         time_error_s = max(channel["largest_time_error_s"] for channel in counted.values())
-        # What the terminal kept for a reader that a busy host held up is lost only when the sensor is configured anew,
-        # or with a life that is killed in turn before it could write it: no bound of the daemon's at 20x.
+        # On a busy host the terminal may keep unread frames.  They are lost if the sensor is configured again, or if the next
+        # life is killed before it writes them.  At 20x such losses are not limited by the daemon, so they do not count.
         once = [gap for gap in gaps if gap.is_adopted and gap.kills == 1]
         phases = collections.Counter(life.phase for life in session.lives)
         bound = LOSS_S * RATE_HZ * speed
         print(f"#{number}, factor {speed}: {kills} kills ({dict(phases)}), "
               f"{len({part.session for part in parts})} sessions of sampling, "
-              f"{sum(gap.is_adopted for gap in gaps)} of {len(gaps)} times adopted; "
+              f"stream adopted {sum(gap.is_adopted for gap in gaps)} of {len(gaps)} times; "
               f"largest loss of an adopted stream {max((gap.whole for gap in once), default=0)} samples, "
               f"of any before the kill {max((gap.before_kill for gap in gaps), default=0)}, of {bound:.0f} allowed; "
               f"largest error in time {time_error_s:.6f} s; the emulator was late by up to {late_s:.3f} s", flush=True)
         if late_s > LATE_S:
             return None
-        demand(f"times within {TIME_ERROR_S[speed]} s of the truth: {time_error_s} s",
+        demand(f"largest time error {time_error_s} s, limit {TIME_ERROR_S[speed]}",
                time_error_s < TIME_ERROR_S[speed])
         too_large = [gap for gap in once if gap.whole > bound]
-        demand(f"no more than {bound:.0f} samples are missing at a kill after which the stream was adopted: "
-               f"{too_large}", too_large == [])
+        demand(f"at most {bound:.0f} samples are missing after a kill if the stream was adopted; exceptions: "
+               f"{too_large or 'none'}", too_large == [])
         if speed == 1:
-            demand(f"streams are adopted after a kill: {len(once)}", once != [])
+            demand(f"some streams are adopted after a kill: {len(once)}", once != [])
             too_large = [gap for gap in gaps if gap.before_kill > bound]
-            demand(f"no more than {bound:.0f} samples sent before a kill are missing, adopted or not: {too_large}",
-                   too_large == [])
+            demand(f"at most {bound:.0f} samples sent before a kill are missing, adopted or not; exceptions: "
+                   f"{too_large or 'none'}", too_large == [])
         return phases
 
 
 def judged(number, kills, speed):
-    """The phases of a session that the host did not hold up; None when it held up each."""
+    """Returns the phases of a session that the host did not delay; None if it delayed every trial."""
     for trial in range(TRIALS):
         phases = session_of_kills(number, kills, speed)
         if phases:
             return phases
-        print(f"#{number}: the host held up the emulator for more than {LATE_S} s, trial {trial + 1} of {TRIALS}")
+        print(f"#{number}: the host delayed the emulator by more than {LATE_S} s, trial {trial + 1} of {TRIALS}")
     return None
 
 
@@ -248,6 +251,6 @@ at_1 = judged(100, 20 if IS_LONG else 8, 1)
 phases = sum(filter(None, sessions), collections.Counter())
 print(f"{sum(phases.values())} kills at factor 20: {dict(phases)}; {time.monotonic() - begin:.0f} s")
 if None in (*sessions, at_1):
-    skip("a host that held up the emulator in each trial of a session shows no bound of the daemon's")
-demand(f"kills of start and of recovery were among them: {dict(phases)}",
+    skip("the host delayed the emulator in every trial of a session, so the limits of the daemon cannot be tested")
+demand(f"the daemon was killed during start and during recovery: {dict(phases)}",
        phases["start"] > 0 and phases["recovery"] > 0)

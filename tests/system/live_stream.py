@@ -1,4 +1,4 @@
-"""A client of the daemon's live stream on bare sockets (RFC 6455, and daemon/page/live_message.hpp for the blocks)."""
+"""Client of the daemon's live stream on plain sockets (RFC 6455; format of the blocks: daemon/page/live_message.hpp)."""
 
 import base64
 import collections
@@ -11,8 +11,10 @@ Block = collections.namedtuple("Block", "first_index time_ms interval_ms channel
 
 
 def open_stream(port, receive_buffer=None):
-    """A socket on which the stream has begun.
-    @raise ConnectionError  the daemon answers otherwise; says how."""
+    """Opens the stream and returns its socket.
+
+    @raise ConnectionError  the daemon refused or closed the connection; the message holds its answer
+    """
     connection = socket.socket()
     if receive_buffer:
         connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_buffer)
@@ -34,7 +36,7 @@ def open_stream(port, receive_buffer=None):
 
 
 def messages(connection):
-    """Kind and payload of each text and binary message, up to the end of the stream; pings are answered."""
+    """Yields kind and payload of each text and binary message up to the end of the stream; answers pings."""
     with connection.makefile("rb") as stream:
         while True:
             head = stream.read(2)

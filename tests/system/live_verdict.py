@@ -1,4 +1,4 @@
-"""What the daemon tells an operator at a benchmark: verdict and running value against the truth, over a crash too."""
+"""Compares the verdict and the running reading at a benchmark with the truth, also after a crash of the daemon."""
 
 import atexit
 import datetime
@@ -14,7 +14,7 @@ from programs import BIN, IS_SANITIZED, Scratch, daemon_config, demand, rows, ru
 
 G_MGAL = 980665.0
 MOST_S = 40 if IS_SANITIZED else 10
-SLOWER = 3 if IS_SANITIZED else 1  # A daemon that falls behind has old news: less speed, and as much more patience.
+SLOWER = 3 if IS_SANITIZED else 1  # Factor of lower speed and longer timeouts for slow programs, so that the daemon keeps up.
 COUNTS_PER_G = 1 << 24
 
 
@@ -27,7 +27,10 @@ def state(session):
 
 
 def slope_limit(session):
-    """The state itself says little of a threshold: at a benchmark the box is disturbed for seconds again and again."""
+    """Returns the limit of the temperature slope that the status shows.
+
+    The state alone does not show which threshold is used, because the box at a benchmark is disturbed for seconds repeatedly.
+    """
     return next((check["limit"] for check in session.status().get("verdict", {}).get("checks", [])
                  if check["quantity"] == "temperature slope"), None)
 
@@ -43,9 +46,11 @@ def mean_norm_mgal(rows):
 
 with Scratch() as scratch:
     session = Session(scratch, speed=60 // SLOWER)
-    wait_for("the temperature is not yet known long enough", lambda: state(session) == "settling", 20)
+    wait_for("settling at first, because the temperature is not known for long enough",
+             lambda: state(session) == "settling", 20)
     first = session.status()["verdict"]
-    demand(f"settling says why: {first['reasons'][0]}", first["reasons"][0].startswith("temperature known for"))
+    demand(f"the verdict settling has its reason: {first['reasons'][0]}",
+           first["reasons"][0].startswith("temperature known for"))
     wait_for("stable", lambda: state(session) == "stable", 60 * SLOWER)
 
     print(ctl(session, "start", "No.0").stdout, end="")
@@ -53,9 +58,11 @@ with Scratch() as scratch:
              30 * SLOWER)
     ctl(session, "target", "0.01")
     demand("the target is not reached", not session.status()["occupation"]["reading"]["is_good_enough"])
-    wait_for("how long it will take", lambda: session.status()["occupation"]["reading"]["needed_s"], 10 * SLOWER)
+    wait_for("the time needed for the target is estimated",
+             lambda: session.status()["occupation"]["reading"]["needed_s"], 10 * SLOWER)
     ctl(session, "target", "5")
-    wait_for("a lesser target is", lambda: session.status()["occupation"]["reading"]["is_good_enough"], 10 * SLOWER)
+    wait_for("a less strict target is reached",
+             lambda: session.status()["occupation"]["reading"]["is_good_enough"], 10 * SLOWER)
     wait_for("a further set-up is proposed", lambda: session.status()["occupation"]["propose_set_up"],
              30 * SLOWER)
 
@@ -64,20 +71,20 @@ with Scratch() as scratch:
     log = scratch / "a351d.log"
 
     def reload(text, claim, is_so):
-        demand(f"not yet {claim}", not is_so())
+        demand(f"before the reload this is not true: {claim}", not is_so())
         config.write_text(text)
         session.daemon.send_signal(signal.SIGHUP)
         wait_for(claim, is_so, 10)
 
     shipped = slope_limit(session)
     demand(f"the shipped threshold is shown: {shipped} degC/h", shipped is not None)
-    reload(given + "[verdict]\nslope_degc_per_h = 0.001\n", "the threshold that SIGHUP brought",
+    reload(given + "[verdict]\nslope_degc_per_h = 0.001\n", "the threshold reloaded by SIGHUP is used",
            lambda: slope_limit(session) == 0.001)
-    wait_for("settling by it", lambda: state(session) == "settling", 10)
-    reload("broken", "a file that SIGHUP refused by name", lambda: "a351d.toml:1: " in log.read_text())
-    demand("it changed nothing", slope_limit(session) == 0.001)
-    reload(given, "the threshold of before", lambda: slope_limit(session) == shipped)
-    wait_for("stable by it", lambda: state(session) == "stable", 10)
+    wait_for("settling by the new threshold", lambda: state(session) == "settling", 10)
+    reload("broken", "a broken file is refused at SIGHUP with its name", lambda: "a351d.toml:1: " in log.read_text())
+    demand("the refused file changed no threshold", slope_limit(session) == 0.001)
+    reload(given, "the earlier threshold is used again", lambda: slope_limit(session) == shipped)
+    wait_for("stable by the earlier threshold", lambda: state(session) == "stable", 10)
 
     for how in (signal.SIGKILL, signal.SIGTERM):
         used_s = session.status()["occupation"]["reading"]["used_s"]
@@ -87,16 +94,16 @@ with Scratch() as scratch:
         begun = time.monotonic()
         wait_for("stable again", lambda: state(session) == "stable", 60)
         took_s = time.monotonic() - begun
-        demand(f"after {how.name} the verdict is back within {MOST_S} s: {took_s:.1f} s", took_s < MOST_S)
-        wait_for("the reading goes on", lambda: session.status()["occupation"]["reading"]["used_s"] > used_s, 20)
-        demand("and its target stands", session.status()["target_mgal"] == 5)
+        demand(f"after {how.name} the verdict is back after {took_s:.1f} s, limit {MOST_S}", took_s < MOST_S)
+        wait_for("the reading continues", lambda: session.status()["occupation"]["reading"]["used_s"] > used_s, 20)
+        demand("the target is kept", session.status()["target_mgal"] == 5)
 
     print(ctl(session, "stop").stdout, end="")
     listed = ctl(session, "list").stdout.splitlines()
     _, _, start, end, reading, *_ = listed[1].split()
     session.order("silence seconds=100000")
     wait_for("no data", lambda: state(session) == "no data", 10)
-    demand(f"no data says since when: {session.status()['verdict']['reasons']}",
+    demand(f"the verdict no data has the time of the last sample: {session.status()['verdict']['reasons']}",
            session.status()["verdict"]["reasons"][0].startswith("last "))
 
     session.sim.send_signal(signal.SIGTERM)
@@ -106,7 +113,7 @@ with Scratch() as scratch:
     demand(f"the reading {reading} mGal is the mean of the {len(between)} samples that the sensor sent, {true:.2f}",
            abs(float(reading) - true) < 1.0)
 
-# What no journal tells any more is recalled from the archive.
+# Readings whose journal is deleted are computed again from the archive.
 with Scratch() as scratch:
     run(BIN / "a351-sim", "survey", "--scenario", "ideal", "--out", scratch / "data")
     shutil.rmtree(scratch / "data" / "journal")
@@ -124,6 +131,6 @@ with Scratch() as scratch:
             return []
 
     wait_for("the readings of the whole day", lambda: readings() and None not in readings(), 30 * SLOWER)
-    print(f"recalled: {len(readings())} readings, {min(readings()):.1f} to {max(readings()):.1f} mGal")
+    print(f"computed from the archive: {len(readings())} readings, {min(readings()):.1f} to {max(readings()):.1f} mGal")
     daemon.terminate()
     demand("the daemon ends cleanly", daemon.wait(timeout=30) == 0)

@@ -1,4 +1,4 @@
-"""record: a simulated night from its archive, whole and with a gap, twice the same bytes; bad input in one line."""
+"""`record` on a simulated night: complete and with a gap, with the same bytes from root and day file; bad input is refused."""
 
 import json
 
@@ -17,22 +17,22 @@ with Scratch() as scratch:
     statistics = result["statistics"]
     print(f"one segment of {result['segments'][0]['samples']} samples, "
           f"negative peak after {statistics['band_negative_delay_s']:.0f} s")
-    demand("the night is one segment of 12 h less the filters' ends",
+    demand("the night is one segment of 12 h without the filters' ends, and the tide is removed",
            [s["samples"] for s in result["segments"]] == [2151] and result["tide_removed"])
-    demand("the acceleration follows the temperature with its sign turned 220 to 300 s late",
-           220 < statistics["band_negative_delay_s"] < 300 and "rate of change" in text)
-    demand("the response at the cycle is known", any(
+    demand(f"the acceleration follows the temperature with opposite sign after {statistics['band_negative_delay_s']:.0f} s, "
+           "must be 220 to 300", 220 < statistics["band_negative_delay_s"] < 300 and "rate of change" in text)
+    demand("the response at the period of the oven's cycle is determined", any(
         p["refused"] is None and 800 < p["period_s"] < 1000 for p in result["response_by_spectrum"]))
     same = [(scratch / "a" / f).read_bytes() == (scratch / "b" / f).read_bytes()
             for f in ("record.csv", "response.csv", "result.json", "record.html", "figures/response.svg")]
-    demand("a day file stands for its root, with the same bytes", all(same))
+    demand("a day file gives the same bytes as its data root", all(same))
 
     record(scratch, "a/record.csv", "--out", "c")
     again = json.loads((scratch / "c" / "result.json").read_text())["statistics"]
-    demand("record.csv is read again to the same statistics",
+    demand("record.csv as input gives the same statistics",
            all(abs(again[k] - v) <= 1e-3 * abs(v) + 1e-3 for k, v in statistics.items()))
 
-    # Records of 512 bytes: a tenth of the file's middle is lost to the vertical axis.
+    # Removes a tenth of the vertical axis from the middle of the day, in whole records of 512 bytes.
     day = next((scratch / "night" / "archive").rglob("*BNZ.D.*"))
     content = day.read_bytes()
     begin = len(content) // 512 // 2 * 512
@@ -40,7 +40,7 @@ with Scratch() as scratch:
     record(scratch, "night", "--out", "d")
     parts = json.loads((scratch / "d" / "result.json").read_text())["segments"]
     print("with a gap:", [(s["samples"], s["begins_with"]) for s in parts])
-    demand("a gap divides", len(parts) == 2 and parts[1]["begins_with"].startswith("gap of "))
+    demand("a gap divides the record", len(parts) == 2 and parts[1]["begins_with"].startswith("gap of "))
 
     for arguments, words in (
             (("a/result.json",), "temperature_degc"),

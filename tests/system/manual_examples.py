@@ -1,4 +1,4 @@
-"""Every command of the EXAMPLES of the a351-correct pages runs as it is written, and writes what its --out names."""
+"""Every command in the EXAMPLES of the a351-correct manual pages runs as written and writes the files named by --out."""
 
 import re
 import shlex
@@ -8,13 +8,13 @@ import subprocess
 from programs import BIN, TOP, Scratch, demand, os, run
 
 COMMANDS = TOP / "corrector" / "command"
-# Those whose results the examples of other pages read.
+# Subcommands whose results the examples of other pages read.
 FIRST = ("calibrate", "record", "export")
 SITES = ("No.0", "No.12", "No.1", "No.2", "No.4", "No.0")
 
 
 def short_day():
-    """Six stays of the tsukuba day, 40 minutes apart: so many references the whole-day model needs."""
+    """Returns a scenario with six occupations of the tsukuba day, 40 minutes apart: enough for the whole-day model."""
     text = 'base = "tsukuba"\nname = "short"\n[schedule]\nlead_in_h = 2.5\n'
     for k, site in enumerate(SITES):
         minutes = 23 * 60 + 40 + 40 * k
@@ -24,7 +24,7 @@ def short_day():
 
 
 def prepare(scratch):
-    """The files that the examples name as the user's own."""
+    """Makes the input files that the examples expect from the user."""
     (scratch / "short.toml").write_text(short_day())
     for scenario, root in (("short.toml", "data"), ("indoor", "night"), ("tilt-series", "tilt-series")):
         run(BIN / "a351-sim", "survey", "--scenario", scenario, "--out", root, cwd=scratch)
@@ -36,7 +36,7 @@ def prepare(scratch):
 
 
 def examples(page):
-    """The commands between .nf and .fi, each on one line, as a reader of the page sees them."""
+    """Returns the commands between .nf and .fi, each on one line, as a reader of the page sees them."""
     section = page.read_text().split("\n.SH EXAMPLES\n")[1].split("\n.SH ")[0]
     shown = "\n".join(re.findall(r"^\.nf\n(.*?)^\.fi$", section, re.M | re.S))
     shown = shown.replace("\\-", "-").replace("\\e", "\\").replace("\\\n", " ")
@@ -44,7 +44,7 @@ def examples(page):
 
 
 def outputs(command):
-    """What the command's --out and --output name, below the directory where it runs."""
+    """Returns the paths after --out and --output, relative to the directory in which the command runs."""
     words = shlex.split(command)
     return [after for word, after in zip(words, words[1:]) if word in ("--out", "--output")]
 
@@ -56,11 +56,11 @@ with Scratch() as scratch:
     prepare(scratch)
     for page in pages:
         commands = examples(page)
-        demand(f"{page.name} has examples, all of its own command: {len(commands)}", commands and all(
+        demand(f"{page.name} has {len(commands)} examples, all of its own command", commands and all(
             command.startswith(page.stem.replace("a351-correct-", "a351-correct ") + " ") for command in commands))
         for command in commands:
             written = [scratch / name for name in outputs(command)]
-            for path in written:  # An earlier example may have made it.
+            for path in written:  # An earlier example may have written it.
                 shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
             result = subprocess.run(["bash", "-c", command], cwd=scratch, env=environment, capture_output=True, text=True)
             print(result.stderr, end="")

@@ -1,5 +1,7 @@
-"""The manual pages name every option of --help and no other, those of a351-correct subcommand by subcommand; the pages
-of the configuration and of the survey file every key the parser accepts."""
+"""The manual pages list exactly the options of --help; the pages of a351-correct do so for each subcommand.
+
+The pages of the configuration and of the survey file list exactly the keys that the parser accepts.
+"""
 
 import re
 
@@ -19,8 +21,8 @@ def offered_options(help_text):
 
 
 def demand_options(name, page, described, offered):
-    demand(f"{name}: {page} describes {sorted(offered - described) or 'all options'}", offered <= described)
-    demand(f"{name}: {page} invents {sorted(described - offered) or 'no option'}", described <= offered)
+    demand(f"{name}: options missing in {page}: {sorted(offered - described) or 'none'}", offered <= described)
+    demand(f"{name}: options of {page} that do not exist: {sorted(described - offered) or 'none'}", described <= offered)
 
 
 def section_of(page_text, title):
@@ -48,11 +50,11 @@ for page, (name, help_text) in helps.items():
     entries = "\n".join(re.findall(r"^\.TP\n(.*)$", section_of(page_text, "OPTIONS"), re.M))
     demand_options(name, page.name, set(re.findall(OPTION, entries)), offered_options(help_text))
     shown = set(re.findall(OPTION, section_of(page_text, "SYNOPSIS")))
-    demand(f"its synopsis shows {sorted(shown) or 'no option'}", shown <= offered_options(help_text))
+    demand(f"options in its synopsis, all of which exist: {sorted(shown) or 'none'}", shown <= offered_options(help_text))
 for command in commands:
     demand(f"{overview.name} names {command} and its page", f".BR a351-correct-{command} (1)\n.BR {command} :\n" in
            overview.read_text().replace("\\-", "-"))
-demand("no page is of another subcommand", set(folder.glob("*.1")) == set(helps) - {overview})
+demand("every page belongs to a subcommand", set(folder.glob("*.1")) == set(helps) - {overview})
 installed = re.search(r"foreach\(command IN ITEMS ([a-z ]+)\)\n +install\(FILES \S+/a351-correct-\$\{command\}\.1\s",
                       (TOP / "config" / "CMakeLists.txt").read_text())
 demand("every page is installed", installed and sorted(installed[1].split()) == sorted(commands))
@@ -66,8 +68,8 @@ for table in ("survey", "prior"):
         (scratch / "day.toml").write_text(f"[{table}]\nzzz = 1\n")
         message = run(BIN / "a351-correct", "survey", scratch / "day.toml", check=False).stderr
     accepted = set(message.split("allowed: ")[1].strip().split(", ")) - {"zzz"}
-    demand(f"[{table}] of the survey file: the page lacks {sorted(accepted - described) or 'no key'}, invents "
-           f"{sorted(described - accepted) or 'none'}", accepted == described)
+    demand(f"[{table}] of the survey file: keys missing on the page: {sorted(accepted - described) or 'none'}; keys that do "
+           f"not exist: {sorted(described - accepted) or 'none'}", accepted == described)
 
 page_text = (TOP / "daemon" / "a351d.toml.5").read_text()
 position = "[station]\nlatitude = 36.2\nlongitude = 140.1\nelevation_m = 400.0\n"
@@ -81,5 +83,5 @@ for table in ("station", "sensor", "oven", "storage", "page", "survey", "verdict
     accepted = set(message.split("allowed: ")[1].strip().split(", ")) - {"zzz"}
     section = page_text.split(f".SS [{table}]")[1].split(".SS")[0].split(".SH")[0]
     described = {key for line in re.findall(r"^\.B (.*)$", section, re.M) for key in line.split(", ")}
-    demand(f"[{table}]: the page describes {sorted(accepted)}", accepted <= described)
-    demand(f"[{table}]: the page invents no key", all(key in accepted for key in described))
+    demand(f"[{table}]: keys missing on the page: {sorted(accepted - described) or 'none'}", accepted <= described)
+    demand(f"[{table}]: every key on the page exists", all(key in accepted for key in described))

@@ -1,4 +1,4 @@
-"""Headers of miniSEED 2 records, read with nothing but the SEED manual (chapter 8, blockettes 100 and 1001)."""
+"""Reads headers of miniSEED 2 records, written from the SEED manual alone (chapter 8, blockettes 100 and 1001)."""
 
 import calendar
 import collections
@@ -9,8 +9,10 @@ Header = collections.namedtuple("Header", "file start_us samples rate_hz timing_
 
 
 def headers(files):
-    """Of all records of these files of a channel, in the order of writing, which a leap second makes another than that
-    of the days."""
+    """Returns the headers of all records in these files of a channel, in the order in which they were written.
+
+    After a leap second this is not the order of the day files.
+    """
     found = []
     for file in files:
         data = file.read_bytes()
@@ -36,12 +38,12 @@ def read(file, record):
 
 
 def end_us(header):
-    """Of the sample behind the last one."""
+    """Returns the time of the sample after the last one, in us since 1970."""
     return header.start_us + 1e6 * header.samples / header.rate_hz
 
 
 def gaps_in_samples(records):
-    """Between records that do not follow each other."""
+    """Returns the gaps between records that do not follow each other, in samples."""
     between = [round((after.start_us - end_us(before)) * after.rate_hz / 1e6)
                for before, after in zip(records, records[1:])]
     return [gap for gap in between if gap]

@@ -1,6 +1,6 @@
-"""libmseed's own inspector, msi, finds archive and export whole: traces, gaps, and every sample as it was made.
+"""msi, the inspector of libmseed's makers, reads archive and export: traces without gaps, and every sample correct.
 
-Looked up in PATH, or named by A351_MSI (https://github.com/EarthScope/msi).
+msi is searched in PATH or named by A351_MSI (https://github.com/EarthScope/msi).
 """
 
 import array
@@ -10,7 +10,7 @@ import struct
 
 from programs import BIN, ONE_SITE, Scratch, demand, rows, run, skip
 
-# Over a midnight, by a clock that is off: two day files of each channel.
+# A record across midnight with a clock error: two day files of each channel.
 SCENARIO = """base = "quiet"
 name = "midnight"
 [schedule]
@@ -24,28 +24,28 @@ FROM, TO = "2017-07-15T23:50:00Z", "2017-07-16T00:10:00Z"
 
 msi = shutil.which(os.environ.get("A351_MSI") or "msi")
 if msi is None:
-    skip("msi is neither in PATH nor named by A351_MSI")
+    skip("msi is not in PATH; install it or set A351_MSI")
 version = run(msi, "-V")
 print((version.stdout + version.stderr).strip())
 
 
 def traces(files):
-    """Start, end, gap ("==": none), rate and samples of each, the last columns of its lines."""
+    """Returns start, end, gap ("==": none), rate and samples of each trace: the last columns of msi's lines."""
     result = run(msi, "-tg", "-tf", 1, *files)
-    demand(f"of {len(files)} files it complains of nothing {result.stderr.strip()}", not result.stderr.strip())
+    demand(f"msi reports no error in {len(files)} files {result.stderr.strip()}", not result.stderr.strip())
     print(result.stdout, end="")
     return [line.split()[-5:] for line in result.stdout.splitlines() if line.startswith("FDSN:")]
 
 
 def samples(files, scratch):
-    """As unpacked by it; Steim-2's check values are looked at on the way."""
+    """Returns the samples unpacked by msi, which also verifies the check values of Steim-2."""
     result = run(msi, "-b", scratch / "samples", *files)
-    demand(f"it unpacks them without a word {result.stderr.strip()}", not result.stderr.strip())
+    demand(f"msi unpacks them without an error {result.stderr.strip()}", not result.stderr.strip())
     return array.array("i", (scratch / "samples").read_bytes())
 
 
 def truth(file):
-    """x, y, z and temperature in the order in which they were made: sim/truth/truth-format.md."""
+    """Returns x, y, z and temperature in the order in which they were made: sim/truth/truth-format.md."""
     made = list(struct.iter_unpack("<q4iHHIB7x", file.read_bytes()[16:]))
     demand("every frame arrived", all(row[-1] == 0 for row in made))
     return {channel: array.array("i", [row[i] for row in made])
@@ -64,10 +64,10 @@ with Scratch() as scratch:
         demand(f"{channel}: two day files are one trace without a gap", len(files) == 2 and len(found) == 1)
         if channel in made:
             counts = samples(files, scratch)
-            demand(f"{channel}: its {len(counts)} samples are the first of the {len(made[channel])} that the sensor made",
+            demand(f"{channel}: its {len(counts)} samples are the first of {len(made[channel])} that the sensor made",
                    len(counts) == int(found[0][4]) and counts == made[channel][:len(counts)]
                    and len(counts) > 0.99 * len(made[channel]))
-    demand(f"all of {', '.join(made)} were looked at, and slow channels", made.keys() < set(channels))
+    demand(f"channels {', '.join(made)} and slow channels were checked", made.keys() < set(channels))
 
     for form in ("mseed", "csv"):
         run(BIN / "a351-correct", "export", root, "--from", FROM, "--to", TO, "--channel", "BNZ", "--rate", 50,
@@ -77,5 +77,5 @@ with Scratch() as scratch:
         ["2017-07-15T23:50:00.000000", "2017-07-16T00:09:59.980000", "==", "50", "60000"]])
     rounding = [count - float(row["counts"]) for count, row in
                 zip(samples([scratch / "grid.mseed"], scratch), rows(scratch / "grid.csv"), strict=True)]
-    demand(f"its counts are the values of the CSV, rounded (at most {max(map(abs, rounding)):.3f} off)",
+    demand(f"the counts differ from the values of the CSV by at most {max(map(abs, rounding)):.3f}, rounding allows 0.5",
            max(map(abs, rounding)) <= 0.5)

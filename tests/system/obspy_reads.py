@@ -1,5 +1,4 @@
-"""The archive and the station metadata open in ObsPy as they are."""
-
+"""ObsPy reads the archive and the station metadata without conversion."""
 
 from programs import BIN, Scratch, demand, run, skip
 
@@ -16,8 +15,8 @@ with Scratch() as scratch:
     start = obspy.UTCDateTime("2017-07-15T23:40:00Z")
     stream = client.get_waveforms("XX", "A351", "00", "BN*", start, start + 600)
     print(obspy.__version__, stream)
-    demand("three axes come as one trace each", len(stream) == 3)
-    demand("ten minutes hold 30 000 samples within one",
+    demand("the three axes are one trace each", len(stream) == 3)
+    demand("ten minutes have 30 000 samples, within one sample",
            all(abs(trace.stats.npts - 30000) <= 1 for trace in stream))
     inventory = obspy.read_inventory(str(root / "metadata" / "station.xml"))
     stream.remove_sensitivity(inventory)
@@ -26,16 +25,16 @@ with Scratch() as scratch:
 
     slow = client.get_waveforms("XX", "A351", "00", "L*", start, start + 600)
     print(slow)
-    demand("clock error, timing quality and temperature come as one trace each at 1 Hz",
+    demand("clock error, timing quality and temperature are one trace each at 1 Hz",
            sorted(trace.stats.channel for trace in slow) == ["LCE", "LCQ", "LK1"]
            and all(trace.stats.sampling_rate == 1.0 for trace in slow))
-    demand("their samples stand on whole seconds, one for each",
+    demand("their samples are at whole seconds, one each second",
            all(trace.stats.starttime.microsecond == 0 and abs(trace.stats.npts - 600) <= 1 for trace in slow))
     temperature = slow.select(channel="LK1")[0]
     raw = client.get_waveforms("XX", "A351", "00", "BK1", temperature.stats.starttime, start + 600)[0]
     temperature.remove_sensitivity(inventory)
-    # M-A352AD10 data sheet, 7.6.  Records start on whole microseconds, so a sample at a second's edge may show outside it:
-    # either the 50 from half a period before the second or those from half a period after are its own.
+    # Conversion from counts to degC: M-A352AD10 data sheet, 7.6.  Records start at whole microseconds, so a sample at the edge
+    # of a second may appear outside it.  The second's 50 samples begin either half a period before or half a period after it.
     error = max(min(abs(34.987 - 0.0037918 * float(raw.slice(at + edge, at + edge + 0.99).data.mean()) - temperature.data[i])
                     for edge in (-0.01, 0.01))
                 for i in range(1, 590, 10) for at in [temperature.stats.starttime + i])

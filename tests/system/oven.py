@@ -1,6 +1,8 @@
-"""Plays the golden conversation with the oven's controller against a running emulator: python's standard library and
-a raw terminal, no code of ours.  Then each fault on demand, and what takes time: the oven follows its set point, and
-cools when stopped."""
+"""Plays the golden conversation with the oven's controller against a running emulator.
+
+Uses only python's standard library and a raw terminal, no reader or writer of a351.  Then orders each fault, and tests that
+the oven follows its set point and cools when it is stopped.
+"""
 
 import os
 import re
@@ -14,9 +16,9 @@ import tty
 
 from programs import BIN, TOP, Scratch, demand, read_json
 
-ANSWER_S = 5.0  # A busy machine is slow; an answer takes 40 to 100 ms.
+ANSWER_S = 5.0  # Timeout for an answer, in s; it takes 40 to 100 ms, longer on a busy machine.
 SILENCE_S = 0.3
-PAUSE_S = 0.1  # More than 3.5 characters at 9600 baud, 4 ms, with room for the scheduler.
+PAUSE_S = 0.1  # Pause between frames, in s: more than 3.5 characters at 9600 baud (4 ms), with reserve for the scheduler.
 SPEED = 100
 
 
@@ -39,7 +41,7 @@ def open_port(path):
 
 
 def receive(port, size, patience_s):
-    """Up to `size` bytes, or what came before the patience ended."""
+    """Returns `size` bytes, or fewer if the time has passed."""
     data = b""
     end = time.monotonic() + patience_s
     while len(data) < size:
@@ -58,7 +60,7 @@ def send(port, text):
 
 
 def pattern(text):
-    """The bytes of an answer line; None for those that the oven decides."""
+    """Returns the bytes of an answer line, with None for bytes that the oven chooses."""
     expected, is_free = [], False
     for token in re.findall(r"\[|\]|[0-9A-Fa-f]{2}", text):
         if token in "[]":
@@ -77,7 +79,7 @@ def agrees(answer, expected):
 
 
 def play(port, lines):
-    """@return number of requests, and the lines whose answer was another one."""
+    """Plays the lines and returns the number of requests and the lines with a wrong answer."""
     requests, wrong = 0, []
     for number, line in enumerate(lines, 1):
         text = line[1:].strip()
@@ -94,12 +96,12 @@ def play(port, lines):
 
 
 def ask(port, body):
-    """The data bytes of the answer to a request of function 03, or the whole answer to another."""
+    """Sends a request and returns the data bytes of the answer for function 03, else the whole answer."""
     frame = bytes.fromhex(body)
     os.write(port, frame + crc(frame))
     answer = receive(port, 5 + 2 * frame[5] if frame[1] == 3 else 8, ANSWER_S)
     if len(answer) <= 4 or answer[-2:] != crc(answer[:-2]):
-        demand(f"the answer to {body} is whole: {answer.hex(' ')}", False)
+        demand(f"the answer to {body} is complete: {answer.hex(' ')}", False)
     time.sleep(PAUSE_S)
     return answer[3:-2] if frame[1] == 3 else answer
 
@@ -114,11 +116,11 @@ READ_PV = bytes.fromhex("01 03 20 00 00 01 8F CA")
 def order(control, words):
     control.sendall(words.encode() + b"\n")
     answer = control.recv(1000).decode()
-    demand(f"the emulator takes the order {words}", answer.startswith("ok"))
+    demand(f"the emulator accepts the order {words}", answer.startswith("ok"))
 
 
 def spoilt(port, control, kind):
-    """What comes for a request after the order for one fault, and that the next answer is good again."""
+    """Orders one fault; returns the answer to the next request and a late answer; demands a good answer after it."""
     order(control, f"{kind} count=1")
     os.write(port, READ_PV)
     answer = receive(port, 100, 0.7)
@@ -136,21 +138,24 @@ SPOILS = ["oven_silence", "oven_babble", "oven_exception", "oven_crc_error", "ov
 
 
 def play_faults(port, control):
-    demand("silence", spoilt(port, control, "oven_silence")[0] == b"")
-    demand("babble", len(spoilt(port, control, "oven_babble")[0]) == 64)
-    demand("an exception", spoilt(port, control, "oven_exception")[0] == bytes.fromhex("01 83 04 40 F3"))
+    demand("oven_silence gives no answer", spoilt(port, control, "oven_silence")[0] == b"")
+    demand("oven_babble gives 64 bytes", len(spoilt(port, control, "oven_babble")[0]) == 64)
+    demand("oven_exception gives a Modbus exception",
+           spoilt(port, control, "oven_exception")[0] == bytes.fromhex("01 83 04 40 F3"))
     damaged, _ = spoilt(port, control, "oven_crc_error")
-    demand("a wrong CRC", len(damaged) == 7 and not is_good(damaged))
+    demand("oven_crc_error gives an answer with a wrong CRC", len(damaged) == 7 and not is_good(damaged))
     other, _ = spoilt(port, control, "oven_wrong_unit")
-    demand("another unit", other[0] == 2 and is_good(b"\x01" + other[1:-2] + crc(b"\x01" + other[1:-2])))
-    demand("half an answer", spoilt(port, control, "oven_truncated")[0] == bytes.fromhex("01 03 02"))
+    demand("oven_wrong_unit gives the answer of another unit",
+           other[0] == 2 and is_good(b"\x01" + other[1:-2] + crc(b"\x01" + other[1:-2])))
+    demand("oven_truncated gives half an answer", spoilt(port, control, "oven_truncated")[0] == bytes.fromhex("01 03 02"))
     answer, late = spoilt(port, control, "oven_delay")
-    demand("an answer after the host's time-out", answer == b"" and is_good(late))
+    demand("oven_delay gives an answer after the host's timeout", answer == b"" and is_good(late))
     order(control, "oven_sensor_break")
-    demand("an open sensor: input error and the end of the range",
+    demand("oven_sensor_break gives an input error and the end of the range",
            ask(port, "01 03 20 01 00 01")[1] & 0x40 and temperature_degc(port) == 500.0)
     order(control, "oven_sensor_break count=0")
-    demand("mended", not ask(port, "01 03 20 01 00 01")[1] & 0x40 and temperature_degc(port) < 45)
+    demand("the thermometer works again after the break",
+           not ask(port, "01 03 20 01 00 01")[1] & 0x40 and temperature_degc(port) < 45)
 
 
 def wait_for(claim, is_true, limit_s=60):
@@ -182,30 +187,30 @@ def main():
                 play_faults(port, control)
                 terminal = link.readlink()
                 order(control, "oven_unplug")
-                demand("unplugged, the oven is not there", not link.is_symlink())
+                demand("the link is removed when the oven is unplugged", not link.is_symlink())
                 os.close(port)
                 order(control, "oven_unplug count=0")
-                demand("it comes back under another name", link.readlink() != terminal)
+                demand("the oven comes back under another name", link.readlink() != terminal)
                 port = open_port(link)
 
             ask(port, "01 06 00 00 00 01")
             ask(port, "01 06 21 03 01 C2")  # 45.0 degC
             wait_for("the oven rises to its new set point", lambda: temperature_degc(port) >= 44.9)
             ask(port, "01 06 00 00 01 01")
-            wait_for("stopped, it cools", lambda: temperature_degc(port) < 43.0)
+            wait_for("the stopped oven cools", lambda: temperature_degc(port) < 43.0)
             status, drive = ask(port, "01 03 20 01 00 01"), ask(port, "01 03 20 04 00 01")
-            demand("stopped, it is not heated", status == b"\0\0" and drive == b"\0\0")
+            demand("the stopped oven is not heated", status == b"\0\0" and drive == b"\0\0")
             ask(port, "01 06 00 00 01 00")
-            wait_for("running, it comes back", lambda: temperature_degc(port) >= 44.9)
+            wait_for("the running oven reaches its set point again", lambda: temperature_degc(port) >= 44.9)
             os.close(port)
         finally:
             sim.terminate()
             sim.wait()
-        demand("the emulator ends well and takes its link along",
+        demand("the emulator ends cleanly and removes its link",
                sim.returncode == 0 and not link.is_symlink())
         report = read_json(scratch / "report.json")["oven"]
         print("emulator:", report)
-        demand("it reports one spoilt answer of each kind",
+        demand("the emulator reports one faulty answer of each kind",
                report["faults"] == {kind: 1 for kind in SPOILS} and report["answers"] > requests)
 
 

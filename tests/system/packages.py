@@ -1,4 +1,4 @@
-"""The Debian packages: what they hold and need, that they are the same bytes when made again, and what made them.
+"""Tests the Debian packages: their files and dependencies, reproducible bytes, and the list of what they are made of.
 
 fresh_debian.py builds, installs and uses them in fresh roots of Debian 12 and 13.
 """
@@ -26,7 +26,7 @@ MORE_FILES = {
     "a351-sim": ["usr/share/a351/scenarios/tsukuba.toml", "usr/share/a351/faults/example.toml",
                  "usr/share/doc/a351-sim/sim/truth/truth-format.md"],
 }
-# What each links, besides the C and C++ libraries; and what of the others it must do without.
+# Libraries that each package needs besides those of C and C++, and libraries of the other packages that it must not need.
 NEEDED = {"a351": ["libmodbus5", "libserialport0", "libmseed", "libzstd1"], "a351-correct": ["libnlopt0", "libmseed"],
           "a351-sim": ["libmseed", "libzstd1"]}
 NOT_NEEDED = {"a351": ["libnlopt0"], "a351-correct": ["libmodbus5", "libserialport0"], "a351-sim": ["libserialport0", "libnlopt0"]}
@@ -50,7 +50,7 @@ def is_installed(name):
 
 
 def version_of_dpkg():
-    """Debian 12's is the last below 1.22, and the last with files below /lib."""
+    """Returns the version of dpkg.  Debian 12 is the last suite with a version below 1.22 and with unit files in /lib."""
     return run("dpkg-query", "-W", "-f", "${Version}", "dpkg").stdout
 
 
@@ -58,7 +58,7 @@ def look_into(package, deb, tree):
     run("dpkg-deb", "-x", deb, tree)
     for program in PROGRAMS[package]:
         said = run(tree / "usr/bin" / program, "--version").stdout
-        demand(f"{package}: {program} of version {field(deb, 'Version')}",
+        demand(f"{package}: {program} has version {field(deb, 'Version')}",
                said == f"{program} {field(deb, 'Version').split('-')[0]}\n")
         demand(f"{program} has its manual page and completion",
                (tree / f"usr/share/man/man1/{program}.1.gz").is_file()
@@ -66,19 +66,21 @@ def look_into(package, deb, tree):
     is_old = run("dpkg", "--compare-versions", version_of_dpkg(), "lt", "1.22", check=False).returncode == 0
     system = [f"{'lib' if is_old else 'usr/lib'}/{file}" for file in SYSTEM_FILES if package == "a351"]
     missing = [file for file in MORE_FILES[package] + system if not (tree / file).is_file()]
-    demand(f"{package}: lacks {missing or 'no file'}", not missing)
+    demand(f"{package}: missing files: {missing or 'none'}", not missing)
     for name, word in (("copyright", "Dan Vanderkam"), ("copyright", "2026 the a351 authors")):
         demand(f"{package}: {name} names {word}", word in (tree / "usr/share/doc" / package / name).read_text())
     newest = run("dpkg-parsechangelog", "-S", "Version", "-l", tree / f"usr/share/doc/{package}/changelog.Debian.gz").stdout
-    demand(f"{package}: its changelog ends at {newest.strip()}", newest.strip() == field(deb, "Version"))
+    demand(f"{package}: the newest entry of its changelog is {newest.strip()}", newest.strip() == field(deb, "Version"))
     depends = field(deb, "Depends")
     print(f"{package} depends on {depends}; recommends {field(deb, 'Recommends') or 'nothing'}")
-    demand(f"{package} depends on what it links", all(name in depends for name in NEEDED[package] + ["libc6", "libstdc++6"]))
-    demand(f"{package} depends on nothing of the others", not any(name in depends for name in NOT_NEEDED[package]))
+    demand(f"{package} depends on the libraries that it links",
+           all(name in depends for name in NEEDED[package] + ["libc6", "libstdc++6"]))
+    demand(f"{package} does not depend on libraries of the other packages only",
+           not any(name in depends for name in NOT_NEEDED[package]))
 
 
 def same_bytes(first, scratch):
-    """The packages made again at another time, on another kind of file system, with other rights of new files."""
+    """Makes the packages again at another time, on another kind of file system, with another umask; demands equal bytes."""
     created = read_json(next(first.glob("*.spdx.json")))["creationInfo"]["created"]
     # A commit made meanwhile would change the date.
     os.environ["SOURCE_DATE_EPOCH"] = str(int(datetime.datetime.fromisoformat(created.replace("Z", "+00:00")).timestamp()))
@@ -87,15 +89,15 @@ def same_bytes(first, scratch):
     os.umask(before)
     names = sorted(file.name for file in first.iterdir() if file.is_file())
     different = [name for name in names if (first / name).read_bytes() != (scratch / "again" / name).read_bytes()]
-    demand(f"made again, {', '.join(names)} are the same bytes (different: {different or 'none'})",
+    demand(f"{', '.join(names)} have the same bytes when made again (different: {different or 'none'})",
            len(names) == 4 and not different)
     listed = "".join(run("dpkg-deb", "-c", deb).stdout for deb in again.values())
     dates = set(re.findall(r"\d{4}-\d\d-\d\d \d\d:\d\d", listed))
-    demand(f"all that they hold is of one date: {dates}", len(dates) == 1)
+    demand(f"all files in the packages have the same date: {dates}", len(dates) == 1)
 
 
 def bill_of_materials(document, debs):
-    """The SPDX document names what each package is made of."""
+    """Checks the SPDX document, which lists what each package is made of."""
     said = read_json(document)
     entries = {entry["SPDXID"]: entry for entry in said["packages"]}
     demand(f"{document.name}: {len(entries)} packages, each once", len(entries) == len(said["packages"]))
@@ -103,37 +105,38 @@ def bill_of_materials(document, debs):
     for relation in said["relationships"]:
         ends = relation["spdxElementId"], relation["relatedSpdxElement"]
         if lost := [end for end in ends if end not in entries and end != "SPDXRef-DOCUMENT"]:
-            demand(f"{lost} have an entry", False)
+            demand(f"every related package has an entry; missing: {lost}", False)
         if ends[0] in entries and entries[ends[0]]["name"] in PACKAGES:
             related[entries[ends[0]]["name"]].setdefault(relation["relationshipType"], set()).add(entries[ends[1]]["name"])
     for package, deb in debs.items():
         own = entries[f"SPDXRef-{package}"]
         checksum = run("sha256sum", deb).stdout.split()[0]
-        demand(f"{package}: its file is meant", own["checksums"][0]["checksumValue"] == checksum)
+        demand(f"{package}: the document has the checksum of its file", own["checksums"][0]["checksumValue"] == checksum)
         depends = set(re.findall(r"lib[^ ,]+", field(deb, "Depends")))
         print(package, related[package])
-        # A library may be depended on by a name that its package only provides.
+        # A dependency may be a name that the library's package only provides.
         linked = {name if is_installed(name) else re.sub("-fmt.*", "", name) for name in depends}
-        demand(f"{package}: the libraries are those it depends on", related[package]["DYNAMIC_LINK"] == linked)
+        demand(f"{package}: the document lists the libraries that it depends on", related[package]["DYNAMIC_LINK"] == linked)
         headers = "".join(sorted(related[package]["STATIC_LINK"]))
-        demand(f"{package}: so are its headers", all(name in headers for name in ("libcli11-dev", "libstdc++", "libboost")))
+        demand(f"{package}: the document lists the packages of its headers",
+               all(name in headers for name in ("libcli11-dev", "libstdc++", "libboost")))
     contained = {package: related[package].get("CONTAINS") for package in PACKAGES}
-    demand(f"of other files the recorder's page has dygraphs: {contained}",
+    demand(f"the only contained files of other packages are those of dygraphs in a351: {contained}",
            contained == {"a351": {"libjs-dygraphs"}, "a351-correct": None, "a351-sim": None})
     versions = {entry["name"]: entry["versionInfo"] for entry in entries.values()}
     installed = run("dpkg-query", "-W", "-f", "${Version}", "libjs-dygraphs").stdout
-    demand(f"versions are those of this system: {installed}", versions["libjs-dygraphs"] == installed)
+    demand(f"the versions are those installed here: {installed}", versions["libjs-dygraphs"] == installed)
 
 
 def pages_refer_to_each_other(tree, package):
     pages = sorted((tree / "usr/share/doc" / package).rglob("*.md"))
     links = [(page, link) for page in pages for link in re.findall(r"\]\(([^):]+)\)", page.read_text())]
     lost = [f"{page.name}: {link}" for page, link in links if not (page.parent / link).is_file()]
-    demand(f"{package}: of {len(links)} links between {len(pages)} pages lead nowhere: {lost or 'none'}", pages and not lost)
+    demand(f"{package}: broken links among {len(links)} between {len(pages)} pages: {lost or 'none'}", pages and not lost)
 
 
 def completed(tree, *words):
-    """What bash offers for the last of the words."""
+    """Returns the completions that bash offers for the last of the words."""
     script = f"""source {tree}/usr/share/bash-completion/completions/{words[0]}
 PATH={tree}/usr/bin:$PATH COMP_WORDS=({' '.join(f"'{word}'" for word in words)}) COMP_CWORD={len(words) - 1}
 _a351 {words[0]} '{words[-1]}' '{words[-2]}'; echo "${{COMPREPLY[@]}}"
@@ -143,9 +146,9 @@ _a351 {words[0]} '{words[-1]}' '{words[-2]}'; echo "${{COMPREPLY[@]}}"
 
 def lint(debs):
     if shutil.which("lintian") is None:
-        print("lintian is not installed: left out")
+        print("lintian is not installed: this check is skipped")
         return
-    # A first upload closes a bug of Debian's own list, which is not ours.
+    # This tag asks for a bug of Debian's tracker that a first upload closes; a351 is not uploaded to Debian.
     said = run("lintian", "--allow-root", "--no-cfg", "--suppress-tags", "initial-upload-closes-no-bugs", "--display-info",
                "--tag-display-limit", 3, *debs.values(), check=False).stdout
     print(said)
@@ -153,7 +156,7 @@ def lint(debs):
 
 
 if shutil.which("dpkg-deb") is None or shutil.which("dpkg-shlibdeps") is None or IS_SANITIZED:
-    skip("dpkg-deb or dpkg-shlibdeps is missing, or these programs carry sanitizers")
+    skip("dpkg-deb or dpkg-shlibdeps is missing, or the programs are built with sanitizers")
 with Scratch() as scratch, Scratch(in_memory=True) as other_scratch:
     debs = build(scratch / "debs")
     same_bytes(scratch / "debs", other_scratch)
@@ -163,8 +166,8 @@ with Scratch() as scratch, Scratch(in_memory=True) as other_scratch:
         look_into(package, debs[package], tree)
         pages_refer_to_each_other(tree, package)
     synopses = {field(deb, "Description").splitlines()[0] for deb in debs.values()}
-    demand(f"each has a synopsis of its own: {synopses}", len(synopses) == len(PACKAGES))
-    demand("completion of subcommands", completed(tree, "a351ctl", "st") == ["status", "start", "stop"])
-    demand("completion of options", completed(tree, "a351-correct", "survey", "--mo") == ["--model"])
-    demand("completion without subcommands", "--check-config" in completed(tree, "a351d", "--"))
+    demand(f"each package has its own synopsis: {synopses}", len(synopses) == len(PACKAGES))
+    demand("bash completes subcommands", completed(tree, "a351ctl", "st") == ["status", "start", "stop"])
+    demand("bash completes options", completed(tree, "a351-correct", "survey", "--mo") == ["--model"])
+    demand("bash completes options of a program without subcommands", "--check-config" in completed(tree, "a351d", "--"))
     lint(debs)

@@ -1,4 +1,4 @@
-"""Many days as jobs of GNU parallel: the same bytes as one by one, and in less time.
+"""Corrects many days as jobs of GNU parallel: the results must have the same bytes as when corrected one by one.
 
 A351_LONG=1: 50 simulated days; otherwise 4.
 """
@@ -31,8 +31,8 @@ with Scratch() as scratch:
     began = time.monotonic()
     run("parallel", "--will-cite", "-j", JOBS, f"cd {{}} && {BIN / 'a351-correct'} survey survey.toml --out together", ":::", *days)
     together_s = time.monotonic() - began
-    print(f"{DAYS} days one by one {one_by_one_s:.1f} s, {JOBS} at a time {together_s:.1f} s")
+    print(f"{DAYS} days: one by one {one_by_one_s:.1f} s, {JOBS} in parallel {together_s:.1f} s")
     differing = [day.name for day in days if contents(day / "result") != contents(day / "together")]
-    demand(f"days whose {len(contents(days[0] / 'result'))} files differ: {differing or 'none'}", not differing)
+    demand(f"days with differences in their {len(contents(days[0] / 'result'))} files: {differing or 'none'}", not differing)
     tables = {(day / "together" / "occupations.csv").read_bytes() for day in days}
-    demand("and each day is another", len(tables) == DAYS)
+    demand("the results of the days differ from each other", len(tables) == DAYS)

@@ -1,4 +1,4 @@
-"""What the system tests share: the programs under test, a scratch directory, and small readers."""
+"""Shared parts of the system tests: the programs under test, a scratch directory, and small readers."""
 
 import csv
 import http.client
@@ -21,7 +21,7 @@ IS_SANITIZED = bool(os.environ.get("A351_PRESET_SANITIZE"))
 SKIPPED = 77
 MEMORY = pathlib.Path("/dev/shm")
 
-# Ends the scenario of a test: one site, a steady ambient.
+# Last part of a test's scenario: one site and a constant ambient temperature.
 ONE_SITE = """[[site]]
 name = "here"
 longitude_deg = 140.0
@@ -35,7 +35,7 @@ degc = 25.0
 
 
 def run(*command, check=True, env=None, cwd=None):
-    """Runs a program to its end; prints what it said when it failed unexpectedly."""
+    """Runs a program to its end and returns the result; if it fails and `check` is set, prints its output and ends the test."""
     result = subprocess.run([str(part) for part in command], capture_output=True, text=True, cwd=cwd,
                             env={**os.environ, **(env or {})})
     if check and result.returncode != 0:
@@ -48,10 +48,10 @@ taken_ports = []
 
 
 def unused_port():
-    """Returns a port on which nothing listens and which no other test takes while this process runs."""
+    """Returns a TCP port that is free and that no other test gets while this process runs."""
     while True:
-        port = random.randrange(20000, 32000)  # Below the ports that outgoing connections take.
-        mark = socket.socket(socket.AF_UNIX)  # Tests run side by side: a name in the kernel tells them of each other.
+        port = random.randrange(20000, 32000)  # Below the ports of outgoing connections.
+        mark = socket.socket(socket.AF_UNIX)  # A name in the kernel marks the port for other tests that run at the same time.
         try:
             mark.bind(f"\0a351-test-port-{port}")
             with socket.socket() as probe:
@@ -64,7 +64,7 @@ def unused_port():
 
 
 def daemon_config(port):
-    """The least a daemon needs to record the emulated sensor linked as `sensor`."""
+    """Returns the smallest configuration with which a daemon records the emulated sensor linked as `sensor`."""
     return f"""[station]
 latitude = 36.2
 longitude = 140.1
@@ -79,11 +79,11 @@ listen = "127.0.0.1:{port}"
 
 
 def daemon_status(port):
-    """What the daemon on that port says of itself; None while it does not answer."""
+    """Returns the status of the daemon on that port; None while it does not answer."""
     try:
         with urllib.request.urlopen(f"http://127.0.0.1:{port}/api/status", timeout=2) as reply:
             return json.load(reply)
-    except (OSError, http.client.HTTPException):  # The latter when it dies in its answer.
+    except (OSError, http.client.HTTPException):  # HTTPException: the daemon ended during its answer.
         return None
 
 
@@ -93,7 +93,7 @@ def rows(file):
 
 
 def compare_truth(archive, truth):
-    """Per channel what tests/support/compare_truth.cpp counted."""
+    """Runs tests/support/compare_truth.cpp and returns its counts by channel."""
     result = run(TOOLS / "compare-truth", archive, truth, check=False)
     print(result.stdout, result.stderr, sep="")
     channels = {}
@@ -101,12 +101,12 @@ def compare_truth(archive, truth):
         fields = dict(part.split("=") for part in line.split())
         name = fields.pop("channel")
         channels[name] = {key: float(value) for key, value in fields.items()}
-    demand(f"the truth was compared with four channels, of {archive}", len(channels) == 4)
+    demand(f"four channels of {archive} were compared with the truth", len(channels) == 4)
     return channels
 
 
 def demand(claim, is_true):
-    """A check with its sentence; the first that fails ends the test."""
+    """Prints whether the claim holds; the first claim that fails ends the test."""
     print(("holds: " if is_true else "FAILS: ") + claim)
     if not is_true:
         sys.exit(1)
@@ -118,10 +118,10 @@ def skip(reason):
 
 
 class Scratch:
-    """A directory that goes when the test succeeded and stays to be looked at when it did not."""
+    """Directory that is removed if the test succeeded, and kept for inspection if it failed."""
 
     def __init__(self, in_memory=False):
-        """@param in_memory  where there is room for it: no disk can stall."""
+        """@param in_memory  puts it into memory if there is room, so that no disk can stall"""
         has_room = in_memory and MEMORY.is_dir() and shutil.disk_usage(MEMORY).free > 1 << 30
         self.parent = MEMORY if has_room else None
 
@@ -134,7 +134,7 @@ class Scratch:
         if is_good:
             shutil.rmtree(self.path, ignore_errors=True)
         else:
-            print(f"left for inspection: {self.path}")
+            print(f"files kept for inspection: {self.path}")
 
 
 def read_json(file):

@@ -1,4 +1,7 @@
-"""A recorded journal through a fresh daemon: the same bytes, samples, gaps and counters; an archive: the same samples."""
+"""Replays a recorded journal to a new daemon, which must record the same bytes, samples, gaps and counters.
+
+A replayed archive must give the same samples.
+"""
 
 import datetime
 import json
@@ -24,7 +27,7 @@ def rfc3339(seconds):
 
 
 class Daemon:
-    """a351d in a directory of its own; `port` names the sensor's link."""
+    """a351d in its own directory; the emulator's link `sensor` is its port."""
 
     def __init__(self, directory, clock=None, change=""):
         self.http = unused_port()
@@ -38,7 +41,7 @@ class Daemon:
         return daemon_status(self.http)
 
     def counters(self):
-        """Of the stream, once they stand still."""
+        """Returns the counters of the stream after they have not changed for 0.6 s."""
         before, since = None, time.monotonic()
         while time.monotonic() - since < 0.6:
             state = self.status()
@@ -55,7 +58,7 @@ class Daemon:
 
 
 def streams(journal):
-    """The received bytes of each session, in order."""
+    """Returns the received bytes of each session, in order."""
     sessions = {}
     for file in sorted(journal.glob("*.a351j")):
         for kind, payload in journal_page.chunks(file):
@@ -68,8 +71,10 @@ def streams(journal):
 
 
 def samples(directory):
-    """Per sampled channel: its counts, first and last instant.  The derived ones of 1 Hz follow the seconds of UTC, which
-    fall elsewhere between the samples of a replay."""
+    """Returns counts, first and last time of each sampled channel.
+
+    Channels of 1 Hz are left out: they follow the seconds of UTC, which fall elsewhere between the samples of a replay.
+    """
     out = directory / "counts"
     out.mkdir(exist_ok=True)
     channels = {}
@@ -92,14 +97,14 @@ start_utc = "2017-07-15T23:55:00Z"
 duration_h = 1.0
 """ + ONE_SITE
 
-# By frames made: kind, its keys.
+# Number of frames made before the fault, kind of the fault, and its keys.
 FAULTS = [(1000, "flip_bit", "count = 3"), (1500, "lose_frames", "count = 7"), (2000, "drop_bytes", "bytes = 5"),
           (2500, "garbage", "bytes = 60"), (3000, "duplicate_frame", "count = 4"), (3500, "error_flags", "count = 2"),
           (9000, "stop", "")]
 
 
 def record(directory):
-    """Sessions of a damaged day across midnight: one ended by a fault, two by SIGTERM to the emulator."""
+    """Records sessions with damage across midnight, one ended by a fault, two by SIGTERM; returns the counters."""
     directory.mkdir()
     (directory / "midnight.toml").write_text(SCENARIO)
     (directory / "faults.toml").write_text("".join(
@@ -120,13 +125,13 @@ def record(directory):
 
 
 def replay(title, directory, files, *arguments, clock=None):
-    """A fresh daemon is told what `files` hold: its counters of the stream."""
+    """Replays `files` to a new daemon and returns its counters of the stream."""
     directory.mkdir()
     sim = subprocess.Popen([BIN / "a351-sim", "replay", "--link", "sensor", *arguments, *map(str, files)],
                            cwd=directory, stderr=subprocess.PIPE, text=True)
     daemon = Daemon(directory, clock)
     words = sim.communicate(timeout=300)[1]
-    demand(f"{title}: the replay ends by itself and has nothing to say {words!r}",
+    demand(f"{title}: the replay ends by itself without a message {words!r}",
            sim.returncode == 0 and words == "")
     counters = daemon.counters()
     daemon.end()
@@ -134,7 +139,10 @@ def replay(title, directory, files, *arguments, clock=None):
 
 
 def demand_same(title, one, other, is_timed=True):
-    """Two daemons archived the same.  At max speed the times of runs overlap, and with them their order in an archive."""
+    """Demands that two daemons archived the same samples, and returns the shifts of the first and last times in s.
+
+    @param is_timed  False at max speed: the times of the runs overlap there, so their order in the archive may differ
+    """
     order = list if is_timed else sorted
     held, again = samples(one), samples(other)
     demand(f"{title}: the same channels, {sorted(again)}", sorted(held) == sorted(again) != [])
@@ -163,10 +171,10 @@ with Scratch() as scratch:
            all(counters[key] > 0 for key in ("bytes_skipped", "checksum_errors", "gaps", "samples_missing", "duplicates",
                                              "error_flags")))
     days = {file.name[-3:] for file in (first / "data" / "archive").rglob("*.2017.*")}
-    demand(f"it reaches across midnight: {sorted(days)}", days == {"196", "197"})
+    demand(f"the recording reaches across midnight: {sorted(days)}", days == {"196", "197"})
 
-    # The shared clock begins 3 s before the recording, time for the handshake.  Where this machine pauses for half a
-    # second the daemon takes the sensor for silent and begins another session: such a try is void.
+    # The shared clock begins 3 s before the recording, which leaves time for the handshake.  If this machine pauses for half a
+    # second, the daemon takes the sensor for silent and begins another session; such an attempt does not count.
     begin = seconds_of(samples(first)["BNZ"][1]) - 3 * SPEED
     for attempt in range(3):
         clock = f"scaled:{SPEED}@{rfc3339(begin)},{rfc3339(time.time())}"
@@ -178,9 +186,9 @@ with Scratch() as scratch:
     demand("in time: the same counters", found == counters)
     demand("in time: the same bytes in the same sessions", streams(again / "data" / "journal") == recorded)
     shifts = demand_same("in time", first, again)
-    print("times beside the recorded ones [s]:", shifts)
-    # A host that is configuring when the first bytes fall due gets them late: the first times tell of that.
-    if not IS_SANITIZED:  # They are late by more, and by more at one time than at another.
+    print("shifts of first and last times against the recorded ones [s]:", shifts)
+    # If the daemon is still configuring when the first bytes are due, it gets them late, so the first times are not tested.
+    if not IS_SANITIZED:  # Slow programs are later, by varying amounts.
         demand("in time: the last sample within 0.2 s of its recorded time",
                all(abs(last) < 0.2 for _, last in shifts.values()))
 
@@ -194,17 +202,17 @@ with Scratch() as scratch:
 
     encoded = scratch / "encoded"
     found = replay("archive", encoded, [first / "data" / "archive"], "--speed", "max")
-    demand("archive: as many frames, none damaged",
+    demand("archive: the same number of frames, none damaged",
            found["frames"] == counters["frames"] - counters["duplicates"] and found["bytes_skipped"] == 0)
     demand_same("archive", first, encoded, is_timed=False)
 
-    # gap_over_a_wrap is silent for longer than a daemon waits before it begins a new session.
+    # gap_over_a_wrap is left out: it is silent for so long that a daemon begins a new session.
     for log in sorted(LOGS.glob("*.a351j")):
         if log.stem == "gap_over_a_wrap":
             continue
         expected = dict(line.split() for line in log.with_suffix(".counters").read_text().splitlines())
         found = replay(log.stem, scratch / log.stem, [log], "--speed", str(SPEED))
-        demand(f"{log.stem}: the daemon's counters are those beside the log",
+        demand(f"{log.stem}: the daemon's counters are those listed for the log",
                all(found[key] == int(value) for key, value in expected.items()))
 
     bad = scratch / "bad"
@@ -220,7 +228,7 @@ with Scratch() as scratch:
     demand("nothing was written", sorted(path.name for path in bad.iterdir()) ==
            ["directory", "empty", "headless", "text"])
 
-    # A torn tail: what is good is replayed, the rest told of.  Other settings: refused, status 1.
+    # A journal cut off at its end: the good part is replayed, the rest is reported.  Other sensor settings: refused, status 1.
     (bad / "torn.a351j").write_bytes(log[:-100])
     for title, change, status, parts in (
             ("torn", "", 0, ["torn.a351j", "torn chunk"]),

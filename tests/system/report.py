@@ -1,4 +1,4 @@
-"""The report of a simulated day: well-formed, alone in its file, with every figure; and without gnuplot."""
+"""The report of a simulated day: well-formed, complete in one file with all figures, and readable without gnuplot."""
 
 import collections
 import json
@@ -18,7 +18,7 @@ def parse(file):
 
 
 def drawn(file):
-    """Paths, marks and words; the groups around them also depend on what gnuplot drew before."""
+    """Returns the paths, marks and words of a figure; the groups around them also depend on earlier figures of gnuplot."""
     return re.findall(r"<path[^>]*>|<use[^>]*>|<text>.*?</text>", file.read_text())
 
 
@@ -28,7 +28,7 @@ with Scratch() as scratch:
     said = run(BIN / "a351-correct", "survey", scratch / "day" / "survey.toml", "--out", scratch / "out")
     seconds = time.monotonic() - began
     if not IS_SANITIZED:
-        demand(f"a day of 19 readings to tables and report in {seconds:.1f} s (< 10)", seconds < 10.0)
+        demand(f"tables and report of a day of 19 readings took {seconds:.1f} s, limit 10", seconds < 10.0)
 
     page = parse(scratch / "out" / "report.html")
     text = (scratch / "out" / "report.html").read_text()
@@ -36,23 +36,23 @@ with Scratch() as scratch:
     print(f"report.html: {len(text)} bytes, {len(elements)} elements")
     pictures = [element for element in elements if element.tag == SVG + "svg"]
     scripts = sorted(file.stem for file in (scratch / "out" / "figures").glob("*.gp"))
-    demand(f"{len(pictures)} figures are in it, one per script (19 readings, 8 others)",
+    demand(f"{len(pictures)} figures are in the report, one for each script (19 readings, 8 others)",
            len(pictures) == len(scripts) == 27)
     ids = collections.Counter(element.get("id") for element in elements if element.get("id"))
-    demand(f"its {len(ids)} ids are unique", max(ids.values()) == 1)
+    demand(f"the {len(ids)} ids are unique", max(ids.values()) == 1)
     wanted = {element.get(XLINK) for element in elements if element.get(XLINK)}
-    demand("every reference within it has its target", all(name[1:] in ids for name in wanted))
-    demand("nothing is loaded from elsewhere and nothing runs",
+    demand("every reference within the report has its target", all(name[1:] in ids for name in wanted))
+    demand("the report loads nothing from elsewhere and has no scripts",
            not re.search(r"<script|src=|url\(h|@import|<link|href=\"[^#]", text))
-    demand("nothing in it names a path of this machine", str(scratch) not in text)
-    demand("nor do its figures, scripts and data",
+    demand("the report contains no path of this machine", str(scratch) not in text)
+    demand("its figures, scripts and data contain no path of this machine",
            all(str(scratch) not in file.read_text() for file in (scratch / "out" / "figures").iterdir()))
 
     table = rows(scratch / "out" / "occupations.csv")
     readings = {f"{row['site']} ({row['occupation']})" for row in table}
     actions = text.split("What to do</h2>")[1].split("</ul>")[0]
     named = re.findall(r"[^,:>]+ \(\d+\)", actions)
-    demand("every reading has its verdict once", sorted(name.strip() for name in named) == sorted(readings))
+    demand("every reading is listed once under What to do", sorted(name.strip() for name in named) == sorted(readings))
     result = json.loads((scratch / "out" / "result.json").read_text())
     validated = {name: value for name, value in result["cross_validated"].items()
                  if name in ("loo_mgal", "loso_mgal") and value is not None}
@@ -62,7 +62,7 @@ with Scratch() as scratch:
     demand("every input's checksum is in the report",
            all(f">{entry['crc32']:08x}<" in text for entry in result["inputs"]))
 
-    # An author's way: change nothing, draw again from scripts and data alone.
+    # Draws the figures again from scripts and data alone, as an author of a paper would.
     again = scratch / "again"
     run("cp", "-r", scratch / "out" / "figures", again)
     for name in scripts:
@@ -76,11 +76,11 @@ with Scratch() as scratch:
     empty.mkdir()
     said = run(BIN / "a351-correct", "survey", scratch / "day" / "survey.toml", "--out", scratch / "bare",
                env={"PATH": str(empty)})
-    demand("without gnuplot it says so on stderr, once", said.stderr.count("figures are missing") == 1)
-    demand("and in the report", "figures are missing: gnuplot is not installed" in
+    demand("without gnuplot stderr says once that figures are missing", said.stderr.count("figures are missing") == 1)
+    demand("without gnuplot the report says that figures are missing", "figures are missing: gnuplot is not installed" in
            (scratch / "bare" / "report.html").read_text())
     parse(scratch / "bare" / "report.html")
     for name in os.listdir(scratch / "out"):
         if name not in ("report.html", "figures"):
-            demand(f"{name} is the same as with it",
+            demand(f"{name} is the same as with gnuplot",
                    (scratch / "bare" / name).read_bytes() == (scratch / "out" / name).read_bytes())

@@ -1,7 +1,7 @@
-"""ringserver scans an archive that a daemon has written and goes on writing; slarchive fetches it to the byte.
+"""ringserver serves an archive while a daemon writes it; slarchive must fetch it byte for byte.
 
-Looked up in PATH, or named by A351_RINGSERVER and A351_SLARCHIVE (https://github.com/EarthScope); slarchive 3.2 ends at
-a record whose first blockette is not 1000.
+Both are searched in PATH or named by A351_RINGSERVER and A351_SLARCHIVE (https://github.com/EarthScope).  slarchive 3.2
+ends at a record whose first blockette is not 1000.
 """
 
 import os
@@ -15,7 +15,7 @@ import time
 from emulated_session import Session, wait_for
 from programs import IS_SANITIZED, ONE_SITE, Scratch, demand, skip, unused_port
 
-# Ten minutes before a midnight, and as long after it: two day files of each channel.
+# Starts ten minutes before midnight and ends at least ten minutes after it: two day files of each channel.
 SCENARIO = """base = "quiet"
 name = "midnight"
 [schedule]
@@ -30,7 +30,7 @@ FRAMES = 20 * 60 * 50
 def program(name, variable):
     found = shutil.which(os.environ.get(variable) or name)
     if found is None:
-        skip(f"{name} is neither in PATH nor named by {variable}")
+        skip(f"{name} is not in PATH; install it or set {variable}")
     version = subprocess.run([found, "-V"], capture_output=True, text=True)
     print((version.stdout + version.stderr).strip())
     return found
@@ -51,18 +51,18 @@ ringserver, slarchive = program("ringserver", "A351_RINGSERVER"), program("slarc
 with Scratch() as scratch:
     archive, fetched, port = scratch / "data" / "archive", scratch / "fetched", unused_port()
     archive.mkdir(parents=True)
-    # Served from memory, to this host alone.  Only names of day files end in a digit: not those of files to be.
+    # ringserver serves from memory, to this host alone.  Only names of day files end in a digit; temporary files do not match.
     (scratch / "ring.conf").write_text(
         f"VolatileRing 1\nRingSize 64M\nListenPort {port} SeedLink IPv4\nAcceptIP 127.0.0.1\n"
         f"MSeedScan {archive} StateFile=scan.state Match=[0-9]$\n")
     server = subprocess.Popen([ringserver, "ring.conf"], cwd=scratch, stdout=subprocess.DEVNULL,
                               stderr=subprocess.DEVNULL)
     wait_for("ringserver listens", lambda: is_listening(port))
-    # A client is sent what comes after it: it is there before the first record.
+    # A client gets only data that come after its connection, so it connects before the first record.
     log = open(scratch / "slarchive.log", "w")
     client = subprocess.Popen([slarchive, "-v", "-SDS", "fetched", "-nd", "1", "-S", "XX_A351",
                                f"127.0.0.1:{port}"], cwd=scratch, stdout=log, stderr=log)
-    wait_for("slarchive is taken", lambda: "accepted" in (scratch / "slarchive.log").read_text())
+    wait_for("slarchive is connected", lambda: "accepted" in (scratch / "slarchive.log").read_text())
     (scratch / "midnight.toml").write_text(SCENARIO)
     session = Session(scratch, speed=SPEED, scenario="midnight.toml", start=START)
     try:
@@ -70,21 +70,21 @@ with Scratch() as scratch:
         while_growing = sum(len(data) for data in day_files(fetched).values())
         session.end()
         written = day_files(archive)
-        wait_for("what was written is fetched", lambda: day_files(fetched).keys() == written.keys() and all(
+        wait_for("all written data are fetched", lambda: day_files(fetched).keys() == written.keys() and all(
             len(data) >= len(written[name]) for name, data in day_files(fetched).items()))
         for name, data in written.items():
             (archive / f"{name}.tmp").write_bytes(data[:512])
             (archive / f"{name}.512.torn").write_bytes(data[512:1024])
-        time.sleep(2.0)  # Nothing may come twice.
-        demand("ringserver and slarchive run to the end", server.poll() is None and client.poll() is None)
+        time.sleep(2.0)  # Time in which data might arrive twice.
+        demand("ringserver and slarchive are still running", server.poll() is None and client.poll() is None)
     finally:
         for process in (client, server):
             process.send_signal(signal.SIGTERM)
             process.wait(timeout=30)
     came, size = day_files(fetched), sum(len(data) for data in written.values())
-    print(f"{len(written)} day files of {size} bytes; {while_growing} bytes were fetched while they grew")
+    print(f"{len(written)} day files, {size} bytes; {while_growing} bytes were fetched while the files grew")
     channels, days = {name.split(".")[-4] for name in written}, {name.rsplit(".", 1)[1] for name in written}
     demand(f"channels {', '.join(sorted(channels))} on days {', '.join(sorted(days))}",
            len(channels) >= 4 and len(days) == 2 and len(written) >= 8)
     demand("data were fetched while the archive grew", while_growing > 0)
-    demand("every day file is fetched to the byte, and no other", came == written)
+    demand("exactly the day files are fetched, byte for byte", came == written)

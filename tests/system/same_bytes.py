@@ -1,4 +1,4 @@
-"""The correction is a function of its input alone: not of threads, locale, time zone, truth files or the order of rows."""
+"""The results depend on the input alone, not on threads, locale, time zone, truth files or the order of rows."""
 
 import random
 import re
@@ -15,7 +15,7 @@ RECORD_FILES = {"unit.toml", "result/record.csv", "result/response.csv", "result
 
 
 def foreign(scratch):
-    """Environment of another place: time zone, and a locale with a decimal comma if there can be one."""
+    """Returns an environment with another time zone and, if possible, a locale with a decimal comma."""
     environment = {"TZ": "Asia/Tokyo"}
     made = None
     if shutil.which("localedef"):
@@ -23,29 +23,30 @@ def foreign(scratch):
     if (scratch / "de_DE.UTF-8").exists():
         environment |= {"LOCPATH": str(scratch), "LC_ALL": "de_DE.UTF-8"}
         point = run("locale", "decimal_point", env=environment).stdout.strip()
-        demand(f"the foreign locale has the decimal point {point!r}", point == ",")
+        demand(f"the foreign locale has a decimal comma: {point!r}", point == ",")
     else:
-        print("skipped: the locale, for none with a decimal comma can be made here:",
+        print("the foreign locale is skipped, because none with a decimal comma can be made here:",
               made.stderr.strip() if made else "no localedef")
     return environment
 
 
 def content(folder, promised=FILES):
-    """Bytes of every file, the result's without checksums, which differ where the order of rows does."""
+    """Returns the bytes of every file in the folder; demands that the promised files are among them."""
     files = {path.relative_to(folder).as_posix(): path.read_bytes()
              for path in sorted(folder.rglob("*")) if path.is_file()}
-    demand(f"{folder.name}: all the promised files are there", promised <= set(files))
+    demand(f"{folder.name}: all promised files exist", promised <= set(files))
     return files
 
 
 def without_checksums(files):
+    """Removes the checksums of the input files, which differ if the order of their rows differs."""
     return {**files, "result.json": re.sub(rb'"crc32": \d+', b'"crc32": 0', files["result.json"]),
             "report.html": re.sub(rb">[0-9a-f]{8}<", b"><", files["report.html"])}
 
 
 def demand_equal(title, first, second):
     different = sorted(name for name in first.keys() | second.keys() if first.get(name) != second.get(name))
-    demand(f"{title}: {len(first)} files equal to the byte (different: {different or 'none'})", not different)
+    demand(f"{title}: {len(first)} files are byte for byte equal (different: {different or 'none'})", not different)
 
 
 def shuffled(source, target, seed):
@@ -73,18 +74,19 @@ with Scratch() as scratch:
     run("taskset", "1", BIN / "a351-correct", "survey", root / "survey.toml", "--out",
         scratch / "third")
     first = content(scratch / "first")
-    demand_equal("another place, no truth", first, content(scratch / "second"))
+    demand_equal("other locale and time zone, no truth files", first, content(scratch / "second"))
     demand_equal("one core", first, content(scratch / "third"))
     model = read_json(scratch / "first" / "result.json")["model"]
-    demand(f"{len(first)} files, figures among them, by the model {model}", model == "day" and "figures/map.svg" in first)
-    # A sanitizer's library must come first among those preloaded.
+    demand(f"{len(first)} files including figures, corrected by the model {model}",
+           model == "day" and "figures/map.svg" in first)
+    # Not under sanitizers, because a sanitizer must be the first preloaded library.
     for cores in () if IS_SANITIZED else (1, 2, 7):
         out = scratch / f"threads-{cores}"
         run(BIN / "a351-correct", "survey", root / "survey.toml", "--out", out,
             env={"LD_PRELOAD": str(TOOLS / "libcore-count.so"), "A351_CORES": str(cores)})
         demand_equal(f"{cores} threads", first, content(out))
 
-    # The same day from a table of occupations, its rows and those of the sites in order and shuffled.
+    # The same day from a table of occupations, with the rows of occupations and sites in order and shuffled.
     day = {"ordered": scratch / "ordered", "shuffled": scratch / "shuffled"}
     for folder in day.values():
         folder.mkdir()
@@ -94,7 +96,7 @@ with Scratch() as scratch:
         (folder / "survey.toml").write_text(
             '[survey]\nname = "day"\nroot = "data"\nsites = "sites.csv"\noccupations = "occupations.csv"\n'
             'amendments = "amendments.toml"\nbase = "No.0"\n')
-    # No.1 without coordinates: the mean of the others' does not depend on their order either.
+    # No.1 has no coordinates: the mean of the other sites, which is used instead, must not depend on their order.
     sites = re.sub(r"^No\.1,[^,]*,[^,]*,[^,]*,", "No.1,,,,", (GOLDEN / "sites.csv").read_text(), flags=re.M)
     (day["ordered"] / "sites.csv").write_text(sites)
     shutil.copy(root / "schedule.csv", day["ordered"] / "occupations.csv")
@@ -112,9 +114,9 @@ with Scratch() as scratch:
             run(BIN / "a351-correct", "table", "--sites", folder / "sites.csv", "--observations",
                 folder / "observations.csv", "--tide", tide, "--out", scratch / f"{name}-{tide}",
                 "--figures", "pdf", "--figures", "png", env=environment)
-        time.sleep(1.1)  # PDF carries the second of its making, unless that is removed.
+        time.sleep(1.1)  # A PDF holds the second in which it was made, unless a351 removes it.
     pictures = list((scratch / "table-given" / "figures").glob("*.p[dn][fg]"))
-    demand(f"{len(pictures)} figures as PDF or PNG are among the files to be compared", pictures or not shutil.which("gnuplot"))
+    demand(f"the compared files include {len(pictures)} figures as PDF or PNG", pictures or not shutil.which("gnuplot"))
     for tide in ("given", "direct"):
         demand_equal(f"rows of observations and sites shuffled, tide {tide}",
                      *(without_checksums(content(scratch / f"{name}-{tide}"))
@@ -124,7 +126,7 @@ with Scratch() as scratch:
     run(BIN / "a351-sim", "survey", "--scenario", "indoor", "--seed", 511, "--out", scratch / "night")
 
     def measured(name, *before, env=None):
-        """Bytes of the files that calibrate and record write in a folder of that name."""
+        """Runs calibrate and record in a folder of that name and returns the bytes of their files."""
         folder = scratch / name
         folder.mkdir()
         run(*before, BIN / "a351-correct", "calibrate", scratch / "night", "--out", "unit.toml", env=env, cwd=folder)
@@ -133,7 +135,7 @@ with Scratch() as scratch:
         return content(folder, RECORD_FILES)
 
     here = measured("here")
-    demand_equal("record and calibrate: another place", here, measured("there", env=abroad))
+    demand_equal("record and calibrate: other locale and time zone", here, measured("there", env=abroad))
     demand_equal("record and calibrate: one core", here, measured("one core", "taskset", "1"))
     for cores in () if IS_SANITIZED else (1, 2, 7):
         demand_equal(f"record and calibrate: {cores} threads", here, measured(

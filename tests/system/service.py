@@ -1,4 +1,4 @@
-"""As a service: the manager is told what it must know, and the unit allows what the daemon does."""
+"""The daemon as a systemd service: it sends the notifications, and the unit allows every system call that it makes."""
 
 import atexit
 import os
@@ -15,11 +15,11 @@ from programs import BIN, IS_SANITIZED, TOP, Scratch, daemon_config, daemon_stat
 
 PORT = 28352
 UNIT = TOP / "config" / "a351d@.service"
-WORST_EXPOSURE = 2.5  # Of 10, systemd-analyze security: 2.2 or "OK"; a unit without a word of this kind has 9.6.
+WORST_EXPOSURE = 2.5  # Limit for systemd-analyze security, 0 (best) to 10; the unit has 2.2, one without restrictions 9.6.
 
 
 def start(scratch, tracer=(), **environment):
-    """Emulator and daemon on the host's clock."""
+    """Starts emulator and daemon on the host's clock and returns their processes."""
     (scratch / "a351d.toml").write_text(daemon_config(PORT))
     sim = subprocess.Popen([BIN / "a351-sim", "device", "--link", "sensor"], cwd=scratch, stderr=subprocess.DEVNULL)
     daemon = subprocess.Popen([*tracer, BIN / "a351d", "--config", "a351d.toml"], cwd=scratch, stderr=subprocess.DEVNULL,
@@ -35,7 +35,7 @@ def end(sim):
 
 
 def told(manager):
-    """Every datagram that has come so far."""
+    """Returns every notification received so far."""
     manager.setblocking(False)
     datagrams = []
     while True:
@@ -50,49 +50,50 @@ def notices():
         manager.bind(str(scratch / "notify"))
         sim, daemon = start(scratch, NOTIFY_SOCKET=str(scratch / "notify"))
         manager.settimeout(30)
-        demand("the first word is that the daemon is ready", manager.recv(4096) == b"READY=1")
+        demand("the first notification is READY=1", manager.recv(4096) == b"READY=1")
         time.sleep(5)
         said = told(manager)
         print(said)
-        demand(f"alive {said.count('WATCHDOG=1')} times in 5 s", said.count("WATCHDOG=1") in range(3, 7))
-        demand("and sampling", any(line.startswith("STATUS=sampling") for line in said))
+        demand(f"{said.count('WATCHDOG=1')} watchdog signals in 5 s, must be 3 to 6", said.count("WATCHDOG=1") in range(3, 7))
+        demand("the status line says sampling", any(line.startswith("STATUS=sampling") for line in said))
         daemon.send_signal(signal.SIGSTOP)
         time.sleep(0.5)
         told(manager)
         time.sleep(2.5)
-        demand("a daemon that stands still says nothing, and the watchdog bites", told(manager) == [])
+        demand("a stopped daemon sends no watchdog signal, so that systemd restarts it", told(manager) == [])
         daemon.send_signal(signal.SIGCONT)
         daemon.send_signal(signal.SIGTERM)
-        demand("it ends cleanly", daemon.wait(timeout=30) == 0)
-        demand("the last word is that it stops", told(manager)[-1] == "STOPPING=1")
+        demand("the daemon ends cleanly", daemon.wait(timeout=30) == 0)
+        demand("the last notification is STOPPING=1", told(manager)[-1] == "STOPPING=1")
         end(sim)
 
 
 def unit_is_clean(scratch):
-    """What systemd makes of the unit, with the program that was built."""
+    """Checks the unit with systemd-analyze, with the program that was built."""
     unit = scratch / "a351d@.service"
     unit.write_text(UNIT.read_text().replace("ExecStart=a351d", f"ExecStart={BIN / 'a351d'}"))
     checked = run("systemd-analyze", "verify", "--man=no", scratch / "a351d@here.service", check=False)
     said = [line for line in (checked.stdout + checked.stderr).splitlines() if "a351d" in line]
-    demand(f"systemd-analyze verify says {said or 'nothing'}", not said and checked.returncode == 0)
+    demand(f"systemd-analyze verify reports {said or 'nothing'}", not said and checked.returncode == 0)
     security = run("systemd-analyze", "security", "--no-pager", "--offline=true", unit, check=False).stdout
     exposure = re.search(r"Overall exposure level for .*: ([\d.]+)", security)
     if exposure:
-        demand(f"exposure {exposure[1]} of 10, at most {WORST_EXPOSURE}", float(exposure[1]) <= WORST_EXPOSURE)
+        demand(f"exposure {exposure[1]} of 10, limit {WORST_EXPOSURE}", float(exposure[1]) <= WORST_EXPOSURE)
 
 
 def allowed_calls(group):
-    """System calls of a systemd group, groups within it included."""
+    """Returns the system calls of a systemd group, including those of the groups in it."""
     lines = run("systemd-analyze", "syscall-filter", group).stdout.splitlines()
     names = {line.strip() for line in lines[1:] if line.strip() and not line.strip().startswith("#")}
     return {name for name in names if name[0] != "@"}.union(*(allowed_calls(name) for name in names if name[0] == "@"))
 
 
 def calls_are_allowed(scratch):
-    """The daemon under strace, from start to stop: the unit's SystemCallFilter= holds every call it made."""
+    """Runs the daemon under strace from start to stop; demands that SystemCallFilter= of the unit allows every call."""
     words = re.search(r"^SystemCallFilter=(.*)$", UNIT.read_text(), re.M)[1].split()
     allowed = {word for word in words if word[0] != "@"}.union(*(allowed_calls(word) for word in words if word[0] == "@"))
-    demand(f"the filter holds {len(allowed)} calls, mount not among them", "mount" not in allowed and "read" in allowed)
+    demand(f"the filter allows {len(allowed)} calls, including read, without mount",
+           "mount" not in allowed and "read" in allowed)
     sim, daemon = start(scratch, ["strace", "-f", "-qq", "-o", "calls"])
     wait_for("a session under strace", lambda: (daemon_status(PORT) or {}).get("counters", {}).get("frames", 0) > 100)
     child = pathlib.Path(f"/proc/{daemon.pid}/task/{daemon.pid}/children").read_text().split()[0]
@@ -100,14 +101,16 @@ def calls_are_allowed(scratch):
     demand("the daemon ends cleanly under strace", daemon.wait(timeout=60) == 0)
     end(sim)
     made = set(re.findall(r"^\d+ +(\w+)\(", (scratch / "calls").read_text(), re.M)) - {"execve"}
-    demand(f"{len(made)} different calls, adjtimex among them", "fdatasync" in made and bool({"adjtimex", "clock_adjtime"} & made))
-    demand(f"the unit forbids {sorted(made - allowed) or 'none of them'}", made <= allowed)
+    demand(f"the daemon made {len(made)} different calls, including fdatasync and adjtimex",
+           "fdatasync" in made and bool({"adjtimex", "clock_adjtime"} & made))
+    demand(f"calls of the daemon that the unit forbids: {sorted(made - allowed) or 'none'}", made <= allowed)
 
 
 notices()
 missing = [name for name in ("systemd-analyze", "strace") if shutil.which(name) is None]
-if missing or IS_SANITIZED:  # Sanitizers make calls of their own.
-    skip(f"the notices hold; of the unit nothing is shown: {' and '.join(missing) or 'a sanitizer runs'}")
+if missing or IS_SANITIZED:  # Sanitizers make additional system calls.
+    skip("the notifications are correct; the unit was not tested: "
+         f"{' and '.join(missing) + ' missing' if missing else 'sanitizers make additional system calls'}")
 with Scratch() as scratch:
     unit_is_clean(scratch)
     calls_are_allowed(scratch)

@@ -1,6 +1,6 @@
-"""Days at 1000x: memory, descriptors and threads of the daemon stay as they are, and the archive is the truth.
+"""Days at 1000x: memory, file descriptors and threads of the daemon must not grow, and the archive must be the truth.
 
-A351_LONG=1: the scenario `week`, seven days in ten minutes; otherwise its first hours.
+A351_LONG=1: the scenario `week`, seven days in ten minutes; otherwise its first four hours.
 """
 
 import os
@@ -15,13 +15,13 @@ from programs import IS_LONG, IS_SANITIZED, Scratch, demand, read_json
 SPEED = 150 if IS_SANITIZED else 1000
 HOURS = 168 if IS_LONG else 4
 HOUR_S = 3600 / SPEED
-# As system_bench.py promises; without what a sanitizer adds.
+# Limit for the daemon's memory, as in system_bench.py; not tested under sanitizers.
 LARGEST_MB = 60
-# Times of the last 24 h are kept for occupations in the past; from then on memory has no reason to grow.
+# Hour after which memory must not grow: the daemon keeps the times of the last 24 h for occupations in the past.
 SETTLED_H = 25
-LARGEST_GROWTH_MB = 1  # By one page of the allocator here and there.
+LARGEST_GROWTH_MB = 1  # Allows for some pages of the allocator.
 
-# What counts work done, or that waits; a counter that is not named here has to be 0 as long as the sensor is there.
+# Counters of work that is done or waiting.  All other counters must not change while the sensor is connected.
 WORK = {"archive_records", "archive_records_waiting", "bytes", "frames", "journal_bytes", "journal_segments_compressed",
         "link_sessions", "sessions"}
 
@@ -33,8 +33,10 @@ def footprint(pid):
 
 
 def hour_by_hour(session, hours):
-    """Of each simulated hour the median memory in MB, and the fewest descriptors and threads: a segment that is being
-    compressed holds some for a moment."""
+    """Returns for each simulated hour the median memory in MB and the smallest numbers of descriptors and threads.
+
+    The smallest numbers, because the compression of a segment needs some for a short time.
+    """
     table, begin = [], time.monotonic()
     for hour in range(hours):
         seen = [footprint(session.daemon.pid)]
@@ -50,7 +52,7 @@ with Scratch() as scratch:
     (scratch / "days.toml").write_text(f'base = "week"\nname = "days"\n[schedule]\nduration_h = {HOURS + 1}\n')
     session = Session(scratch, speed=SPEED, scenario="days.toml")
     session.wait_for_frames(50 * 600)
-    before = session.status()["counters"]  # A sensor that starts up does not answer at first.
+    before = session.status()["counters"]  # Taken now, because a sensor that starts up does not answer at first.
     table = hour_by_hour(session, HOURS)
     counters = session.status()["counters"]
     print(f"the emulator ends with {session.sim.wait(timeout=600)}")
@@ -67,15 +69,16 @@ with Scratch() as scratch:
     print("emulator:", {key: report[key] for key in ("frames_sent", "largest_lateness_real_s", "mean_rate_real_hz")})
     largest = max(row[0] for row in table)
     if not IS_SANITIZED:
-        demand(f"memory is {largest:.1f} MB at most, below {LARGEST_MB}", largest < LARGEST_MB)
+        demand(f"largest memory {largest:.1f} MB, limit {LARGEST_MB}", largest < LARGEST_MB)
     if HOURS > SETTLED_H:
         growth = table[-1][0] - table[SETTLED_H][0]
-        demand(f"memory from hour {SETTLED_H} to the last: {growth:+.1f} MB", growth < LARGEST_GROWTH_MB)
-    demand("no more descriptors and threads in the last hour than in the first",
+        demand(f"memory changed by {growth:+.1f} MB from hour {SETTLED_H} to the last, limit {LARGEST_GROWTH_MB}",
+               growth < LARGEST_GROWTH_MB)
+    demand("the last hour has no more descriptors and threads than the first",
            all(last <= first for last, first in zip(table[-1][1:], table[0][1:])))
     unexplained = {key: count for key, count in counters.items()
                    if count != before[key] and key not in WORK}
-    demand(f"one session, and no counter without a reason: {unexplained}",
+    demand(f"one session; counters that changed without a reason: {unexplained or 'none'}",
            not unexplained and counters["sessions"] == counters["link_sessions"] == 1)
-    demand(f"{heard} frames are the {report['frames_sent']} that were sent", heard == report["frames_sent"])
+    demand(f"{heard} frames received, {report['frames_sent']} were sent", heard == report["frames_sent"])
     session.archive_is_true(missing=0)

@@ -1,4 +1,4 @@
-"""Station metadata of one and of two epochs, with and without an oven, are valid and give ObsPy the right values."""
+"""Station metadata with one and more epochs, with and without an oven: valid StationXML, and correct values in ObsPy."""
 
 import pathlib
 
@@ -20,7 +20,7 @@ FIRST, SECOND, THIRD = (obspy.UTCDateTime(2026, 3, day, 18) for day in (1, 2, 3)
 
 
 def physical(inventory, channel, counts, at):
-    """The value that the metadata give to a constant trace, and its unit."""
+    """Returns value and unit that ObsPy computes from the metadata for a trace of constant counts."""
     trace = obspy.Trace(numpy.full(100, counts, dtype=numpy.int32),
                         {"network": "XX", "station": "A351", "location": "00", "channel": channel, "starttime": at,
                          "sampling_rate": 1.0 if channel.startswith("L") else 50.0})
@@ -36,7 +36,7 @@ with Scratch() as scratch:
         schema.validate(etree.parse(str(scratch / file)))
         for trouble in schema.error_log:
             print(trouble)
-        demand(f"{file} is valid by {SCHEMA.name}", not schema.error_log)
+        demand(f"{file} is valid against {SCHEMA.name}", not schema.error_log)
 
     inventory = obspy.read_inventory(str(scratch / "oven.xml"))
     serials = []
@@ -50,9 +50,9 @@ with Scratch() as scratch:
         demand(f"{at.date}: one g is {value:.15g} {unit}", abs(value - 9.80665) <= 1e-9 and unit == "m/s**2")
         value, unit = physical(inventory, "LK1", 42_537, at)
         demand(f"{at.date}: LK1 gives {value} {unit}", abs(value - 42.537) <= 0.001 and unit == "degC")
-    demand("each epoch has its sensor", serials == ["00000042", "00000043", "00000043"])
+    demand("each epoch has the serial number of its sensor", serials == ["00000042", "00000043", "00000043"])
     for channel, counts, expected in (("LK2", 42_500, (42.5, "degC")), ("LK3", 42_500, (42.5, "degC")),
                                       ("LYH", 6_170, (61.7, "%")), ("LCE", 250, (250e-6, "s")), ("LCQ", 80, (80.0, "%"))):
         value, unit = physical(inventory, channel, counts, THIRD)
         demand(f"{channel} gives {value} {unit}", abs(value / expected[0] - 1) < 1e-6 and unit == expected[1])
-    demand("the oven's channels begin with the oven", not inventory.select(channel="LK2", time=SECOND))
+    demand("the oven's channels exist only from its epoch on", not inventory.select(channel="LK2", time=SECOND))

@@ -1,11 +1,11 @@
-"""Runs a test that lives on real time, and repeats it once if it failed while the host stood still.
+"""Runs a test that depends on real time, and repeats it once if it failed while the host paused.
 
     steady_host.py [--at-most SECONDS] COMMAND...
 
-A host that stops for seconds turns a right program red: viewers wait too long, counters wrap unseen.  A thread sleeps
-10 ms again and again and compares the clock.  The exit status is that of the command, with two exceptions:
+A host that stops for seconds lets a test of a correct program fail: viewers time out, counters wrap unnoticed.  A thread
+sleeps 10 ms repeatedly and compares the clock.  The exit status is that of the command, with two exceptions:
   - The command failed and there was a pause: it is run once more, and the second result counts.
-  - Both runs failed and both had a pause: 77, skipped, because nothing was judged.
+  - Both runs failed and both had a pause: 77, skipped, because the result is unknown.
 A failure without a pause is never repeated.  Every pause is reported on stderr, also when the command succeeds.
 --at-most limits the time of one run; a run that takes longer is killed and has failed.
 """
@@ -22,8 +22,9 @@ import threading
 import time
 
 SLEEP_S = 0.01
-# Half of the shortest silence that a program here takes for a fault: 0.5 s, after which a351d says that the sensor
-# stalls.  Ten tests and three compilers on two cores delay the thread by 0.05 s at most.
+# Longest delay of the thread that is not a pause, in s: half of the shortest silence that a program here takes for a fault
+# (0.5 s, after which a351d reports that the sensor stalls).  Ten tests and three compilers on two cores delay the thread by
+# at most 0.05 s.
 LONGEST_DELAY_S = 0.25
 MOST_NAMED = 3
 SKIPPED = 77
@@ -41,7 +42,7 @@ def now_s():
 
 
 class Watch(threading.Thread):
-    """Collects the pauses of the host until it is ended: length in s and UTC of the end."""
+    """Collects the pauses of the host until end() is called: length in s and UTC of the end of each."""
 
     def __init__(self):
         super().__init__(daemon=True)
@@ -68,7 +69,7 @@ class Watch(threading.Thread):
 
 
 def descendants(top):
-    """@return every process that has `top` among its parents, in whatever session."""
+    """Returns all processes started by `top` and by its descendants, in any session."""
     parents = {}
     for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
         with contextlib.suppress(OSError):  # It has ended in the meantime.
@@ -81,7 +82,7 @@ def descendants(top):
 
 
 def kill_the_rest():
-    """Ends what a run has left behind, so that the next one finds its ports and links free."""
+    """Kills all processes that a run has left, so that the next run finds its ports and links free."""
     while left := descendants(os.getpid()):
         for pid in left:
             with contextlib.suppress(ProcessLookupError):
@@ -91,9 +92,9 @@ def kill_the_rest():
 
 
 def wait_for(child, watch):
-    """Waits for the child, and for every orphan that the run leaves to this process.  A time for which the child alone
-    was stopped is a pause too.
+    """Waits for the child, and for every process that the run leaves to this process.
 
+    Time in which only the child was stopped counts as a pause too.
     @return status of the child
     """
     stopped_s = known_s = None
@@ -105,7 +106,7 @@ def wait_for(child, watch):
             stopped_s, known_s = now_s(), watch.total_s()
         elif not os.WIFCONTINUED(status):
             code = os.waitstatus_to_exitcode(status)
-            return 128 - code if code < 0 else code  # As a shell says that a signal ended it.
+            return 128 - code if code < 0 else code  # The status that a shell gives for a process ended by a signal.
         elif stopped_s is not None:
             seconds, stopped_s = now_s() - stopped_s, None
             time.sleep(2 * SLEEP_S)  # After a pause of all processes the thread may be the last to wake.
@@ -113,15 +114,15 @@ def wait_for(child, watch):
 
 
 def run(command, at_most_s):
-    """@return status of one run, and its pauses."""
+    """Runs the command once and returns its status and the pauses."""
     watch = Watch()
     try:
         child = subprocess.Popen(command)
 
         def end_late():
-            say(f"the run is killed after {at_most_s:g} s, the most that it may take")
+            say(f"the run is killed after {at_most_s:g} s, its time limit")
             with contextlib.suppress(ProcessLookupError):
-                os.kill(child.pid, signal.SIGKILL)  # child.kill() would take its status from wait_for().
+                os.kill(child.pid, signal.SIGKILL)  # child.kill() would collect the status that wait_for() needs.
 
         if at_most_s:
             timer = threading.Timer(at_most_s, end_late)
@@ -138,27 +139,27 @@ def run(command, at_most_s):
 def as_text(pauses):
     longest = sorted(pauses, reverse=True)
     named = ", ".join(f"{seconds:.1f} s until {end:%H:%M:%S} UTC" for seconds, end in longest[:MOST_NAMED])
-    return f"the host paused for {named}" + (f" and {len(pauses) - MOST_NAMED} times more" if len(pauses) > MOST_NAMED else "")
+    return f"the host paused for {named}" + (f" and {len(pauses) - MOST_NAMED} more times" if len(pauses) > MOST_NAMED else "")
 
 
 def judge(command, at_most_s):
-    """@return status of the one or two runs."""
+    """Runs the command once or twice and returns the status."""
     status, pauses = run(command, at_most_s)
     if not pauses:
         return status
     if status in (0, SKIPPED):
-        say(f"{as_text(pauses)}; the run ended with {status} all the same")
+        say(f"{as_text(pauses)}; the run nevertheless ended with status {status}")
         return status
-    say(f"{as_text(pauses)}; the run ended with {status}, which does not count, and is repeated once")
+    say(f"{as_text(pauses)}; the run ended with status {status}, which does not count; it is repeated once")
     status, pauses = run(command, at_most_s)
     if status in (0, SKIPPED):
-        say(f"the second run ended with {status}" + (f", although {as_text(pauses)}" if pauses else ""))
+        say(f"the second run ended with status {status}" + (f", although {as_text(pauses)}" if pauses else ""))
         return status
     if not pauses:
-        say(f"the second run ended with {status}, and the host did not pause: it counts")
+        say(f"the second run ended with status {status} and the host did not pause: it counts")
         return status
-    say(f"{as_text(pauses)}; the second run ended with {status}, which does not count either")
-    print("skipped: nothing was judged, because the host paused in both runs", flush=True)
+    say(f"{as_text(pauses)}; the second run ended with status {status}, which does not count either")
+    print("skipped: the result is unknown, because the host paused in both runs", flush=True)
     return SKIPPED
 
 
@@ -171,7 +172,7 @@ def main():
         return USAGE
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda number, _: sys.exit(128 + number))
-    ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)  # A process that a test leaves becomes a child of this one.
+    ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)  # Processes that a test leaves become children of this one.
     return judge(arguments, at_most_s)
 
 

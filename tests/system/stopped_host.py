@@ -1,9 +1,11 @@
-"""Stops all processes of a running system test for 15 s, as a host does that stands still, and demands that the test is
-green and the pause named.
+"""Stops all processes of a running system test for 15 s, as in a pause of the host.
+
+The test must pass and the pause must be reported.
 
     stopped_host.py [SECONDS-INTO-THE-RUN SCRIPT [ARGUMENTS...]]
 
-Without arguments: five tests that a pause of 15.7 s once made red, and sim/demo; a quarter of an hour."""
+Without arguments: five tests that once failed in a pause of 15.7 s, and sim/demo; takes a quarter of an hour.
+"""
 
 import contextlib
 import os
@@ -19,19 +21,19 @@ from steady_host import descendants
 
 SYSTEM = TOP / "tests" / "system"
 STOPPED_S = 15.0
-# Seconds into the run at which the host stops, in the middle of each.
+# Time in s after which each test is stopped, in the middle of its run.
 PLAYS = [(25, "faults.py"), (30, "faults_port.py"), (20, "live_clients.py"), (45, "faults_host.py"), (30, "replay.py")]
 DEMO_AT_S = 20
 
 
 def stop(top, seconds):
-    """Stops that process and all that it has started, in whatever session, for so many seconds."""
+    """Stops a process and all processes that it has started, in any session, for these seconds."""
     seen, stopped = set(), []
     while left := (descendants(top) | {top}) - seen:
         for pid in sorted(left, key=lambda pid: pid != top):  # A stopped parent starts no further processes.
             seen.add(pid)
             with contextlib.suppress(ProcessLookupError, FileNotFoundError):  # It has ended in the meantime.
-                if state(pid) != "T":  # Those that the test itself has stopped stay stopped.
+                if state(pid) != "T":  # Processes that the test itself has stopped stay stopped.
                     os.kill(pid, signal.SIGSTOP)
                     stopped.append(pid)
     time.sleep(seconds)
@@ -41,7 +43,7 @@ def stop(top, seconds):
 
 
 def state(pid):
-    """@return one letter: proc(5), field 3 of stat"""
+    """Returns the state of a process, one letter: proc(5), field 3 of stat."""
     return pathlib.Path(f"/proc/{pid}/stat").read_text(errors="replace").rsplit(")", 1)[1].split()[0]
 
 
@@ -51,7 +53,7 @@ def play(at_s, name, command):
         process = subprocess.Popen(command, cwd=scratch, stdout=said, stderr=subprocess.STDOUT,
                                    env={**os.environ, "A351_BIN": str(BIN)})
         time.sleep(at_s)
-        demand(f"{name} runs for {at_s} s", process.poll() is None)
+        demand(f"{name} is still running after {at_s} s", process.poll() is None)
         stop(process.pid, STOPPED_S)
         status = process.wait()
         said.seek(0)
@@ -60,7 +62,7 @@ def play(at_s, name, command):
     print(f"{name}: ended with {status} after {time.monotonic() - begin:.0f} s", *named, sep="\n  ", flush=True)
     if status != 0:
         print(text[-4000:])
-    demand(f"{name}: stopped for {STOPPED_S:g} s after {at_s} s it is green, and the pause named",
+    demand(f"{name}: stopped for {STOPPED_S:g} s after {at_s} s it passes, and the pause is reported",
            status == 0 and any(re.search(r"paused for 1[56]\.", line) for line in named))
 
 

@@ -1,4 +1,4 @@
-"""Readers by somebody who has the format pages and no code of ours: journal, archive and event log, in some 30 lines each."""
+"""Readers of journal, archive and event log, written from the format pages alone, with about 30 lines each."""
 
 import csv
 import datetime
@@ -11,7 +11,7 @@ GOLDEN = TOP / "tests" / "golden"
 
 
 def journal(file):
-    """protocol/journal/journal-format.md: (type, payload) of each good chunk; checksums are left to the careful."""
+    """Yields (type, payload) of each good chunk: protocol/journal/journal-format.md.  Checksums are not verified."""
     data, at, sequence = file.read_bytes(), 12, 0
     if data[:12] != b"A351JRNL\1\0\0\0":
         return
@@ -25,7 +25,7 @@ def journal(file):
 
 
 def received(payload):
-    """(raw time in ns, bytes) of each read of an RX chunk."""
+    """Returns (raw time in ns, bytes) of each read of an RX chunk."""
     first, count = struct.unpack_from("<qI", payload)
     reads = list(struct.iter_unpack("<Iq", payload[12:12 + 12 * count]))
     data = payload[12 + 12 * count:]
@@ -33,7 +33,10 @@ def received(payload):
 
 
 def samples(frame):
-    """protocol/wire/burst-format.md, BURST_CTRL C703h: temperature, x, y, z, COUNT; None where the checksum is wrong."""
+    """Returns temperature, x, y, z, COUNT of a frame; None if the checksum is wrong.
+
+    protocol/wire/burst-format.md, BURST_CTRL C703h.
+    """
     whole = frame[0] == 0x80 and frame[23] == 0x0D and sum(struct.unpack(">10H", frame[1:21])) % 65536 == \
         struct.unpack(">H", frame[21:23])[0]
     return struct.unpack(">iiiiH", frame[3:21]) if whole else None
@@ -44,12 +47,12 @@ def signed(word, shift, bits):
     return value - (1 << bits) if value >> bits - 1 else value
 
 
-# How a word's differences are cut, by nibble and the word's two upper bits: SEED manual 2.4, appendix B, Steim-2.
+# Number and bits of the differences in a word, by its nibble and two upper bits: SEED manual 2.4, appendix B, Steim-2.
 CUTS = {(1, None): (4, 8), (2, 1): (1, 30), (2, 2): (2, 15), (2, 3): (3, 10), (3, 0): (5, 6), (3, 1): (6, 5), (3, 2): (7, 4)}
 
 
 def record(data):
-    """protocol/archive/archive-format.md: channel, start in ns, rate, samples of a record of 512 bytes."""
+    """Returns channel, start in ns, rate and samples of a record of 512 bytes: protocol/archive/archive-format.md."""
     year, day, hour, minute, second, ten_thousandths = struct.unpack_from(">HHBBBxH", data, 20)
     count, factor, multiplier = struct.unpack_from(">Hhh", data, 30)
     begin, = struct.unpack_from(">H", data, 44)
@@ -78,7 +81,7 @@ def record(data):
 
 
 def occupations(folder):
-    """protocol/events/event-format.md: [site, number, set-up, start, end, note], one row per set-up, in order of time."""
+    """Returns [site, number, set-up, start, end, note] of each set-up in order of time: protocol/events/event-format.md."""
     finished, running = [], None
 
     def lay_down(utc):
@@ -125,23 +128,24 @@ def rows(file):
 
 found = list(journal(GOLDEN / "journal" / "00000001_20260301T130000Z.a351j"))
 demand(f"the worked example has chunks {[kind for kind, _ in found]}", [kind for kind, _ in found] == [1, 3, 4, 2, 5, 6, 7, 8])
-demand("its header names session and profile", json.loads(found[0][1])["session"] == bytes(range(16)).hex())
-demand("two reads, 20 ms apart", received(found[3][1]) ==
+demand("the header has the session", json.loads(found[0][1])["session"] == bytes(range(16)).hex())
+demand("the example has two reads, 20 ms apart", received(found[3][1]) ==
        [(1000100000000, b"\x80ABC"), (1000120000000, b"DEF\r")])
 
 log = GOLDEN / "logs" / "clean_start"
 stream = b"".join(data for kind, payload in journal(log.with_suffix(".a351j")) if kind == 2 for _, data in received(payload))
 wanted = [[int(row[i]) for i in (5, 2, 3, 4, 1)] for row in rows(log.with_suffix(".csv"))]
 frames = [list(samples(stream[i:i + 24]) or ()) for i in range(0, len(stream) - 23, 24)]
-demand(f"{len(frames)} frames of a recorded journal are the {len(wanted)} expected", frames == wanted)
+demand(f"the {len(frames)} frames of a recorded journal are the {len(wanted)} expected ones", frames == wanted)
 
 code, start, rate, values = record((GOLDEN / "miniseed" / "XX.A351.00.BNZ_steim2_blockette100.mseed").read_bytes())
 instant = datetime.datetime.fromtimestamp(start // 10**9, datetime.timezone.utc).strftime("%FT%T") + f".{start % 10**9:09d}"
 print(code, instant, rate, len(values))
-demand("the record's channel, start and rate", (code, instant) == ("XX.A351.00.BNZ", "2026-03-01T12:00:00.123456000")
+demand("the miniSEED record has the expected channel, start and rate",
+       (code, instant) == ("XX.A351.00.BNZ", "2026-03-01T12:00:00.123456000")
        and abs(rate - 50.0005) < 2e-6)
-demand("its 112 samples are the formula's",
+demand("its 112 samples are those of the formula",
        values == [16000000 + (5 * i * i if i % 2 == 0 else -3 * i * i) for i in range(112)])
 
-demand("the event log's occupations are those worked out by hand",
+demand("the occupations of the event log are those worked out by hand",
        occupations(GOLDEN / "events") == rows(GOLDEN / "events" / "occupations.csv"))

@@ -1,4 +1,4 @@
-"""A simulated survey day through emulator, pty, daemon, archive and corrector, against the truth."""
+"""Compares a simulated survey day with the truth, after emulator, pseudo-terminal, daemon, archive and corrector."""
 
 import sys
 
@@ -10,7 +10,7 @@ speed = "150" if IS_SANITIZED else "1000"
 
 
 def shorter(day, name):
-    """The first stays of the scenario, as a scenario of its own."""
+    """Writes a scenario with the first occupations of the day and returns its file."""
     stays = (("No.0", 1, "2017-07-15T23:42:00Z"), ("No.12", 1, "2017-07-16T00:40:00Z"),
              ("No.0", 2, "2017-07-16T01:13:00Z"), ("No.1", 1, "2017-07-16T02:11:00Z"))
     day.write_text(f'base = "{name}"\nname = "{name}-shorter"\n' + "".join(
@@ -25,9 +25,9 @@ with Scratch() as scratch:
         scenario = shorter(scratch / "shorter.toml", scenario)
     demo = run(TOP / "sim" / "demo", scenario, "--seed", "7", "--speed", speed, "--out", out)
     print(demo.stdout)
-    demand("the demo prints its own day's RMS of Error_1",
+    demand("the demo prints the RMS of Error_1 of its day",
            "RMS of Error (1), before the drift step: " in demo.stdout)
-    demand("the demo prints the table beside the truth", "Beside the simulated truth" in demo.stdout)
+    demand("the demo prints a table with the simulated truth", "Comparison with the simulated truth" in demo.stdout)
 
     truth = {(row["site"], row["occupation"]): row for row in rows(out / "truth.csv")}
     table = rows(out / "result" / "occupations.csv")
@@ -37,12 +37,12 @@ with Scratch() as scratch:
         errors = [abs(float(row["corrected_mgal"])
                       - float(truth[row["site"], row["occupation"]]["gravity_mgal"]))
                   for row in table]
-        demand(f"every corrected value within 0.01 mGal of truth (largest {max(errors):.4f})",
+        demand(f"largest error of a corrected value {max(errors):.4f} mGal, limit 0.01",
                max(errors) <= 0.01)
 
     channels = compare_truth(out / "data" / "archive", out / "truth.bin")
     for name, counted in channels.items():
-        demand(f"{name}: 0 of {counted['truth']:.0f} samples missing, altered or duplicated",
+        demand(f"{name}: none of {counted['truth']:.0f} samples is missing, altered or duplicated",
                counted["missing"] == counted["altered"] == counted["duplicated"] == 0
                and counted["matched"] == counted["truth"] > 0)
         demand(f"{name}: no record boundary steps by more than 15 ms", counted["steps"] == 0)
@@ -51,4 +51,4 @@ with Scratch() as scratch:
     print("emulator:", report)
     if not IS_SANITIZED:
         ratio = report["mean_rate_real_hz"] / (50.0 * float(speed))
-        demand(f"mean rate at {speed}x is {100 * ratio:.2f} % of nominal (>= 95)", ratio >= 0.95)
+        demand(f"mean rate at {speed}x is {100 * ratio:.2f} % of nominal, must be at least 95", ratio >= 0.95)

@@ -1,4 +1,4 @@
-"""The pages on the corrector's tables name every column and key that is written, and their formulas hold."""
+"""The pages on the corrector's tables describe every column and key that is written, and their formulas hold."""
 
 import json
 import re
@@ -7,14 +7,14 @@ from programs import BIN, TOP, Scratch, demand, rows, run
 
 GOLDEN = TOP / "tests" / "golden" / "tsukuba"
 PAGE, RECORD_PAGE = (TOP / "corrector" / name for name in ("result/table-format.md", "long_record/long_record.md"))
-# Not told one by one there: options of the run, parts of a calibration and of a network.
+# Keys whose contents the pages do not list: options of the run, parts of a calibration and of a network.
 ASIDE = {"settings", "calibration", "network"}
-# Of five or more numbers of six decimals each.
+# Largest error of a formula, in mGal: five or more numbers are rounded to six decimals each.
 ROUNDING_MGAL = 5e-6
 
 
 def keys(value):
-    """All of an object and of what it holds."""
+    """Returns all keys of an object and of the objects in it, except those in ASIDE."""
     if isinstance(value, list):
         return set().union(*map(keys, value)) if value else set()
     if not isinstance(value, dict):
@@ -24,7 +24,7 @@ def keys(value):
 
 def demand_named(title, written, page):
     lacking = sorted(written - set(re.findall(r"`([a-z0-9_]+)`", page.read_text())))
-    demand(f"{title}: of {len(written)} columns and keys {page.name} lacks {lacking or 'none'}", not lacking)
+    demand(f"{title}: of {len(written)} columns and keys {page.name} describes all but {lacking or 'none'}", not lacking)
 
 
 def columns(result, *tables):
@@ -37,7 +37,7 @@ def check_names(title, result):
 
 
 def check_formulas(title, result):
-    """By the page alone: a correction is a column that says so."""
+    """Tests the formulas as the page gives them; corrections are the columns whose names end in _correction_mgal."""
     occupations = [row for row in rows(result / "occupations.csv") if row["corrected_mgal"]]
     added = [column for column in occupations[0] if column.endswith("_correction_mgal")]
     worst = 0.0
@@ -48,12 +48,13 @@ def check_formulas(title, result):
         if "reference_mgal" in value:
             worst = max(worst, abs(value["reference_mgal"] - value["corrected_mgal"] - value["residual_mgal"]),
                         abs(without_tide - value["reference_mgal"] - value["difference_mgal"]))
-    demand(f"{title}: {len(occupations)} rows, {len(added)} corrections: the formulas hold within {worst:.1e} mGal",
+    demand(f"{title}: {len(occupations)} rows, {len(added)} corrections: the formulas hold within {worst:.1e} mGal, "
+           f"limit {ROUNDING_MGAL:g}",
            worst < ROUNDING_MGAL)
 
 
 def check_json(title, result):
-    """Its rows are those of the tables, in full."""
+    """Tests that the rows of result.json have the values of the tables."""
     whole = json.loads((result / "result.json").read_text())
     for table in ("occupations", "stations", "models"):
         written = [row for row in rows(result / f"{table}.csv") if table != "occupations" or row["time_utc"]]

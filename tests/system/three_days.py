@@ -1,4 +1,7 @@
-"""Three days of a sensor 20 ppm fast behind a 16 ms adapter: one trace in readers, and times as they are stated."""
+"""Three days of a sensor whose clock is 20 ppm fast, behind a USB adapter with a 16 ms latency timer.
+
+Readers must join the days to one trace, and the times must be as accurate as stated.
+"""
 
 from programs import BIN, IS_SANITIZED, ONE_SITE, TOOLS, Scratch, demand, run
 
@@ -7,7 +10,7 @@ try:
     import obspy
 except ImportError:
     obspy = None
-    print("ObsPy is not installed: traces are joined by libmseed alone")
+    print("ObsPy is not installed: only libmseed joins the traces")
 
 SCENARIO = """base = "quiet"
 name = "three-days"
@@ -37,7 +40,7 @@ def joined(root, channel):
 
 
 def merged_by_obspy(root, channel):
-    """Of the channel's day files: traces, samples that are there, and whether they are those of the files in order."""
+    """Merges the channel's day files; returns the numbers of traces and samples, and True if they are those of the files."""
     stream = obspy.Stream()
     for file in sorted(root.glob(f"archive/*/*/*/{channel}.D/*")):
         stream += obspy.read(str(file))
@@ -49,7 +52,7 @@ def merged_by_obspy(root, channel):
 
 
 def survey(scratch, hours):
-    """A day's root and the same re-timed."""
+    """Simulates the record and re-times it; returns both data roots."""
     root, better = scratch / f"live-{hours}", scratch / f"re-timed-{hours}"
     (scratch / "three-days.toml").write_text(SCENARIO.replace("HOURS", f"{hours}.0"))
     run(BIN / "a351-sim", "survey", "--scenario", scratch / "three-days.toml", "--seed", 5, "--out", root)
@@ -62,18 +65,18 @@ with Scratch() as scratch:
     for root in survey(scratch, hours):
         for channel in ("BNZ", "BN1", "BN2", "BK1"):
             found = joined(root, channel)
-            demand(f"{root.name}: {channel}: the days are one trace", found["traces"] == "1")
-            demand(f"{root.name}: {channel}: no sample is lost in merging",
+            demand(f"{root.name}: {channel}: the days form one trace", found["traces"] == "1")
+            demand(f"{root.name}: {channel}: merging loses no sample",
                    found["samples"] == found["recorded"] and int(found["samples"]) > 0.9999 * hours * 3600 * 50)
             if obspy:
-                demand(f"{root.name}: {channel}: merged by ObsPy they are one, with every sample",
+                demand(f"{root.name}: {channel}: ObsPy merges the days to one trace with every sample",
                        merged_by_obspy(root, channel) == (1, int(found["samples"]), True))
-            demand(f"{root.name}: {channel}: it ends where its start and rate put it, within 10 ms",
+            demand(f"{root.name}: {channel}: the end differs by {found['end_error_s']} s from start and rate, limit 0.010",
                    abs(float(found["end_error_s"])) < 0.010)
 
     live, better = survey(scratch, 3)
     for root, limit_ms in ((live, 4.5), (better, 1.0)):
         result = run(TOOLS / "compare-truth", root / "archive", live / "truth.bin").stdout
         worst_ms = max(1e3 * float(fields(line)["largest_time_error_s"]) for line in result.splitlines())
-        demand(f"{root.name}: the sample that is off most is off by {worst_ms:.3f} ms, at most {limit_ms}",
+        demand(f"{root.name}: largest time error of a sample {worst_ms:.3f} ms, limit {limit_ms}",
                worst_ms < limit_ms)

@@ -1,6 +1,7 @@
-"""Conversations of the data sheet and of the maker's loggers, played against the emulator byte by byte.
+"""Plays conversations from the data sheet and from the manufacturer's loggers against the emulator, byte by byte.
 
-The files are in tests/golden/transcripts, their language is in the README there."""
+The files are in tests/golden/transcripts; the README there describes their language.
+"""
 
 import os
 import pathlib
@@ -16,15 +17,15 @@ import tty
 from programs import BIN, TOP, Scratch, demand
 
 FOLDER = TOP / "tests" / "golden" / "transcripts"
-ANSWER_S = 5.0  # Of a busy machine; the sensor takes microseconds.
+ANSWER_S = 5.0  # Timeout for an answer, in s, for a busy machine; the sensor needs microseconds.
 
 
 class Broken(Exception):
-    """The conversation went otherwise than written."""
+    """The conversation differs from the file."""
 
 
 class Host:
-    """The near end of the line: a raw terminal at 460800 baud, and what has come but is not yet used."""
+    """Host's end of the line: a raw terminal at 460800 baud; `come` holds bytes received but not yet used."""
 
     def __init__(self, link):
         self.fd = os.open(link, os.O_RDWR | os.O_NOCTTY)
@@ -39,7 +40,7 @@ class Host:
         os.write(self.fd, content)
 
     def listen(self, seconds):
-        """Takes what comes until then, or the first of it."""
+        """Waits for bytes for at most these seconds and appends those available to `come`."""
         if select.select([self.fd], [], [], max(0.0, seconds))[0]:
             self.come += os.read(self.fd, 4096)
 
@@ -49,7 +50,7 @@ class Host:
             self.listen(end - time.monotonic())
         taken, self.come = self.come[:size], self.come[size:]
         if len(taken) < size:
-            raise Broken(f"{size} bytes awaited, came: {taken.hex(' ') or 'none'}")
+            raise Broken(f"{size} bytes expected, received: {taken.hex(' ') or 'none'}")
         return taken
 
     def drain(self, silent_s):
@@ -67,7 +68,7 @@ def matches(pattern, content):
 
 
 def field(pattern, content, token):
-    """The 16-bit field marked by two such tokens and where it starts; None without them."""
+    """Returns the 16-bit field marked by two such tokens and its offset; None if there is none."""
     if token not in pattern:
         return None
     at = pattern.index(token)
@@ -76,13 +77,13 @@ def field(pattern, content, token):
 
 def check_frame(pattern, content):
     if not matches(pattern, content):
-        raise Broken(f"frame: {content.hex(' ')}")
+        raise Broken(f"unexpected frame: {content.hex(' ')}")
     checksum = field(pattern, content, "ss")
     if checksum:
         words = content[1:checksum[1]]
         total = sum(int.from_bytes(words[i:i + 2], "big") for i in range(0, len(words), 2))
         if total % 65536 != checksum[0]:
-            raise Broken(f"checksum: {content.hex(' ')}")
+            raise Broken(f"wrong checksum: {content.hex(' ')}")
 
 
 def frames(host, count, step, pattern):
@@ -92,7 +93,7 @@ def frames(host, count, step, pattern):
         check_frame(pattern, content)
         counter = field(pattern, content, "cc")
         if before is not None and counter and (counter[0] - before) % 65536 != step:
-            raise Broken(f"counter from {before} to {counter[0]}")
+            raise Broken(f"counter steps from {before} to {counter[0]}, expected a step of {step}")
         before = counter[0] if counter else None
 
 
@@ -115,7 +116,7 @@ def perform(host, words):
     elif verb == "<":
         answer = host.take(len(rest), ANSWER_S)
         if not matches(rest, answer):
-            raise Broken(f"came: {answer.hex(' ')}")
+            raise Broken(f"received: {answer.hex(' ')}")
     elif verb == "until":
         split = rest.index("<")
         until(host, int(rest[0]), "".join(rest[2:split]), rest[split + 1:])
@@ -125,7 +126,7 @@ def perform(host, words):
         time.sleep(int(rest[0]) / 1000)
         host.listen(0)
         if host.come:
-            raise Broken(f"came: {host.come.hex(' ')}")
+            raise Broken(f"received: {host.come.hex(' ')}")
     elif verb == "wait":
         time.sleep(int(rest[0]) / 1000)
     elif verb == "drain":
@@ -160,7 +161,7 @@ def play(emulator, file):
 
 
 class Emulator:
-    """A running a351-sim and the host's end of its line."""
+    """Running a351-sim and the host's end of its line."""
 
     def __init__(self, options, scratch):
         self.options, self.scratch = options, scratch
@@ -185,7 +186,7 @@ class Emulator:
 
 
 def converse(file, scratch):
-    """Plays one file against an emulator of its own."""
+    """Plays one file against a new emulator."""
     emulator = Emulator(shlex.split(next(lines(file))[1])[1:], scratch)
     try:
         play(emulator, file)

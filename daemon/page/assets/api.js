@@ -1,9 +1,9 @@
-// Questions and orders to the daemon.
+// Requests to the daemon.
 
 import { by_id, show } from "./dom.js";
 import { recalled, remember } from "./memory.js";
 
-// Beyond loopback the page does not bring it: the operator types it in.
+// If the daemon listens beyond loopback, the page does not contain the token; the operator types it in.
 let token = document.querySelector('meta[name="a351-token"]').content || recalled("token");
 
 by_id("token-form").addEventListener("submit", (event) => {
@@ -21,11 +21,11 @@ async function asked(path, options) {
         throw new Error("the daemon does not answer");
     }
     const body = await reply.json().catch(() => ({}));
-    const trouble = reply.ok ? null : body.error ?? `the daemon answers ${reply.status}`;
+    const trouble = reply.ok ? null : body.error ?? `the daemon answered with status ${reply.status}`;
     return { is_forbidden: reply.status === 403, trouble, body };
 }
 
-/** @throws Error with a line for the operator. */
+/** Reads from the daemon.  @throws Error with a line for the operator. */
 export async function get(path, query = {}) {
     const tail = new URLSearchParams(query).toString();
     const { trouble, body } = await asked(tail ? `${path}?${tail}` : path);
@@ -33,7 +33,7 @@ export async function get(path, query = {}) {
     return body;
 }
 
-/** @throws Error with a line for the operator. */
+/** Sends an order.  @throws Error with a line for the operator. */
 export async function post(path, order) {
     const send = () => asked(path, {
         method: "POST",
@@ -42,7 +42,7 @@ export async function post(path, order) {
     });
     let answer = await send();
     if (answer.is_forbidden) {
-        // A daemon that was started anew has another token.
+        // A daemon that was restarted has another token.
         const fresh = await asked("/api/token");
         show("token-form", fresh.trouble !== null);
         if (!fresh.trouble) {

@@ -1,4 +1,4 @@
-// The strips of acceleration and temperature: the last minute as it comes, hours from the history.
+// The charts of acceleration and temperature: the last minute from the stream, hours from the history.
 
 import { get } from "./api.js";
 import { by_id, set_text, show } from "./dom.js";
@@ -7,14 +7,14 @@ import { kMgalPerMg, kMinute_ms } from "./samples.js";
 
 const kHour_s = 3600;
 const kNames = { x: "x", y: "y", z: "z", norm: "norm", temperature: "sensor", oven: "oven" };
-const kLeftOut = 0.2; // Of an envelope's bins do not shape its frame: cars pass a tenth of the time.
-const kRoom = 0.6; // Of what shapes it, on either side.
+const kLeftOut = 0.2; // Share of bins that do not affect the frame: cars pass a tenth of the time.
+const kRoom = 0.6; // Space added to the frame on either side, relative to its height.
 const kInk = ["#003f87", "#a33b00"];
 
-// The legend is not shown, and sets a style in a way that the page's policy forbids.
+// The legend is not used, and it sets a style in a way that the page's policy forbids.
 Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
 
-/** A chart of dygraphs in its box; `is_envelope` takes rows [ms, [low, mid, high]]. */
+/** Creates a dygraphs chart in its box; with `is_envelope` its rows are [ms, [low, mid, high]]. */
 function new_chart(box, labels, is_envelope) {
     return new Dygraph(box, [[0, ...labels.slice(1).map(() => (is_envelope ? [null, null, null] : null))]], {
         labels,
@@ -42,7 +42,7 @@ function new_chart(box, labels, is_envelope) {
     });
 }
 
-/** Bins [ms, low, high] as rows about `middle`, with an empty row wherever a bin is missing. */
+/** Converts bins [ms, low, high] to rows relative to `middle`, with an empty row for each gap. */
 function envelope_rows(points, interval_ms, factor, middle) {
     const rows = [];
     let expected_ms = null;
@@ -61,7 +61,7 @@ function quantile(values, share) {
     return values.toSorted((a, b) => a - b)[Math.round(share * (values.length - 1))];
 }
 
-/** What an envelope is drawn within, so that a passing car does not flatten the rest. */
+/** Returns the vertical range of an envelope.  Rare peaks such as a passing car do not extend it. */
 function frame_of(points, factor, middle) {
     const low = factor * (quantile(points.map((point) => point[1]), kLeftOut) - middle);
     const high = factor * (quantile(points.map((point) => point[2]), 1 - kLeftOut) - middle);
@@ -69,7 +69,8 @@ function frame_of(points, factor, middle) {
     return [low - room, high + room];
 }
 
-/** Process value and set point; empty where the oven did not answer for three intervals. */
+/** Returns rows of process value and set point, with an empty row where the oven did not answer for
+    three intervals. */
 function oven_rows(points, interval_ms) {
     const rows = [];
     for (const point of points) {
@@ -119,14 +120,14 @@ export class Charts {
         set_text(`caption-${name}`, `${kNames[name]}: –`);
     }
 
-    /** Draws what is in view.
+    /** Draws the charts in view.
         @param now_ms  instrument time.
         @return whether the last minute was drawn. */
     draw(now_ms) {
         const is_drawn = this.spans_s.signal === 60 && this.draw_minute();
         for (const group of ["signal", "warmth"]) {
             const span_s = this.spans_s[group];
-            // A bin of the history is a few seconds for an hour, a minute or so for a day.
+            // A bin of the history is a few seconds long for an hour, about a minute for a day.
             const period_ms = span_s > kHour_s ? 60000 : 5000;
             if (span_s === 60 || now_ms === null || performance.now() - this.asked_ms[group] < period_ms) continue;
             if (!this.names(group).some((name) => this.in_view.has(`chart-${name}`))) continue;
@@ -150,7 +151,7 @@ export class Charts {
         return true;
     }
 
-    /** Asks the daemon for the group's history and draws it when it comes. */
+    /** Requests the group's history and draws it when it arrives. */
     async ask(group, now_ms, span_s) {
         const from_ms = now_ms - 1000 * span_s;
         for (const name of this.names(group)) {
@@ -194,7 +195,7 @@ export class Charts {
         const [low_mgal, high_mgal] = [kMgalPerMg * (low - middle), kMgalPerMg * (high - middle)];
         const is_cut = low_mgal < frame[0] || high_mgal > frame[1];
         set_text(`caption-${name}`, `${name}: median ${number(middle, 3)} mg, ` +
-            `${range_text(low_mgal, high_mgal)}${is_cut ? ", cut" : ""}`);
+            `${range_text(low_mgal, high_mgal)}${is_cut ? ", peaks cut" : ""}`);
     }
 
     draw_oven(history, from_ms, to_ms) {

@@ -1,15 +1,16 @@
-// Texts into the document.  Only text nodes are made, never markup.
+// Functions that put texts into the document.  They create text nodes only, never markup.
 
 const found = new Map();
-const listed = new Map(); // What each list shows.
+const listed = new Map(); // Items that each list shows.
 
-/** The element of that id; all of them are in index.html from the start. */
+/** Returns the element with this id; all of them are in index.html from the start. */
 export function by_id(id) {
     if (!found.has(id)) found.set(id, document.getElementById(id));
     return found.get(id);
 }
 
-/** Touches the document only for a change: a live region is read out once per change. */
+/** Sets a text.  The document is changed only if the text differs, because screen readers announce
+    each change of a live region. */
 export function set_text(id, text) {
     const element = by_id(id);
     if (element.textContent !== text) element.textContent = text;
@@ -26,7 +27,7 @@ export function make(tag, text, class_name = "") {
     return element;
 }
 
-/** Items of a list; [text, class] each. */
+/** Sets the items of a list, [text, class] each. */
 export function set_items(id, items) {
     const key = JSON.stringify(items);
     if (listed.get(id) === key) return;

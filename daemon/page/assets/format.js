@@ -1,29 +1,29 @@
-// Numbers, times and foreign texts as the page shows them.
+// Formatting of numbers, times and texts of unknown origin for the page.
 
-/** With a true minus sign; a dash for what is not known. */
+/** Formats a number with a true minus sign; a dash if it is not known. */
 export function number(value, digits = 2) {
     if (value === null || value === undefined || !Number.isFinite(value)) return "–";
     return value.toFixed(digits).replace("-", "−");
 }
 
-/** At most three significant digits. */
+/** Formats a number with at most three significant digits. */
 export function significant(value) {
     if (value === null || value === undefined || !Number.isFinite(value)) return "–";
     return String(Number(value.toPrecision(3))).replace("-", "−");
 }
 
-/** With its sign, for a tilt. */
+/** Formats a number with its sign. */
 export function signed(value, digits = 1) {
     const text = number(value, digits);
     return value > 0 ? "+" + text : text;
 }
 
-/** "degC" of the daemon as printed. */
+/** Replaces "degC" by "°C". */
 export function unit(name) {
     return name.replace("degC", "°C");
 }
 
-/** Seconds as 45 s, 3 min 20 s or 2 h 05 min. */
+/** Formats seconds as 45 s, 3 min 20 s or 2 h 05 min. */
 export function duration(seconds) {
     if (seconds === null || seconds === undefined || !Number.isFinite(seconds)) return "–";
     const s = Math.max(0, Math.round(seconds));
@@ -32,19 +32,19 @@ export function duration(seconds) {
     return `${Math.floor(s / 3600)} h ${String(Math.floor((s % 3600) / 60)).padStart(2, "0")} min`;
 }
 
-/** Time of day of an RFC 3339 text in UTC, its milliseconds cut to `decimals` places. */
+/** Returns the time of day of an RFC 3339 text in UTC, its milliseconds cut to `decimals` places. */
 export function time_of_day(rfc3339, decimals = 0) {
     return rfc3339 ? rfc3339.slice(11, 19 + (decimals ? 1 + decimals : 0)) : "–";
 }
 
-/** Data volume in decimal units. */
+/** Formats a data volume in decimal units. */
 export function volume(bytes) {
     if (bytes === null || bytes === undefined) return "–";
     return bytes >= 1e9 ? `${number(bytes / 1e9, 1)} GB` : `${number(bytes / 1e6, 0)} MB`;
 }
 
-/** A text of unknown origin: control characters get a visible sign, those that turn the
-    direction of writing are taken out of action. */
+/** Makes a text of unknown origin safe to show: control characters become visible signs, and characters
+    that change the writing direction are replaced. */
 export function visible(text) {
     return String(text ?? "")
         .replace(/[\u0000-\u001f]/g, (c) => String.fromCharCode(0x2400 + c.charCodeAt(0)))

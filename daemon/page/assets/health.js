@@ -1,9 +1,9 @@
-// Whether everything is received, kept and timed.
+// The health panel: reception, storage and timing of the data.
 
 import { by_id, make } from "./dom.js";
 import { duration, number, visible, volume } from "./format.js";
 
-const kReserve = { present: "kept", given_up: "given up", unavailable: "not available" };
+const kReserve = { present: "in place", given_up: "released", unavailable: "not possible" };
 
 function index(value) {
     return value === null || value === undefined ? "–" : String(value);
@@ -22,7 +22,7 @@ function timing_text(timing) {
 }
 
 function oven_text(oven) {
-    if (oven.state === "disabled") return "not read ([oven] enabled)";
+    if (oven.state === "disabled") return "not enabled ([oven] enabled = false)";
     const values = oven.process_value_degc === null && oven.set_point_degc === null ? "" :
         `, ${number(oven.process_value_degc, oven.decimals)} °C, set point ` +
         `${number(oven.set_point_degc, oven.decimals)} °C, heating ${number(oven.heating_percent, 0)} %`;
@@ -30,19 +30,20 @@ function oven_text(oven) {
     return `${oven.state}${values}${age}${oven.trouble ? `; ${oven.trouble}` : ""}`;
 }
 
-// Counters that grow in health, and those with a row of their own.
+// Counters that also rise without trouble, and those with a row of their own.
 const kNoTrouble = new Set(["bytes", "frames", "sessions", "link_sessions", "integer_records", "archive_records",
     "archive_records_waiting", "journal_bytes", "journal_segments_compressed", "journal_segments_removed", "gaps",
     "samples_missing"]);
 
-/** Counts of trouble by kind, where there was any. */
+/** Returns the counts of trouble by kind, without zeros. */
 function trouble_counts(counters) {
     const parts = Object.entries(counters).filter(([name, count]) => count && !kNoTrouble.has(name))
         .map(([name, count]) => `${name.replaceAll("_", " ")} ${count}`);
     return parts.length ? parts.join(", ") : "none";
 }
 
-/** @param page  figures of the page itself: redraw_ms, longest_redraw_ms, dropped connections. */
+/** Shows the panel.
+    @param page  figures of the page itself: redraw_ms, longest_redraw_ms, connected_s, losses. */
 export function show_health(status, page) {
     const { device, disk, counters } = status;
     const rate_hz = status.live?.rate_hz;
@@ -52,7 +53,7 @@ export function show_health(status, page) {
         ["State", level],
         ["Sensor", `${device.state}${device.trouble ? `: ${device.trouble}` : ""}, ${device.port || "no port"}`],
         ["Device", `${device.profile} ${device.product_id} serial ${device.serial_number || "–"}, ` +
-            `${device.output_rate_hz} Hz, ${device.filter}${device.assumed ? ", assumed" : ""}`],
+            `${device.output_rate_hz} Hz, ${device.filter}${device.assumed ? ", assumed as in the last session" : ""}`],
         ["Received", `sample ${index(status.received)}`],
         ["Journaled", `sample ${index(status.journaled)}${behind(status.received, status.journaled, rate_hz)}`],
         ["Archived", `sample ${index(status.archived)}${behind(status.received, status.archived, rate_hz)}`],

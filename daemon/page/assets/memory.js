@@ -1,11 +1,11 @@
-// What the browser keeps for this page over a reload, where it is allowed to.
+// Texts that the browser keeps for this page over a reload, if storage is allowed.
 
-/** Empty when nothing is kept. */
+/** Returns the stored text, or "" if there is none. */
 export function recalled(key) {
     try {
         return sessionStorage.getItem(key) ?? "";
     } catch {
-        return ""; // Storage is switched off: typed again after a reload.
+        return ""; // Storage is switched off: the operator types the text again after a reload.
     }
 }
 
@@ -13,6 +13,6 @@ export function remember(key, text) {
     try {
         sessionStorage.setItem(key, text);
     } catch {
-        // As above.
+        // Storage is switched off.
     }
 }

@@ -1,4 +1,4 @@
-// The occupation that runs, how to begin and end one, and those of the day.
+// The occupation panel: start, stop, the running occupation and those of the day.
 
 import { get, post } from "./api.js";
 import { by_id, make, set_items, set_text, show } from "./dom.js";
@@ -12,7 +12,7 @@ function distance_text(metres) {
     return metres < 1000 ? `, ${number(metres, 0)} m` : `, ${number(metres / 1000, 1)} km`;
 }
 
-/** Value and standard error in mGal, as far as they are known. */
+/** Returns value and standard error in mGal, as far as they are known. */
 function reading_text(reading) {
     if (!reading || reading.value_mgal === null) return "–";
     return reading.standard_error_mgal === null ? number(reading.value_mgal, 2)
@@ -24,7 +24,7 @@ export class OccupationPanel {
         this.sites = [];
         this.list = [];
         this.running = null;
-        this.last_key = null; // Of the occupation that lists were last read for.
+        this.last_key = null; // Key of the occupation for which the lists were last read.
         this.target_mgal = null;
         this.now_ms = 0;
         by_id("start-operator").value = recalled("operator");
@@ -56,12 +56,12 @@ export class OccupationPanel {
         by_id("rename-no").addEventListener("click", () => by_id("rename").close());
     }
 
-    /** The daemon may be another now, with other sites. */
+    /** Makes the lists be read again: the daemon may have been restarted with other sites. */
     forget_lists() {
         this.last_key = null;
     }
 
-    /** An order to the daemon; its answer is shown whatever it is.  @return whether it was done. */
+    /** Sends an order to the daemon and shows its answer.  @return true if it was carried out. */
     async order(path, body) {
         by_id("answer").classList.remove("error");
         set_text("answer", "…");
@@ -94,7 +94,7 @@ export class OccupationPanel {
         const target_mgal = Number(by_id("target").value.replace(",", "."));
         if (!(target_mgal > 0)) {
             by_id("answer").classList.add("error");
-            set_text("answer", "Not done: the target is a number of mGal above 0");
+            set_text("answer", "Not done: the target must be a number of mGal above 0");
             return;
         }
         await this.order("/api/target", { target_mgal });
@@ -105,7 +105,7 @@ export class OccupationPanel {
         if (note && await this.order("/api/note", { note })) by_id("note").value = "";
     }
 
-    /** The occupation that discard and rename speak of: the running one, else the last. */
+    /** Returns the occupation that discard and rename change: the running one, else the last. */
     meant() {
         return this.running ?? this.list.at(-1);
     }
@@ -122,7 +122,7 @@ export class OccupationPanel {
     ask_rename() {
         const one = this.meant();
         if (!one) return;
-        set_text("rename-text", `The occupation called ${visible(one.site)} was at another site:`);
+        set_text("rename-text", `Choose the correct site for the occupation named ${visible(one.site)}:`);
         by_id("rename").showModal();
     }
 
@@ -133,14 +133,14 @@ export class OccupationPanel {
         await this.order("/api/occupation/rename", { site });
     }
 
-    /** Sites and occupations, again after each change of them. */
+    /** Reads sites and occupations; called again after each change. */
     async read_lists() {
         try {
             const [sites, list] = await Promise.all([get("/api/sites"), get("/api/occupations")]);
             this.sites = sites.sites;
             this.list = list.occupations;
         } catch {
-            this.forget_lists(); // Asked again with the next status.
+            this.forget_lists(); // They are read again with the next status.
             return;
         }
         for (const kind of ["start", "rename"]) this.fill_sites(kind);
@@ -199,7 +199,7 @@ export class OccupationPanel {
         show("last-buttons", !this.running && this.list.length > 0);
     }
 
-    /** @param status  the daemon's, whole. */
+    /** Shows the panel.  @param status  the complete status of the daemon. */
     show(status) {
         this.running = status.occupation;
         this.now_ms = Date.parse(status.now);
@@ -230,7 +230,7 @@ export class OccupationPanel {
         set_text("run-judgement", this.judgement(reading));
         by_id("run-judgement").className = reading?.is_good_enough ? "good" : "";
         set_text("run-used", reading
-            ? `${duration(reading.used_s)} used, ${duration(reading.left_out_s)} left out` : "");
+            ? `${duration(reading.used_s)} of data used, ${duration(reading.left_out_s)} left out` : "");
         show("run-whole", one.set_up_count > 1);
         if (one.set_up_count > 1) {
             set_text("run-whole", `Set-up ${one.set_up_count}, since ${time_of_day(one.set_up)} UTC. ` +
@@ -250,6 +250,6 @@ export class OccupationPanel {
         if (reading.is_good_enough) return `✓ GOOD ENOUGH (${target})`;
         if (reading.needed_s === null) return `not yet good enough (${target}); time needed not known yet`;
         return reading.needed_s > 0 ? `still about ${duration(reading.needed_s)} needed (${target})`
-            : `error below the ${target}; waits for a stable verdict`;
+            : `error below the ${target}; waiting for a stable verdict`;
     }
 }

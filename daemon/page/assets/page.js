@@ -1,4 +1,4 @@
-// The live page: joins stream, panels and charts, and says when what they show is old.
+// The live page: connects stream, panels and charts, and shows when their data are old.
 
 import { Charts } from "./charts.js";
 import { by_id, set_text, show } from "./dom.js";
@@ -11,7 +11,7 @@ import { show_tilt, show_verdict } from "./verdict.js";
 
 const kRedraw_ms = 200;
 const kStale_s = 3;
-const kSetBack_ms = 1000; // Less is the correction of a clock that is not known well yet.
+const kSetBack_ms = 1000; // Smaller steps are corrections of a clock that is not well known yet.
 
 const minute = new Minute();
 const charts = new Charts(minute);
@@ -20,8 +20,8 @@ const page = { redraw_ms: NaN, longest_redraw_ms: NaN, connected_s: 0, losses: 0
 let status = null;
 let is_connected = false;
 let connected_at_ms = 0;
-let newest_ms = null; // Instrument time of the newest sample known ...
-let advanced_at_ms = performance.now(); // ... and when it came to be known, by this page's clock.
+let newest_ms = null; // Instrument time of the newest sample.
+let advanced_at_ms = performance.now(); // Time at which it became known, by this page's clock.
 
 function advance_to(sample_ms) {
     if (newest_ms !== null && sample_ms <= newest_ms) return;
@@ -48,7 +48,7 @@ const stream = {
         if (status.sample) {
             const is_first = newest_ms === null;
             advance_to(Date.parse(status.sample.utc));
-            // What was old already when the page came to know it.
+            // The sample may have been old when the page received it.
             if (is_first) advanced_at_ms -= 1000 * status.sample.age_s;
         }
         panel.show(status);
@@ -66,7 +66,7 @@ const stream = {
     },
 };
 
-/** Age, verdict and banner: what must never look fresher than it is. */
+/** Shows age, verdict and banner, which must never look fresher than they are. */
 function refresh() {
     const age_s = (performance.now() - advanced_at_ms) / 1000;
     const is_stale = !is_connected || age_s > kStale_s;
@@ -74,7 +74,7 @@ function refresh() {
     show("banner", is_stale);
     if (is_stale) {
         set_text("banner-word", is_connected ? "STALE: no new data." : "CONNECTION LOST: trying again.");
-        set_text("banner-age", `What is shown is ${number(age_s, 0)} s old.`);
+        set_text("banner-age", `The data shown are ${number(age_s, 0)} s old.`);
     }
     set_text("age", `${number(age_s, 1)} s old`);
     if (!status) return;
@@ -91,7 +91,7 @@ function refresh() {
     if (document.title !== title) document.title = title;
 }
 
-/** Five times a second: enough for the eye, little for the battery. */
+/** Redraws the page; called five times a second, which is smooth and saves battery. */
 function redraw() {
     refresh();
     if (document.hidden) return;

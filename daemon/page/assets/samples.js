@@ -3,10 +3,10 @@
 export const kMinute_ms = 60000;
 export const kMgalPerMg = 980.665; // Standard gravity.
 
-const kSpare = 1.1; // Room for the marks of gaps.
-const kMostSamples = 200000; // 3 kHz; no sensor is that fast.
+const kSpare = 1.1; // Capacity factor that leaves space for the marks of gaps.
+const kMostSamples = 200000; // A minute at 3 kHz, which is faster than any sensor.
 
-/** x, y, z in mg and the norm in mGal against time; a gap is a row of NaN. */
+/** Time series of x, y, z in mg and of the norm in mGal; a gap is a row of NaN. */
 export class Minute {
     constructor() {
         this.series = {};
@@ -14,7 +14,7 @@ export class Minute {
         this.clear();
     }
 
-    /** @param live  the field of that name of the status. */
+    /** Sets channels and capacity.  @param live  the field `live` of the status. */
     configure(live) {
         this.channels = live.channels;
         const capacity = Math.min(kMostSamples, Math.ceil((kSpare * kMinute_ms) / 1000 / live.interval_s));
@@ -26,7 +26,7 @@ export class Minute {
     }
 
     clear() {
-        this.next = 0; // Row to be written.
+        this.next = 0; // Next row to write.
         this.size = 0;
         this.next_index = null;
         this.next_ms = null;
@@ -61,9 +61,9 @@ export class Minute {
         this.size = Math.min(this.size + 1, this.capacity);
     }
 
-    /** Rows [ms, mGal from the mean] of the minute before the newest sample, at most two per pixel:
-        least and greatest of each pixel's samples, in their order.
-        @return {rows, mean, low, high}: mean in the unit of the series, the others in mGal from it. */
+    /** Returns the minute before the newest sample as rows [ms, mGal relative to the mean]: the
+        smallest and largest sample of each pixel, in order of time.
+        @return {rows, mean, low, high}: mean in the unit of the series, low and high in mGal from it. */
     shown(name, pixels) {
         const values = this.series[name];
         const factor = name === "norm" ? 1 : kMgalPerMg;

@@ -1,4 +1,4 @@
-// The live stream of the daemon, and its return after a loss.
+// The live stream of the daemon; it reconnects after a loss.
 
 const kHeaderBytes = 32;
 const kChannels = 4;
@@ -6,7 +6,7 @@ const kSilence_ms = 5000; // The daemon sends a status every second.
 const kFirstWait_ms = 500;
 const kLongestWait_ms = 8000;
 
-/** A message of samples; null for a kind that this page does not know.
+/** Decodes a message of samples; null for a kind that this page does not know.
     Layout: version, kind, channel mask, count, first index, first time, interval, counts. */
 export function decode(buffer) {
     const view = new DataView(buffer);
@@ -29,8 +29,8 @@ export function decode(buffer) {
     };
 }
 
-/** Calls on.opened(), on.status(status), on.block(block), on.lost(); tries again by itself, at
-    first soon, then less often. */
+/** Calls on.opened(), on.status(status), on.block(block), on.lost().  After a loss it connects again by
+    itself, with growing pauses. */
 export class Stream {
     constructor(on) {
         this.on = on;
@@ -38,7 +38,7 @@ export class Stream {
         this.heard_ms = 0;
         this.socket = null;
         this.connect();
-        // A peer that is gone without a word (sleep, cable) would leave the socket open for minutes.
+        // Without this, a connection lost silently (sleep, cable) would stay open for minutes.
         setInterval(() => {
             if (this.socket && performance.now() - this.heard_ms > kSilence_ms) this.drop(this.socket);
         }, 1000);

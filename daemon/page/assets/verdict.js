@@ -4,11 +4,11 @@ import { by_id, set_items, set_text } from "./dom.js";
 import { duration, number, signed, significant, time_of_day, unit, visible } from "./format.js";
 
 const kAdvice = {
-    "stable": "What is read now counts.",
-    "settling": "Wait: the temperature still moves.",
-    "warming up": "Wait: the oven is not yet where it works.",
-    "disturbed": "Hands off, step back: the box was touched or shaken.",
-    "no data": "Nothing to judge: see Health below.",
+    "stable": "Readings taken now are valid.",
+    "settling": "Wait: the reading is not steady yet.",
+    "warming up": "Wait: the oven has not reached its operating temperature.",
+    "disturbed": "The box was touched or shaken: step back and wait.",
+    "no data": "No verdict is possible: see Health below.",
     "not assessed": "",
 };
 const kBubbleScale = 100 / 3; // Drawing units per arc minute: the rim is 3'.
@@ -16,11 +16,13 @@ const kBubbleScale = 100 / 3; // Drawing units per arc minute: the rim is 3'.
 function check_text(check) {
     const name = check.unit ? " " + unit(check.unit) : "";
     const error = check.error ? ` ± ${significant(check.error)}` : "";
-    return `${visible(check.quantity)} ${significant(check.value)}${error}${name}, ` +
-        `${check.is_least ? "at least" : "limit"} ${significant(check.limit)}${name.replace(" s ago", " s")}`;
+    const ending = check.ending ? " " + check.ending : "";
+    return `${visible(check.quantity)} ${significant(check.value)}${error}${name}${ending} ` +
+        `(${check.is_least ? "needs" : "limit"} ${significant(check.limit)}${name})`;
 }
 
-/** @param stale_s  age of the newest sample where that is too old to judge by, else null. */
+/** Shows the verdict.  @param stale_s  age of the newest sample if it is too old for a verdict, else null.
+    @return the word shown. */
 export function show_verdict(verdict, stale_s) {
     const section = by_id("verdict");
     const is_stale = stale_s !== null;
@@ -32,7 +34,7 @@ export function show_verdict(verdict, stale_s) {
     set_text("verdict-advice", is_stale
         ? `Last verdict: ${visible(verdict.state)}, ${duration(stale_s)} ago.` : kAdvice[state] ?? "");
     const is_held = !is_stale && Number.isFinite(verdict.held_s);
-    set_text("verdict-held", is_held ? `Held for ${duration(verdict.held_s)}.` : "");
+    set_text("verdict-held", is_held ? `Unchanged for ${duration(verdict.held_s)}.` : "");
     const checks = verdict.checks;
     if (is_stale) set_items("verdict-checks", [[`✗ newest sample ${duration(stale_s)} old`, "unmet"]]);
     else set_items("verdict-checks", checks.length
@@ -41,16 +43,16 @@ export function show_verdict(verdict, stale_s) {
     return word;
 }
 
-/** @param tilt  of the status, against the first set-up of the day; null before there is one, its
-    values null where one of the two is not known well enough. */
+/** Shows the tilt relative to the first set-up of the day.
+    @param tilt  from the status; null before there is a set-up, its values null if they are not known. */
 export function show_tilt(tilt) {
     const spot = by_id("bubble-spot");
     set_text("level-reference", tilt
-        ? `against ${visible(tilt.reference.site)}, ${time_of_day(tilt.reference.utc)} UTC`
-        : "The first set-up of the day is what the others are compared with.");
+        ? `compared with ${visible(tilt.reference.site)}, ${time_of_day(tilt.reference.utc)} UTC`
+        : "Each set-up is compared with the first one of the day.");
     if (!tilt || tilt.x_arcmin === null) {
         spot.setAttribute("visibility", "hidden");
-        set_text("level-numbers", "no tilt known yet");
+        set_text("level-numbers", "tilt not known yet");
         set_text("level-word", "");
         set_items("level-advice", []);
         return;
@@ -58,7 +60,7 @@ export function show_tilt(tilt) {
     const length = Math.hypot(tilt.x_arcmin, tilt.y_arcmin);
     const at_rim = Math.min(1, 84 / (kBubbleScale * length || 1));
     spot.setAttribute("visibility", "visible");
-    // As in a spirit level, the bubble is where the box is high.
+    // The bubble is at the high side of the box, as in a spirit level.
     spot.setAttribute("cx", kBubbleScale * at_rim * tilt.x_arcmin);
     spot.setAttribute("cy", -kBubbleScale * at_rim * tilt.y_arcmin);
     spot.setAttribute("class", tilt.is_within ? "within" : "beyond");

@@ -18,7 +18,7 @@ constexpr Nanoseconds kStep = 20ms;
 
 class Archive {
 public:
-    /// Writes a record of 100 samples first, first + 1, ...
+    /// Writes a record of the 100 samples first, first + 1, ...
     void add(UtcTime start, std::int32_t first, const char* channel = "BNZ",
              std::optional<double> rate_hz = std::nullopt) {
         RecordHeader header;
@@ -51,7 +51,7 @@ private:
 
 }  // namespace
 
-TEST_CASE("records that follow each other are one segment", "[record][archive_reader]") {
+TEST_CASE("records without a gap between them form one segment", "[record][archive_reader]") {
     Archive archive;
     for (int i = 0; i < 5; ++i) archive.add(kBegin + i * 100 * kStep, i * 100);
     const auto data = archive.read();
@@ -67,7 +67,7 @@ TEST_CASE("records that follow each other are one segment", "[record][archive_re
     }
 }
 
-TEST_CASE("each record keeps its own time", "[record][archive_reader]") {
+TEST_CASE("each record keeps its own start time", "[record][archive_reader]") {
     Archive archive;
     archive.add(kBegin, 0);
     archive.add(kBegin + 100 * kStep + 3ms, 100);
@@ -78,7 +78,7 @@ TEST_CASE("each record keeps its own time", "[record][archive_reader]") {
     CHECK(data.segments[0].time_of(101) == kBegin + 101 * kStep + 3ms);
 }
 
-TEST_CASE("a gap or overlap of more than half a sample begins a segment",
+TEST_CASE("a gap or overlap of more than half a sample begins a new segment",
           "[record][archive_reader]") {
     for (const auto& [shift, segments] :
          {std::pair(10ms, 1U), std::pair(-10ms, 1U), std::pair(11ms, 2U), std::pair(-11ms, 2U)}) {
@@ -89,7 +89,7 @@ TEST_CASE("a gap or overlap of more than half a sample begins a segment",
     }
 }
 
-TEST_CASE("a change of rate begins a segment", "[record][archive_reader]") {
+TEST_CASE("a change of the sampling rate begins a new segment", "[record][archive_reader]") {
     Archive archive;
     archive.add(kBegin, 0, "BNZ", 50.0);
     archive.add(kBegin + 100 * kStep, 100, "BNZ", 50.0005);
@@ -98,7 +98,7 @@ TEST_CASE("a change of rate begins a segment", "[record][archive_reader]") {
     CHECK(data.segments[1].rate_hz == static_cast<double>(50.0005F));
 }
 
-TEST_CASE("segments go on over midnight", "[record][archive_reader]") {
+TEST_CASE("a segment continues across UTC midnight", "[record][archive_reader]") {
     Archive archive;
     const auto midnight = kBegin + 12h;
     archive.add(midnight - 100 * kStep, 0);
@@ -109,7 +109,9 @@ TEST_CASE("segments go on over midnight", "[record][archive_reader]") {
     CHECK(archive.read(midnight, kBegin + 48h).segments[0].counts.front() == 100);
 }
 
-TEST_CASE("only samples within the half-open interval are given", "[record][archive_reader]") {
+TEST_CASE(
+    "a read returns the samples from the start of the interval up to, but not including, its end",
+    "[record][archive_reader]") {
     Archive archive;
     for (int i = 0; i < 3; ++i) archive.add(kBegin + i * 100 * kStep, i * 100);
     const auto data = archive.read(kBegin + 150 * kStep, kBegin + 250 * kStep);
@@ -122,7 +124,7 @@ TEST_CASE("only samples within the half-open interval are given", "[record][arch
     CHECK(archive.read(kBegin, kBegin).segments.empty());
 }
 
-TEST_CASE("days, channels and archives that are not there are simply absent",
+TEST_CASE("a missing day, channel or archive gives no samples and no error",
           "[record][archive_reader]") {
     Archive archive;
     CHECK(archive.read().segments.empty());
@@ -132,7 +134,7 @@ TEST_CASE("days, channels and archives that are not there are simply absent",
     CHECK(archive.read(UtcTime::min(), UtcTime::max()).segments.empty());
 }
 
-TEST_CASE("damage in the middle costs its records only and is reported",
+TEST_CASE("damage within a day file costs only the damaged records and is reported",
           "[record][archive_reader]") {
     Archive archive;
     for (int i = 0; i < 4; ++i) archive.add(kBegin + i * 100 * kStep, i * 100);
@@ -148,7 +150,7 @@ TEST_CASE("damage in the middle costs its records only and is reported",
         CHECK(data.damage[0].offset == 512);
         CHECK(data.damage[0].byte_count == 512);
     }
-    SECTION("stray bytes shift what follows") {
+    SECTION("inserted bytes shift the records after them") {
         bytes.insert(bytes.begin() + 1024, 200, std::byte{0xAA});
         test::write_bytes(archive.day_file(), bytes);
         const auto data = archive.read();
@@ -169,8 +171,7 @@ TEST_CASE("damage in the middle costs its records only and is reported",
     }
 }
 
-TEST_CASE("after a backward step of the clock segments are still in time order",
-          "[record][archive_reader]") {
+TEST_CASE("segments are in time order even if the clock stepped back", "[record][archive_reader]") {
     Archive archive;
     archive.add(kBegin, 0);
     archive.add(kBegin - 10s, 100);

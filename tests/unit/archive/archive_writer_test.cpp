@@ -29,7 +29,7 @@ std::vector<int> sequences(const DataRoot& root) {
 
 }  // namespace
 
-TEST_CASE("records are numbered on per channel, over day files and restarts",
+TEST_CASE("record numbers of a channel continue across day files and restarts",
           "[record][archive_writer]") {
     DataRoot root;
     for (int run = 0; run < 3; ++run) {
@@ -43,7 +43,7 @@ TEST_CASE("records are numbered on per channel, over day files and restarts",
     CHECK(sequences(root) == std::vector{1, 2, 3, 4, 5, 6});
 }
 
-TEST_CASE("record numbers go from 999999 to 1", "[record][archive_writer]") {
+TEST_CASE("the record number after 999999 is 1", "[record][archive_writer]") {
     DataRoot root;
     RecordHeader header = decode_record(record_at(kStart, {1}).bytes)->header;
     header.sequence = 999'998;
@@ -55,7 +55,8 @@ TEST_CASE("record numbers go from 999999 to 1", "[record][archive_writer]") {
     CHECK(sequences(root) == std::vector{999'998, 999'999, 1});
 }
 
-TEST_CASE("sync says which sample of each channel is safe", "[record][archive_writer]") {
+TEST_CASE("sync returns the last sample of each channel that is safe on disk",
+          "[record][archive_writer]") {
     DataRoot root;
     ArchiveWriter writer(posix_files(), root.archive(), {});
     CHECK(writer.sync().empty());
@@ -67,7 +68,7 @@ TEST_CASE("sync says which sample of each channel is safe", "[record][archive_wr
     CHECK(marks[0].utc == kStart + 40ms);
 }
 
-TEST_CASE("a replayed record that the archive holds is passed over", "[record][archive_writer]") {
+TEST_CASE("a replayed record that the archive already has is skipped", "[record][archive_writer]") {
     DataRoot root;
     const auto held = record_at(kStart, {1, 2, 3});
     const auto next = record_at(kStart + 60ms, {4, 5});
@@ -76,20 +77,21 @@ TEST_CASE("a replayed record that the archive holds is passed over", "[record][a
 
     ArchiveWriter writer(posix_files(), root.archive(), {});
     writer.begin_replay();
-    CHECK(writer.samples_held("BNZ", kStart) == 3);
-    CHECK_FALSE(writer.samples_held("BNZ", kStart + 60ms));
-    CHECK_FALSE(writer.samples_held("BN1", kStart));
+    CHECK(writer.samples_in_archive("BNZ", kStart) == 3);
+    CHECK_FALSE(writer.samples_in_archive("BNZ", kStart + 60ms));
+    CHECK_FALSE(writer.samples_in_archive("BN1", kStart));
     writer.record("BNZ", held, 2);
     CHECK(root.files() == before);
-    CHECK(writer.records_passed_over() == 1);
+    CHECK(writer.records_skipped() == 1);
     writer.record("BNZ", next, 4);
     CHECK(writer.records_written() == 1);
     CHECK(sequences(root) == std::vector{1, 2});
     CHECK(writer.sync().at(0).index == 4);
 }
 
-TEST_CASE("a replayed record that disagrees with the archive, or overlaps it, is a conflict",
-          "[record][archive_writer]") {
+TEST_CASE(
+    "a replayed record that contradicts or overlaps the archive is a conflict and is not written",
+    "[record][archive_writer]") {
     DataRoot root;
     ArchiveWriter(posix_files(), root.archive(), {}).record("BNZ", record_at(kStart, {1, 2, 3}), 2);
     const auto before = root.files();
@@ -103,7 +105,7 @@ TEST_CASE("a replayed record that disagrees with the archive, or overlaps it, is
     CHECK(writer.replay_conflicts() == 4);
     CHECK(writer.records_written() == 0);
 
-    CHECK(writer.sync().empty());  // It speaks of nothing that is not there.
+    CHECK(writer.sync().empty());  // No record was written, so no sample is reported as safe.
 
     writer.end_replay();
     writer.record("BNZ", record_at(kStart + 20ms, {2, 3}), 2);

@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// The same bytes with the same stamp for each byte's read, cut into chunks elsewhere.
+/// Returns the same reads with the same time stamps, divided into chunks at other places.
 std::vector<JournalChunk> recut(const std::vector<JournalChunk>& chunks, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     std::vector<JournalChunk> cut;
@@ -23,7 +23,7 @@ std::vector<JournalChunk> recut(const std::vector<JournalChunk>& chunks, std::ui
             continue;
         }
         std::size_t read = 0;
-        while (read < rx->reads.size()) {  // whole reads per chunk
+        while (read < rx->reads.size()) {  // a chunk has whole reads only
             const std::size_t from = read == 0 ? 0 : rx->reads[read - 1].end;
             const std::size_t reads =
                 std::min<std::size_t>(1 + random() % 20, rx->reads.size() - read);
@@ -42,7 +42,7 @@ std::vector<JournalChunk> recut(const std::vector<JournalChunk>& chunks, std::ui
 
 }  // namespace
 
-TEST_CASE("every sample of a stream comes back from the records bit for bit, each once",
+TEST_CASE("the records contain every sample of a stream exactly once, bit for bit",
           "[record][archiver]") {
     JournalStream stream;
     stream.frames(0, 20'000);
@@ -65,7 +65,7 @@ TEST_CASE("every sample of a stream comes back from the records bit for bit, eac
     CHECK(run.counters.gaps + run.counters.anomalies + run.counters.bytes_skipped == 0);
 }
 
-TEST_CASE("records carry the instants of their samples and the header's codes",
+TEST_CASE("records carry the times of their samples and the station codes of the journal header",
           "[record][archiver]") {
     JournalStream stream;
     std::get<JournalHeader>(stream.chunks.front()).declared_rate_hz = 50.0006;
@@ -90,7 +90,8 @@ TEST_CASE("records carry the instants of their samples and the header's codes",
     }
 }
 
-TEST_CASE("where the journal cuts the stream into chunks changes no record", "[record][archiver]") {
+TEST_CASE("the records do not depend on where the journal divides the stream into chunks",
+          "[record][archiver]") {
     JournalStream stream;
     std::mt19937_64 random(7);
     for (std::int64_t k = 0; k < 3'000; ++k) {
@@ -110,7 +111,7 @@ TEST_CASE("where the journal cuts the stream into chunks changes no record", "[r
     }
 }
 
-TEST_CASE("frames that one read delivered together are stamped by their place in it",
+TEST_CASE("frames delivered by one read are time-stamped by their position in it",
           "[record][archiver]") {
     JournalStream apart, together;
     for (std::int64_t k = 0; k < 3'000; k += 2) {
@@ -156,7 +157,8 @@ TEST_CASE("no record reaches over UTC midnight", "[record][archiver]") {
     }
 }
 
-TEST_CASE("samples that nothing follows are in a record after 60 s", "[record][archiver]") {
+TEST_CASE("samples are written to a record after 60 s even if no others follow",
+          "[record][archiver]") {
     JournalStream stream;
     stream.frames(0, 300);
     Collector sink;
@@ -168,7 +170,7 @@ TEST_CASE("samples that nothing follows are in a record after 60 s", "[record][a
     CHECK(sink.counts("BNZ") == expected(2, 0, 300));
 }
 
-TEST_CASE("values that Steim-2 cannot hold pass as integers", "[record][archiver]") {
+TEST_CASE("samples that Steim-2 cannot hold are archived as plain integers", "[record][archiver]") {
     JournalStream stream;
     for (std::int64_t k = 0; k < 2'000; ++k) {
         auto values = values_of(k);
@@ -210,7 +212,8 @@ TEST_CASE("an alarm flag marks the records of its axis as clipped", "[record][ar
     for (const auto& record : run.sink.decoded.at("BNZ")) CHECK_FALSE(record.header.is_clipped);
 }
 
-TEST_CASE("band code and channels follow rate and layout", "[record][archiver]") {
+TEST_CASE("the band code follows from the rate, the channels from the frame layout",
+          "[record][archiver]") {
     for (const auto& [rate_hz, band] :
          {std::pair(50, 'B'), std::pair(100, 'H'), std::pair(500, 'C'), std::pair(1000, 'F')}) {
         const auto layout = *wire::BurstLayout::from_burst_ctrl(0x0103);  // z, COUNT, CHKSM

@@ -10,7 +10,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// 2000 samples of z, but for those from `first` to before `end`.
+/// Returns the 2000 samples of z without first ... end - 1.
 auto expected_without(std::int64_t first, std::int64_t end) {
     auto counts = expected(2, 0, first);
     const auto rest = expected(2, end, 2'000);
@@ -20,7 +20,7 @@ auto expected_without(std::int64_t first, std::int64_t end) {
 
 }  // namespace
 
-TEST_CASE("a lost frame leaves a gap of exactly one sample and no other", "[record][archiver]") {
+TEST_CASE("a lost frame leaves exactly one gap of exactly one sample", "[record][archiver]") {
     for (std::size_t bad_byte = 0; bad_byte < 24; ++bad_byte) {
         JournalStream stream;
         for (std::int64_t k = 0; k < 2'000; ++k) {
@@ -53,7 +53,7 @@ TEST_CASE("a lost frame leaves a gap of exactly one sample and no other", "[reco
     }
 }
 
-TEST_CASE("without a counter, what was skipped tells how many samples were lost",
+TEST_CASE("without a counter the number of lost samples is found from the skipped bytes",
           "[record][archiver]") {
     const auto layout = *wire::BurstLayout::from_burst_ctrl(0x0101);  // z, CHKSM
     JournalStream stream;
@@ -79,7 +79,8 @@ TEST_CASE("without a counter, what was skipped tells how many samples were lost"
           Nanoseconds(1us));
 }
 
-TEST_CASE("every byte is in a frame, skipped or pending", "[record][archiver]") {
+TEST_CASE("every byte is part of a frame, counted as skipped, or still pending",
+          "[record][archiver]") {
     std::mt19937_64 random(11);
     for (int round = 0; round < 20; ++round) {
         JournalStream stream;
@@ -111,7 +112,8 @@ TEST_CASE("every byte is in a frame, skipped or pending", "[record][archiver]") 
     }
 }
 
-TEST_CASE("an outage of many wraps is a gap of the exact length", "[record][archiver]") {
+TEST_CASE("an outage of many counter wraps becomes a gap of exactly its length",
+          "[record][archiver]") {
     for (const std::int64_t missing : {700, 850, 2'000, 4'500, 100'000}) {
         JournalStream stream;
         stream.frames(0, 1'000);
@@ -123,11 +125,10 @@ TEST_CASE("an outage of many wraps is a gap of the exact length", "[record][arch
     }
 }
 
-TEST_CASE("a device that restarts in mid-stream becomes a session of its own",
-          "[record][archiver]") {
+TEST_CASE("a device that restarts in mid-stream begins a new session", "[record][archiver]") {
     JournalStream stream;
     stream.frames(0, 1'000);
-    for (std::int64_t k = 0; k < 1'000; ++k) {  // 30 s later the counter begins anew
+    for (std::int64_t k = 0; k < 1'000; ++k) {  // 30 s later the counter starts again
         stream.bytes(frame_of(values_of(k)), due(1'000) + 30s + due(k));
         if (k % 50 == 49) stream.second(due(1'000) + 30s + due(k));
     }
@@ -142,8 +143,9 @@ TEST_CASE("a device that restarts in mid-stream becomes a session of its own",
     CHECK(run.sink.samples.back().index == 999);
 }
 
-TEST_CASE("a header of the same session changes nothing, one of another ends the series",
-          "[record][archiver]") {
+TEST_CASE(
+    "a header of the same session changes nothing, a header of another session ends the series",
+    "[record][archiver]") {
     JournalStream plain, rotated;
     plain.frames(0, 3'000);
     rotated.frames(0, 1'500);
@@ -178,7 +180,8 @@ TEST_CASE("a duplicated frame is counted and dropped", "[record][archiver]") {
     CHECK(run.sink.counts("BNZ") == expected(2, 0, 200));
 }
 
-TEST_CASE("frames of a forbidden rate and filter are no data", "[record][archiver]") {
+TEST_CASE("frames flagged for a forbidden pair of rate and filter count as missing samples",
+          "[record][archiver]") {
     JournalStream stream;
     for (std::int64_t k = 0; k < 1'000; ++k) {
         auto values = values_of(k);
@@ -196,7 +199,8 @@ TEST_CASE("frames of a forbidden rate and filter are no data", "[record][archive
     CHECK(run.sink.samples.size() == 990);
 }
 
-TEST_CASE("a journal of an unknown device is refused by name", "[record][archiver]") {
+TEST_CASE("a journal of an unknown device profile or without a baud rate is refused",
+          "[record][archiver]") {
     Collector sink;
     Archiver archiver(sink);
     auto header = header_at(0s);

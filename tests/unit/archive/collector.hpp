@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What an archiver makes of journal chunks, in memory.
+/// Collector of an archiver's records and samples in memory.
 
 #include <map>
 #include <string>
@@ -36,7 +36,7 @@ struct Collector : ArchiveSink {
     std::vector<Sample> samples;
 };
 
-/// Samples first ... end - 1 of an axis of the stream.
+/// Returns samples first ... end - 1 of an axis of the test stream.
 inline std::vector<std::int32_t> expected(unsigned axis, std::int64_t first, std::int64_t end) {
     std::vector<std::int32_t> counts;
     for (std::int64_t k = first; k < end; ++k) counts.push_back(values_of(k).axes[axis]);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A data root in a temporary directory, and what is in its archive.
+/// A data root in a temporary directory, with access to the contents of its archive.
 
 #include <algorithm>
 #include <filesystem>
@@ -42,7 +42,7 @@ public:
         std::filesystem::copy(other.path(), path(), std::filesystem::copy_options::recursive);
     }
 
-    /// Day files of the archive by name; what was cut off is no part of it.
+    /// Returns the day files of the archive by name, without the .torn files of cut tails.
     [[nodiscard]] std::map<std::string, std::vector<std::byte>> files() const {
         std::map<std::string, std::vector<std::byte>> content;
         if (!std::filesystem::exists(archive())) return content;
@@ -53,7 +53,7 @@ public:
         return content;
     }
 
-    /// Samples of a channel in the order of its files; empty if a record is damaged.
+    /// Returns the samples of a channel in the order of its files; empty if a record is damaged.
     [[nodiscard]] std::vector<std::int32_t> counts(const std::string& channel,
                                                    const StationCodes& codes = {}) const {
         std::vector<std::int32_t> all;
@@ -81,7 +81,7 @@ private:
     test::TemporaryDirectory directory_;
 };
 
-/// Runs chunks through an archiver into a root's archive.
+/// Archives the chunks in the archive of the data root.
 inline void archive_all(const DataRoot& root, const std::vector<JournalChunk>& chunks) {
     ArchiveWriter writer(posix_files(), root.archive(), {});
     Archiver archiver(writer);

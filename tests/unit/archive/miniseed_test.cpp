@@ -35,7 +35,7 @@ int u16_at(const PackedRecord& record, std::size_t i) {
     return byte_at(record, i) << 8 | byte_at(record, i + 1);
 }
 
-/// Packs all samples into as many records as it takes and decodes them again.
+/// Packs all samples into as many records as needed and decodes them again.
 Samples through_records(const RecordHeader& header, std::span<const std::int32_t> samples,
                         std::vector<PackedRecord>* records = nullptr) {
     Samples out;
@@ -53,7 +53,7 @@ Samples through_records(const RecordHeader& header, std::span<const std::int32_t
     return out;
 }
 
-/// Walk with steps of up to `step` counts.
+/// Returns a random walk with steps of up to `step` counts.
 Samples random_walk(std::size_t count, std::int32_t step, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     Samples samples;
@@ -68,7 +68,8 @@ Samples random_walk(std::size_t count, std::int32_t step, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("a record gives back its samples and header", "[record][miniseed]") {
+TEST_CASE("a decoded record has the samples and the header that were packed",
+          "[record][miniseed]") {
     RecordHeader header = header_at("2026-03-01T12:00:00.123456Z");
     header.sequence = 4711;
     const bool has_declared_rate = GENERATE(false, true);
@@ -92,7 +93,7 @@ TEST_CASE("a record gives back its samples and header", "[record][miniseed]") {
     CHECK(std::equal(decoded->samples.begin(), decoded->samples.end(), samples.begin()));
 }
 
-TEST_CASE("a start time survives to the microsecond", "[record][miniseed]") {
+TEST_CASE("a start time is kept to the microsecond", "[record][miniseed]") {
     std::mt19937_64 random(2);
     const Samples samples{1, 2, 3};
     for (int i = 0; i < 2000; ++i) {
@@ -106,13 +107,14 @@ TEST_CASE("a start time survives to the microsecond", "[record][miniseed]") {
     }
 }
 
-TEST_CASE("nanoseconds are rounded, and the record says to what", "[record][miniseed]") {
+TEST_CASE("a start time is rounded to microseconds, and packing returns the rounded time",
+          "[record][miniseed]") {
     const auto record = pack_record(header_at("2026-03-01T12:00:00.000000600Z"), Samples{1});
     CHECK(record.start == *parse_rfc3339("2026-03-01T12:00:00.000001Z"));
     CHECK(decode_record(record.bytes)->header.start == record.start);
 }
 
-TEST_CASE("the fixed header holds each field at its place in the SEED manual",
+TEST_CASE("the fixed header has each field at the offset given in the SEED manual",
           "[record][miniseed]") {
     RecordHeader header = header_at("2024-12-31T23:58:59.765432Z");  // Day 366.
     header.sequence = 42;
@@ -138,7 +140,7 @@ TEST_CASE("the fixed header holds each field at its place in the SEED manual",
     CHECK(u16_at(record, 46) == 48);
 }
 
-TEST_CASE("blockettes stand in the order 1000, 1001, 100", "[record][miniseed]") {
+TEST_CASE("the blockettes have the order 1000, 1001, 100", "[record][miniseed]") {
     RecordHeader header = header_at("2026-03-01T12:00:00.765432Z");
     header.declared_rate_hz = 50.001;
     const auto record = pack_record(header, Samples(2000, 7));
@@ -164,7 +166,7 @@ TEST_CASE("blockettes stand in the order 1000, 1001, 100", "[record][miniseed]")
     CHECK(u16_at(plain, 44) == 64);
 }
 
-TEST_CASE("each flag is its own bit", "[record][miniseed]") {
+TEST_CASE("each flag sets its own bit", "[record][miniseed]") {
     const auto flags_with = [](bool RecordHeader::*flag) {
         RecordHeader header = header_at("2026-03-01T12:00:00Z");
         if (flag) header.*flag = true;
@@ -211,7 +213,7 @@ TEST_CASE("a record ends before a jump that Steim-2 cannot hold", "[record][mini
     CHECK_FALSE(records[1].is_integer_coded);
 }
 
-TEST_CASE("a single wild sample gets a record of integers, then Steim-2 goes on",
+TEST_CASE("a single wild sample gets a record of plain integers, and Steim-2 continues after it",
           "[record][miniseed]") {
     auto samples = random_walk(300, 10, 3);
     samples[100] = GENERATE(as<std::int32_t>{}, kHighest, kLowest, 0x64000000);
@@ -225,7 +227,7 @@ TEST_CASE("a single wild sample gets a record of integers, then Steim-2 goes on"
     CHECK_FALSE(records[2].is_integer_coded);
 }
 
-TEST_CASE("a row of wild samples fills records of integers", "[record][miniseed]") {
+TEST_CASE("a run of wild samples fills records of plain integers", "[record][miniseed]") {
     Samples samples;
     for (int i = 0; i < 500; ++i) samples.push_back(i % 2 ? kHighest - i : kLowest + i);
     RecordHeader header = header_at("2026-03-01T12:00:00Z");
@@ -236,7 +238,7 @@ TEST_CASE("a row of wild samples fills records of integers", "[record][miniseed]
     CHECK(through_records(header, samples) == samples);
 }
 
-TEST_CASE("any integers come back unchanged", "[record][miniseed]") {
+TEST_CASE("any 32-bit integers come back unchanged", "[record][miniseed]") {
     std::mt19937_64 random(4);
     RecordHeader header = header_at("2026-03-01T12:00:00Z");
     for (int round = 0; round < 60; ++round) {
@@ -244,7 +246,7 @@ TEST_CASE("any integers come back unchanged", "[record][miniseed]") {
         Samples samples;
         const auto width = static_cast<unsigned>(round % 33);
         for (int i = 0; i < 1000; ++i) {
-            // Shrinks to `width` bits except for one in 50, so that both codings alternate.
+            // Limits all samples but one in 50 to `width` bits, so that both codings alternate.
             const auto bits = static_cast<std::uint32_t>(random());
             const bool is_wild = random() % 50 == 0;
             const auto kept = is_wild || width == 32 ? bits : bits & ((1U << width) - 1);
@@ -254,7 +256,8 @@ TEST_CASE("any integers come back unchanged", "[record][miniseed]") {
     }
 }
 
-TEST_CASE("a declared rate far from the nominal one is damage", "[record][miniseed]") {
+TEST_CASE("a record is damaged if its declared rate is far from the nominal rate",
+          "[record][miniseed]") {
     RecordHeader header = header_at("2026-03-01T12:00:00Z");
     header.declared_rate_hz = 50.001;
     auto record = pack_record(header, Samples(100, 5));
@@ -271,7 +274,7 @@ TEST_CASE("a declared rate far from the nominal one is damage", "[record][minise
         CHECK_FALSE(is_taken(rate_hz));
 }
 
-TEST_CASE("cut bytes are no record", "[record][miniseed]") {
+TEST_CASE("a record that is cut short is not decoded", "[record][miniseed]") {
     const auto record = pack_record(header_at("2026-03-01T12:00:00Z"), Samples(100, 5));
     const std::span<const std::byte> bytes(record.bytes);
     for (std::size_t size = 0; size < kRecordSize; ++size) {
@@ -279,7 +282,7 @@ TEST_CASE("cut bytes are no record", "[record][miniseed]") {
     }
 }
 
-TEST_CASE("a damaged record is refused or still has its shape, and never harms",
+TEST_CASE("a damaged record is refused, or decodes to a possible number of samples",
           "[record][miniseed]") {
     std::mt19937_64 random(5);
     RecordHeader header = header_at("2026-03-01T12:00:00Z");
@@ -290,7 +293,7 @@ TEST_CASE("a damaged record is refused or still has its shape, and never harms",
         auto record = pack_record(header, random_walk(400, 300, 6));
         const auto flips = 1 + random() % 8;
         for (std::size_t i = 0; i < flips; ++i) {
-            // Half of the damage in the header, where it hurts.
+            // Half of the damage is in the header, where it matters most.
             const auto at = random() % (i % 2 ? kRecordSize : 80);
             record.bytes[at] = static_cast<std::byte>(random() & 0xFF);
         }
@@ -301,7 +304,7 @@ TEST_CASE("a damaged record is refused or still has its shape, and never harms",
     CHECK(refused > kRounds * 9 / 10);
 }
 
-TEST_CASE("noise is no record", "[record][miniseed]") {
+TEST_CASE("random bytes are not decoded as a record", "[record][miniseed]") {
     std::mt19937_64 random(7);
     std::array<std::byte, kRecordSize> bytes{};
     for (int round = 0; round < 2000; ++round) {
@@ -310,10 +313,10 @@ TEST_CASE("noise is no record", "[record][miniseed]") {
     }
 }
 
-TEST_CASE("a difference flipped inside a Steim-2 record is found by its last sample",
+TEST_CASE("a flipped bit in the differences of a Steim-2 record is detected by its last sample",
           "[record][miniseed]") {
     const auto record = pack_record(header_at("2026-03-01T12:00:00Z"), random_walk(400, 300, 8));
-    // From the second data frame on: behind first and last sample, control words left out.
+    // Bytes from the second data frame on, after the first and last sample, without control words.
     for (std::size_t i = 128 + 4; i < 256; ++i) {
         if (i % 64 < 4) continue;
         auto bytes = record.bytes;
@@ -322,14 +325,16 @@ TEST_CASE("a difference flipped inside a Steim-2 record is found by its last sam
     }
 }
 
-TEST_CASE("no samples or an impossible sequence break the caller's promise", "[record][miniseed]") {
+TEST_CASE("packing without samples or with an impossible sequence number is refused",
+          "[record][miniseed]") {
     RecordHeader header = header_at("2026-03-01T12:00:00Z");
     CHECK_THROWS_AS(pack_record(header, {}), std::invalid_argument);
     header.sequence = GENERATE(0, 1'000'000);
     CHECK_THROWS_AS(pack_record(header, Samples{1}), std::invalid_argument);
 }
 
-TEST_CASE("timing quality falls by 20 per decade from 1 ms", "[record][miniseed]") {
+TEST_CASE("timing quality falls by 20 percent for each decade of error above 1 ms",
+          "[record][miniseed]") {
     using namespace std::chrono_literals;
     CHECK(timing_quality_percent(0ns) == 100);
     CHECK(timing_quality_percent(1ms) == 100);

@@ -12,8 +12,8 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// Two minutes over midnight in three segments, with a gap, a flipped bit, clock readings and polls
-/// of an oven.
+/// Returns two minutes across midnight in three segments, with a gap, a flipped bit, clock readings
+/// and polls of an oven.
 std::vector<JournalChunk> eventful_session() {
     const auto before = 12h - 60s;
     JournalStream stream(1, before);
@@ -41,7 +41,7 @@ struct Recovered : RecoveryReport {
     ArchiverCounters replayed;
 };
 
-/// As the daemon does at start, when no more samples come.
+/// Recovers as the daemon does at its start, when no more samples come.
 Recovered recover(FileLayer& files, const std::filesystem::path& root) {
     Recovered report;
     const RecoveryPlan plan = begin_recovery(files, root / "journal");
@@ -60,7 +60,7 @@ Recovered recover(FileLayer& files, const std::filesystem::path& root) {
         static_cast<void>(writer.sync());
         report.archive.insert(report.archive.end(), part.archive.begin(), part.archive.end());
         report.records_added += writer.records_written();
-        report.records_confirmed += writer.records_passed_over();
+        report.records_confirmed += writer.records_skipped();
         report.records_conflicting += writer.replay_conflicts();
         report.replayed = archiver.counters();
     }
@@ -95,7 +95,7 @@ TEST_CASE("recovery of an empty data root does nothing", "[record][recovery]") {
     CHECK(root.files().empty());
 }
 
-TEST_CASE("an archive cut at any record, torn or not, comes back to the same bytes",
+TEST_CASE("an archive cut at any record, torn or not, is recovered to the same bytes",
           "[record][recovery]") {
     const auto chunks = eventful_session();
     DataRoot whole;
@@ -123,8 +123,9 @@ TEST_CASE("an archive cut at any record, torn or not, comes back to the same byt
     CHECK(root.files() == reference);
 }
 
-TEST_CASE("a journal torn at any byte gives what an uninterrupted run up to there would have",
-          "[record][recovery]") {
+TEST_CASE(
+    "a journal torn at any byte is recovered to the archive of an undisturbed run that ended there",
+    "[record][recovery]") {
     const auto chunks = eventful_session();
     DataRoot whole;
     whole.write_journal(chunks);
@@ -135,7 +136,7 @@ TEST_CASE("a journal torn at any byte gives what an uninterrupted run up to ther
         const auto newest = journal_segments(root.journal()).back();
         std::filesystem::resize_file(newest, random() % std::filesystem::file_size(newest));
         fresh.copy_from(root);
-        // What a run that saw the same chunks would have written ...
+        // The reference is the archive of a run with the same chunks.
         std::vector<JournalChunk> seen;
         for (const auto& segment : journal_segments(fresh.journal())) {
             JournalReader reader(segment);
@@ -143,7 +144,7 @@ TEST_CASE("a journal torn at any byte gives what an uninterrupted run up to ther
         }
         archive_all(fresh, seen);
         const auto reference = fresh.files();
-        // ... of which some was on disk.
+        // A part of that archive is on disk before the recovery.
         std::filesystem::copy(fresh.archive(), root.archive(),
                               std::filesystem::copy_options::recursive);
         cut_archive(root, random, true);
@@ -189,10 +190,10 @@ TEST_CASE("a recovery killed at any change to the disk, twice, ends with the sam
     }
 }
 
-TEST_CASE("records that a shutdown ended early are run into by a later replay",
+TEST_CASE("a replay agrees with records that an earlier shutdown had ended early",
           "[record][recovery]") {
-    // The daemon stops after sample 1499, comes back, adopts the stream in the same session, and is
-    // killed later: the journal alone would give other records.
+    // The daemon stops after sample 1499, starts again, continues the stream in the same session
+    // and is killed later. The journal alone would give records that end elsewhere.
     JournalStream before, after;
     before.frames(0, 1'510);
     after.frames(1'510, 3'700);
@@ -215,10 +216,10 @@ TEST_CASE("records that a shutdown ended early are run into by a later replay",
     CHECK(recover(posix_files(), root.path()).records_added == 0);
 }
 
-TEST_CASE("a shutdown at any age of the slow records is run into by later replays",
+TEST_CASE("replays agree with the archive wherever a shutdown ended the slow records",
           "[record][recovery]") {
-    // LCE has its seconds when a record of BN1 ends: at a shutdown sooner than in a replay, where
-    // it may be old before it has them.
+    // LCE gets its seconds when a record of BN1 ends. At a shutdown this is sooner than in a
+    // replay, where an LCE record may reach its age limit before it has them.
     const auto stop_s = GENERATE(range(48, 75));
     const auto away_s = GENERATE(0, 8);
     CAPTURE(stop_s, away_s);
@@ -231,7 +232,7 @@ TEST_CASE("a shutdown at any age of the slow records is run into by later replay
     root.write_journal(before.chunks);
     archive_all(root, before.chunks);
     {
-        // The second life: adopts the stream, and stops too.
+        // The second run continues the stream, and also stops.
         ArchiveWriter writer(posix_files(), root.archive(), {});
         Archiver archiver(writer);
         writer.begin_replay();
@@ -255,7 +256,7 @@ TEST_CASE("a shutdown at any age of the slow records is run into by later replay
     CHECK(seconds == whole.size());
 }
 
-TEST_CASE("an archive ahead of the journal keeps what it has and nothing comes twice",
+TEST_CASE("an archive ahead of the journal keeps its records, and none is written twice",
           "[record][recovery]") {
     JournalStream stream;
     stream.frames(0, 3'000);
@@ -268,7 +269,7 @@ TEST_CASE("an archive ahead of the journal keeps what it has and nothing comes t
     CHECK(root.files() == reference);
 }
 
-TEST_CASE("sessions that were not archived and synced before the newest mark are replayed too",
+TEST_CASE("sessions that were not archived and synced before the newest mark are also replayed",
           "[record][recovery]") {
     JournalStream first(1), second(2, 100s), third(3, 200s);
     first.frames(0, 2'000);
@@ -294,7 +295,7 @@ TEST_CASE("sessions that were not archived and synced before the newest mark are
     CHECK(root.counts("BNZ") == counts);
 }
 
-TEST_CASE("sessions under other codes are recovered too, each into its archive",
+TEST_CASE("sessions with other station codes are also recovered, each into its own archive",
           "[record][recovery]") {
     JournalStream first(1), second(2, 100s);
     first.frames(0, 2'000);

@@ -14,8 +14,8 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// Ten minutes with late frames and a gap; the host's clock is an hour slow until it is synchronised
-/// at `synchronised`.
+/// Returns ten minutes with late frames and a gap. The host's clock is an hour slow until it is
+/// synchronised at sample `synchronised`.
 std::vector<JournalChunk> badly_timed_session(std::int64_t synchronised) {
     const auto reading = [&](Nanoseconds now, std::int64_t k) {
         timing::ClockReading clock = clock_at(now);
@@ -57,14 +57,14 @@ Decoded read_vertical(const std::filesystem::path& archive) {
     return all;
 }
 
-/// Instant of sample k, whose frame is due at due(k).
+/// Returns the true time of sample k, whose frame is complete at due(k).
 UtcTime truth(std::int64_t k) {
     return kStart + due(k) - (63'875us + 430us + Nanoseconds(520'833));
 }
 
 }  // namespace
 
-TEST_CASE("a re-timed archive has the same samples at the times that were known in the end",
+TEST_CASE("a re-timed archive has the same samples, with the times that the whole journal gives",
           "[record][retime]") {
     DataRoot root;
     const auto chunks = badly_timed_session(15'000);
@@ -101,7 +101,7 @@ TEST_CASE("a re-timed archive has the same samples at the times that were known 
     CHECK(events[0].index == 500);
 }
 
-TEST_CASE("re-timing is all or nothing", "[record][retime]") {
+TEST_CASE("re-timing writes a complete archive or nothing", "[record][retime]") {
     DataRoot root, parent;
     const auto out = parent.path() / "better";
     CHECK_THROWS_AS(retime(posix_files(), root.path(), out), InputError);
@@ -119,7 +119,7 @@ TEST_CASE("re-timing is all or nothing", "[record][retime]") {
     CHECK(first.counts == read_vertical(parent.path() / "again" / "archive").counts);
 }
 
-TEST_CASE("a damaged segment is re-timed as far as it is good", "[record][retime]") {
+TEST_CASE("a damaged segment is re-timed up to the damage, which is reported", "[record][retime]") {
     DataRoot root, parent;
     root.write_journal(badly_timed_session(0));
     const auto segment = journal_segments(root.journal()).front();
@@ -130,8 +130,10 @@ TEST_CASE("a damaged segment is re-timed as far as it is good", "[record][retime
     CHECK(report.records > 0);
 }
 
-TEST_CASE("records of a host without a clock stay in the journal, and re-timing brings them in",
-          "[record][retime]") {
+TEST_CASE(
+    "records of a host without a clock stay in the journal until re-timing adds them to the "
+    "archive",
+    "[record][retime]") {
     // The host starts in 1970 and is synchronised after a minute.
     JournalStream stream;
     for (std::int64_t k = 0; k < 9'000; ++k) {
@@ -161,8 +163,8 @@ TEST_CASE("records of a host without a clock stay in the journal, and re-timing 
 }
 
 TEST_CASE(
-    "after a sleep of the host re-timed samples are right from the first one on, however late "
-    "the reading that shows it",
+    "re-timed samples are right from the first one after a sleep of the host, however late the "
+    "reading that shows the sleep",
     "[record][retime]") {
     constexpr Nanoseconds kSlept = 40s;
     constexpr std::int64_t kAsleepFrom = 3'010, kAwakeFrom = 5'010;

@@ -31,7 +31,7 @@ fs::path day_file(const fs::path& archive, const char* time) {
     return sds_file(archive, StationCodes{}, "BNZ", at(time));
 }
 
-/// Size of the file, and every 512 bytes of it must decode; their sequence numbers.
+/// Returns the sequence numbers of the records in a file; all of it must decode.
 std::vector<int> sequences_in(const fs::path& file) {
     std::vector<int> sequences;
     const auto bytes = test::read_bytes(file);
@@ -50,12 +50,13 @@ TEST_CASE("a day file is named by the SDS rules", "[record][sds]") {
     StationCodes codes;
     CHECK(sds_file("archive", codes, "BNZ", at("2026-03-01T13:00:00Z")) ==
           "archive/2026/XX/A351/BNZ.D/XX.A351.00.BNZ.D.2026.060");
-    codes.location = "";  // The dots stay.
+    codes.location = "";  // The dots remain.
     CHECK(sds_file("archive", codes, "LK1", at("2026-01-01T00:00:00Z")) ==
           "archive/2026/XX/A351/LK1.D/XX.A351..LK1.D.2026.001");
 }
 
-TEST_CASE("the UTC day of the first sample decides, leap days counted", "[record][sds]") {
+TEST_CASE("a day file has the UTC day of the year of its time, leap days counted",
+          "[record][sds]") {
     const auto name = [](const char* time) {
         return day_file("", time).filename().string().substr(17);
     };
@@ -67,7 +68,7 @@ TEST_CASE("the UTC day of the first sample decides, leap days counted", "[record
     CHECK(name("2026-03-01T08:59:59+09:00") == "2026.059");
 }
 
-TEST_CASE("records go to the day they start on", "[record][sds]") {
+TEST_CASE("a record is written to the file of the day on which it starts", "[record][sds]") {
     const test::TemporaryDirectory directory;
     const auto archive = directory.path() / "archive";
     SdsWriter writer(posix_files(), archive, StationCodes{});
@@ -85,7 +86,7 @@ TEST_CASE("records go to the day they start on", "[record][sds]") {
           day_file(archive, "2027-01-01T00:00:00Z"));
 }
 
-TEST_CASE("writing goes on in the file of an earlier run", "[record][sds]") {
+TEST_CASE("writing continues in the file of an earlier run", "[record][sds]") {
     const test::TemporaryDirectory directory;
     for (int run = 0; run < 3; ++run) {
         SdsWriter writer(posix_files(), directory.path(), StationCodes{});
@@ -96,7 +97,7 @@ TEST_CASE("writing goes on in the file of an earlier run", "[record][sds]") {
           std::vector{1, 2, 3, 4, 5, 6});
 }
 
-TEST_CASE("channels are those with a directory, over all years, of this station only",
+TEST_CASE("the channels are those of this station that have a directory in any year",
           "[record][sds]") {
     const test::TemporaryDirectory directory;
     for (const char* path : {"2026/XX/A351/BNZ.D", "2026/XX/A351/BN1.D", "2027/XX/A351/BNZ.D",
@@ -109,7 +110,7 @@ TEST_CASE("channels are those with a directory, over all years, of this station 
     CHECK_FALSE(newest_day_file(directory.path(), StationCodes{}, "BNZ"));
 }
 
-TEST_CASE("side files and other locations are no day files", "[record][sds]") {
+TEST_CASE("side files and files of other locations are not day files", "[record][sds]") {
     const test::TemporaryDirectory directory;
     const auto channel = directory.path() / "2026/XX/A351/BNZ.D";
     fs::create_directories(channel);
@@ -149,7 +150,7 @@ TEST_CASE("a tail torn at any byte is cut back to whole records", "[record][sds]
     }
 }
 
-TEST_CASE("a tail of whole size that does not decode is cut too", "[record][sds]") {
+TEST_CASE("a tail of the size of a record that does not decode is cut off too", "[record][sds]") {
     const test::TemporaryDirectory directory;
     const auto file = directory.path() / "day";
     const auto record = record_at("2026-03-01T12:00:00Z");
@@ -170,7 +171,7 @@ TEST_CASE("an empty day file is removed", "[record][sds]") {
     CHECK(fs::is_empty(directory.path()));
 }
 
-TEST_CASE("whichever file operation fails, readers find whole records only and writing goes on",
+TEST_CASE("whichever file operation fails, readers find only whole records and writing continues",
           "[record][sds]") {
     int operations = 1000;
     for (int fail_at = 1; fail_at <= operations; ++fail_at) {
@@ -181,7 +182,7 @@ TEST_CASE("whichever file operation fails, readers find whole records only and w
         const char* times[] = {"2026-03-01T23:59:50Z", "2026-03-01T23:59:55Z",
                                "2026-03-02T00:00:00Z", "2026-03-02T00:00:05Z"};
         for (int i = 0; i < 4; ++i) {
-            // As recovery does: a record that failed is written again.
+            // A record that failed is written again, as in recovery.
             for (bool is_done = false; !is_done;) {
                 try {
                     writer.append("BNZ", record_at(times[i], i + 1));

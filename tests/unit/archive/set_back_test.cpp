@@ -1,4 +1,5 @@
-// A clock that is set back within a session makes times come twice: in the archive, and in its replay.
+// A clock that is set back within a session: the same times occur twice, in the archive and in its
+// replay.
 
 #include <algorithm>
 #include "tests/support/catch.hpp"
@@ -18,7 +19,7 @@ constexpr int kSeconds = 240;
 struct Step {
     const char* name;
     Nanoseconds back;
-    bool is_announced;  ///< As a leap second; else it is followed a minute later.
+    bool is_announced;  ///< True: announced as a leap second. False: followed a minute later.
 };
 
 timing::ClockReading reading(Nanoseconds since_start, const Step& step) {
@@ -54,8 +55,9 @@ std::vector<std::int32_t> sorted(std::vector<std::int32_t> counts) {
 
 }  // namespace
 
-TEST_CASE("a session whose clock was set back is recovered whole and once, whenever it was killed",
-          "[record][archive_writer]") {
+TEST_CASE(
+    "a session whose clock was set back is recovered completely and once, whenever it was killed",
+    "[record][archive_writer]") {
     for (const Step& step :
          {Step{"a leap second", 1s, true},
           Step{"a leap second as a host sees it", 1'000'003us, true}, Step{"an hour", 1h, false}}) {

@@ -14,7 +14,7 @@ namespace {
 
 using Seconds = std::vector<std::pair<UtcTime, std::int32_t>>;
 
-/// Samples of a slow channel with their instants, in the order of its records.
+/// Returns the samples of a slow channel with their times, in the order of its records.
 Seconds seconds_of(const Collector& sink, const std::string& channel, Nanoseconds interval = 1s) {
     Seconds seconds;
     const auto found = sink.decoded.find(channel);
@@ -34,10 +34,12 @@ Seconds seconds_of(const Collector& sink, const std::string& channel, Nanosecond
     return seconds;
 }
 
-/// k512_fc9, data ready, 24 bytes at 460 800 baud: archiver_test.cpp.
+/// Delay from a sample to the last byte of its frame: filter k512_fc9, data ready, 24 bytes at
+/// 460 800 baud (see archiver_test.cpp).
 constexpr Nanoseconds kDelay = 63'875us + 430us + Nanoseconds(520'833);
 
-/// Samples 3 + 50 n ... 52 + 50 n lie in second n of kStart: sample k is at 20 ms (k + 1) - kDelay.
+/// First sample of the first whole second after kStart. Second n has the samples 3 + 50 n ... 52 +
+/// 50 n, because sample k is at 20 ms (k + 1) - kDelay.
 constexpr std::int64_t kFirst = 3;
 
 std::int32_t mean_temperature(std::int64_t first, std::int64_t end) {
@@ -48,7 +50,7 @@ std::int32_t mean_temperature(std::int64_t first, std::int64_t end) {
         std::llround(1000.0 * (34.987 - 0.0037918 * sum / static_cast<double>(end - first))));
 }
 
-/// A device whose seconds last `second` of the host's.
+/// Returns the stream of a device whose seconds last `second` on the host.
 JournalStream stream_of(std::int64_t count, Nanoseconds second, std::optional<double> rate_hz) {
     JournalStream stream;
     std::get<JournalHeader>(stream.chunks.front()).declared_rate_hz = rate_hz;
@@ -62,7 +64,8 @@ JournalStream stream_of(std::int64_t count, Nanoseconds second, std::optional<do
 
 }  // namespace
 
-TEST_CASE("the temperature's mean stands on each second that is whole", "[record][slow_channels]") {
+TEST_CASE("every complete second gets the mean temperature of its samples",
+          "[record][slow_channels]") {
     JournalStream stream;
     std::get<JournalHeader>(stream.chunks.front()).declared_rate_hz = 50.0006;
     stream.frames(0, 10'000);
@@ -79,13 +82,13 @@ TEST_CASE("the temperature's mean stands on each second that is whole", "[record
     CHECK(seconds_of(run.sink, "LCQ").size() == 199);
 }
 
-TEST_CASE("a second without samples is a gap, one with some of them has their mean",
+TEST_CASE("a second without samples is a gap, a second with some samples gets their mean",
           "[record][slow_channels]") {
     JournalStream stream;
     stream.frames(0, 1'000);
     stream.frames(1'110, 3'000);
     const auto run = archive(stream.chunks);
-    // 997 ... 999 and 1 110 ... 1 149 are left of seconds 19 and 22.
+    // Second 19 has the samples 953 ... 999, second 22 has 1 110 ... 1 152.
     const auto means = seconds_of(run.sink, "LK1");
     std::set<std::int64_t> missing;
     for (std::int64_t n = 0; n < 59; ++n) missing.insert(n);
@@ -97,7 +100,8 @@ TEST_CASE("a second without samples is a gap, one with some of them has their me
     CHECK(missing == std::set<std::int64_t>{20, 21});
 }
 
-TEST_CASE("where records are ended changes no second", "[record][slow_channels]") {
+TEST_CASE("the values of the slow channels do not depend on where their records end",
+          "[record][slow_channels]") {
     JournalStream stream;
     for (std::int64_t k = 0; k < 9'000; ++k) {
         stream.frame(k);
@@ -121,8 +125,10 @@ TEST_CASE("where records are ended changes no second", "[record][slow_channels]"
     }
 }
 
-TEST_CASE("the clock error is that of start and header rate at each second",
-          "[record][slow_channels]") {
+TEST_CASE(
+    "the clock error of each second is the error of its time reckoned from record start and header "
+    "rate",
+    "[record][slow_channels]") {
     // 20 ppm fast: a second of 50 samples lasts 20 us less.
     const bool is_declared = GENERATE(false, true);
     const auto rate_hz = is_declared ? std::optional(50.001) : std::nullopt;
@@ -135,15 +141,15 @@ TEST_CASE("the clock error is that of start and header rate at each second",
         REQUIRE(records[record].header.start <= time);
         ++seen;
         if (time < kStart + 200s) continue;  // the rate is not known yet
-        // Rates are known to 1 ppm by then and the float in blockette 100 to 0.04 ppm; a record has
-        // up to 14 s, a sample 20 ms, stamps 1 us.
+        // Rates are known to 1 ppm by then, and the float in blockette 100 is exact to 0.04 ppm. A
+        // record lasts up to 14 s, a sample 20 ms; stamps have steps of 1 us.
         const double since_s = seconds_between(records[record].header.start, time);
         REQUIRE(error_us == Approx(per_second_us * since_s).margin(2.0 + since_s));
     }
     CHECK(seen >= 597);
 }
 
-TEST_CASE("a second of the clock's quality is that of its samples", "[record][slow_channels]") {
+TEST_CASE("the clock quality of a second is that of its samples", "[record][slow_channels]") {
     JournalStream stream;
     for (std::int64_t k = 0; k < 10'000; ++k) {
         stream.frame(k);
@@ -156,13 +162,13 @@ TEST_CASE("a second of the clock's quality is that of its samples", "[record][sl
     const auto run = archive(stream.chunks);
     const auto qualities = seconds_of(run.sink, "LCQ");
     REQUIRE(qualities.size() == 199);
-    // Up to 0.5 ms and 100 ms by the host's account; the line itself is known to 3 ms or better, for
-    // a timer in step with the sensor may hide as much.
+    // The host states errors of up to 0.5 ms and 100 ms. The line itself is known to 3 ms or
+    // better, because a timer in step with the sensor may hide as much.
     CHECK(qualities[90].second >= 89);
     CHECK(qualities[150].second == 60);
 }
 
-TEST_CASE("seconds in which the clock is set are missing, the others stand once",
+TEST_CASE("seconds in which the clock is set are missing, all others occur once",
           "[record][slow_channels]") {
     const Nanoseconds step = GENERATE(Nanoseconds(3'300ms), Nanoseconds(-7'700ms));
     JournalStream stream;
@@ -185,12 +191,12 @@ TEST_CASE("seconds in which the clock is set are missing, the others stand once"
     // One second ends in the step, one begins in it.
     CHECK(std::chrono::abs(jumps.front() - 1s - step) <= 2s);
     CHECK(jumps.front() >= step + 1s);
-    // Each is a mean of 50 samples in a row: temperature rises by one count in two seconds.
+    // Each value is a mean of 50 samples in a row: temperature rises by one count in two seconds.
     for (std::size_t i = 1; i < means.size(); ++i)
         REQUIRE(std::abs(means[i].second - means[i - 1].second) <= 8);
 }
 
-TEST_CASE("the oven's values stand on the nearest second", "[record][slow_channels]") {
+TEST_CASE("each value of the oven is stored at the nearest second", "[record][slow_channels]") {
     JournalStream stream;
     for (std::int64_t k = 0; k < 3'000; ++k) {
         stream.frame(k);
@@ -233,7 +239,7 @@ TEST_CASE("the oven is archived while the sensor is silent", "[record][slow_chan
     Archiver archiver(sink);
     for (const auto& chunk : stream.chunks) archiver.take(chunk);
     const auto known = seconds_of(sink, "LK2");
-    REQUIRE(known.size() >= 122);  // of 190, what is older than 60 s by now
+    REQUIRE(known.size() >= 122);  // of 190 values, those that are older than 60 s
     CHECK(known.front().first == kStart + 11s);
     CHECK(known.back().first - known.front().first == (known.size() - 1) * 1s);
     CHECK(sink.decoded.at("LK2").size() <= 4);
@@ -241,8 +247,8 @@ TEST_CASE("the oven is archived while the sensor is silent", "[record][slow_chan
     CHECK(seconds_of(sink, "LK2").size() == 190);
 }
 
-TEST_CASE("a row of polls between two seconds loses none of them", "[record][slow_channels]") {
-    // On a grid that stays half a second off, each a little beside it.
+TEST_CASE("polls that fall halfway between two seconds are all stored", "[record][slow_channels]") {
+    // The polls are half a second off the grid, with a small jitter.
     const auto jitter = GENERATE(2ms, 8ms);
     constexpr int kPolls = 3'600;
     std::mt19937_64 random(7);
@@ -265,8 +271,10 @@ TEST_CASE("a row of polls between two seconds loses none of them", "[record][slo
     CHECK(run.sink.decoded.at("LK2").size() <= kPolls / 60 + 2);
 }
 
-TEST_CASE("no oven's value stands far from its poll, and only a poll that failed leaves a gap",
-          "[record][slow_channels]") {
+TEST_CASE(
+    "no value of the oven is stored far from the time of its poll, and only failed polls leave a "
+    "gap",
+    "[record][slow_channels]") {
     const auto [interval, every, most] =
         GENERATE(table<std::chrono::seconds, Nanoseconds, Nanoseconds>(
             {{1s, 100ms, 600ms}, {1s, 900ms, 600ms}, {1s, 1s, 600ms}, {2s, 1200ms, 1s}}));
@@ -295,7 +303,8 @@ TEST_CASE("no oven's value stands far from its poll, and only a poll that failed
     CHECK(std::chrono::abs(pauses.front() - (kFailed + 1) * every) <= interval + most);
 }
 
-TEST_CASE("an oven that is polled seldom has a channel of that rate", "[record][slow_channels]") {
+TEST_CASE("an oven that is polled seldom has a channel with the rate of its polls",
+          "[record][slow_channels]") {
     const auto [interval, wanders] = GENERATE(std::pair(2s, 400ms), std::pair(7s, 900ms),
                                               std::pair(60s, 0ms), std::pair(3600s, 900ms));
     constexpr int kPolls = 150, kMissing = 99;
@@ -314,20 +323,21 @@ TEST_CASE("an oven that is polled seldom has a channel of that rate", "[record][
     const auto run = archive(stream.chunks);
     CHECK(seconds_of(run.sink, "LK2", interval) == expected);
     CHECK(seconds_of(run.sink, "LK3", interval).size() == expected.size());
-    // Many in a record: at most an hour, which ends at midnight and at what is missing too.
+    // A record has many values: it lasts up to an hour, and ends at midnight and at a missing
+    // value.
     const auto span = kPolls * interval;
     const auto most = 2 + 2 + span / std::min<Nanoseconds>(60 * interval, 1h);
     CHECK(run.sink.decoded.at("LK2").size() <= static_cast<std::size_t>(most));
 }
 
-TEST_CASE("an oven's channel goes on after a pause, and at another interval",
+TEST_CASE("a channel of the oven continues after a pause and with another polling interval",
           "[record][slow_channels]") {
     JournalStream stream;
     std::get<JournalHeader>(stream.chunks.front()).oven_interval = 10s;
     stream.frames(0, 500);
     for (const auto at : {20s, 30s, 34s, 40s, 65s, 75s}) stream.oven(at, 400);
     stream.second(80s);
-    auto header = header_at(81s);  // The daemon was started again, the sensor's stream goes on.
+    auto header = header_at(81s);  // The daemon was started again, the sensor's stream continues.
     header.oven_interval = 2s;
     stream.chunks.emplace_back(header);
     for (const auto at : {83s, 85s}) stream.oven(at, 401);
@@ -335,11 +345,12 @@ TEST_CASE("an oven's channel goes on after a pause, and at another interval",
     std::vector<std::pair<Nanoseconds, std::size_t>> records;
     for (const auto& record : run.sink.decoded.at("LK2"))
         records.emplace_back(record.header.start - kStart, record.samples.size());
-    // What comes 4 s after the one before is left out.
+    // The value only 4 s after another one is left out.
     CHECK(records == decltype(records){{20s, 3}, {65s, 2}, {83s, 2}});
 }
 
-TEST_CASE("a sensor without temperature has the clock's channels only", "[record][slow_channels]") {
+TEST_CASE("a sensor without temperature has only the slow channels of the clock",
+          "[record][slow_channels]") {
     const auto layout = *wire::BurstLayout::from_burst_ctrl(0x0103);  // z, COUNT, CHKSM
     JournalStream stream;
     std::get<JournalHeader>(stream.chunks.front()).burst_ctrl = layout.burst_ctrl();

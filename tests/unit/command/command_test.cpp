@@ -1,4 +1,4 @@
-// The program a351-correct as a script sees it: exit status, streams, files of a table.
+// The program a351-correct as a script sees it: exit status, streams and the files of `table`.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include "tests/support/catch.hpp"
@@ -21,7 +21,7 @@ bool has_result(const test::TemporaryDirectory& folder) {
 
 }  // namespace
 
-TEST_CASE("table corrects the published survey and writes the same bytes twice", "[command]") {
+TEST_CASE("table corrects the published survey and writes the same bytes each time", "[command]") {
     const test::TemporaryDirectory folder;
     const Outcome first = run(folder, kTsukuba + "--model t-rate-drift --flags ignore --out a");
     CHECK(first.status == 0);
@@ -37,7 +37,7 @@ TEST_CASE("table corrects the published survey and writes the same bytes twice",
     }
 }
 
-TEST_CASE("table writes a report, the same bytes twice, in the formats asked for", "[command]") {
+TEST_CASE("table writes a report in the requested formats, the same bytes each time", "[command]") {
     const test::TemporaryDirectory folder;
     const std::string arguments = kTsukuba + "--model paper --figures pdf --figures png --out ";
     const Outcome first = run(folder, arguments + "a");
@@ -60,7 +60,7 @@ TEST_CASE("table writes a report, the same bytes twice, in the formats asked for
                    ContainsSubstring("<svg"));
 }
 
-TEST_CASE("without a gnuplot that works everything but figures is written", "[command]") {
+TEST_CASE("without a working gnuplot everything except the figures is written", "[command]") {
     const auto [script, reason] = GENERATE(table<std::string, std::string>({
         {"", "figures are missing: gnuplot is not installed (not in PATH)"},
         {"echo 'no fonts' >&2; exit 5", "gnuplot ended with status 5: no fonts; 5 more such"},
@@ -97,7 +97,7 @@ TEST_CASE("the model paper prints its RMS before and after the drift step", "[co
     CHECK(json["in_sample"]["rms_mgal"].get<double>() == Approx(2.6249).margin(1e-4));
 }
 
-TEST_CASE("a network of one datum says how far it is off the references it does not hold",
+TEST_CASE("a network with one datum reports its deviation from the other known references",
           "[command]") {
     const test::TemporaryDirectory folder;
     const std::string arguments =
@@ -123,7 +123,8 @@ TEST_CASE("a network of one datum says how far it is off the references it does 
           text::read_text_file(folder.path() / "b/result.json"));
 }
 
-TEST_CASE("bad usage ends with 2, one line on standard error and nothing written", "[command]") {
+TEST_CASE("bad usage ends with status 2 and one line on standard error, and nothing is written",
+          "[command]") {
     const test::TemporaryDirectory folder;
     folder.write("unknown.csv",
                  "site,occupation,time_utc,acceleration_mgal,temperature_degc\n"
@@ -166,9 +167,9 @@ TEST_CASE("bad usage ends with 2, one line on standard error and nothing written
         {kTsukuba + "--model paper --base No.3", "drift step is refused"},
         {"table --sites open.csv --observations open_readings.csv --model network",
          "model = network: no datum"},
-        {kTsukuba + "--out few.csv", "few.csv is no folder; allowed: a folder"},
-        {"survey day.toml --out few.csv/result", "few.csv is no folder; allowed: a folder"},
-        {"emd --input inf.csv --column a --output data", "--output = data: no regular file"},
+        {kTsukuba + "--out few.csv", "few.csv is not a folder; allowed: a folder"},
+        {"survey day.toml --out few.csv/result", "few.csv is not a folder; allowed: a folder"},
+        {"emd --input inf.csv --column a --output data", "--output = data: not a regular file"},
         {kTsukuba + "--datum-sd 0", "--datum-sd = 0: out of range"},
         {kTsukuba + "--prior beta 1 2", "--prior = beta: no such coefficient; allowed: temp"},
         {kTsukuba + "--prior time_mgal_per_h 1 0", "out of range; allowed: mean from"},
@@ -204,7 +205,7 @@ TEST_CASE("bad usage ends with 2, one line on standard error and nothing written
          "--to = 2020-01-01T02:00:00Z: not after --from"},
         {"record data --from 2020-01-01T02:00:00Z --to 2020-01-01T01:00:00Z",
          "--to = 2020-01-01T01:00:00Z; allowed: an instant after --from"},
-        {"survey day.toml day.toml --out both", "survey.name = day: stands twice"},
+        {"survey day.toml day.toml --out both", "survey.name = day: used by two days"},
     }));
     CAPTURE(arguments);
     const Outcome outcome = run(folder, arguments);
@@ -215,9 +216,10 @@ TEST_CASE("bad usage ends with 2, one line on standard error and nothing written
     CHECK_FALSE(has_result(folder));
 }
 
-TEST_CASE("a tide from a file does what the model it was written by does", "[command]") {
+TEST_CASE("a tide read from a file gives the same result as the model that wrote the file",
+          "[command]") {
     const test::TemporaryDirectory folder;
-    // Mean position of the calibration line; over it the tide differs by less than 0.0001 mGal.
+    // Mean position of the calibration line, along which the tide differs by less than 0.0001 mGal.
     CHECK(run(folder,
               "tide --latitude 36.215 --longitude 140.1 --height 300 --from 2017-07-15T23:00:00Z "
               "--to 2017-07-16T10:00:00Z --step 600 --output tide.csv")
@@ -246,7 +248,7 @@ TEST_CASE("a tide from a file does what the model it was written by does", "[com
     CHECK_FALSE(has_result(folder));
 }
 
-TEST_CASE("a result that has no place is refused, one that finds a full disk ends with 1",
+TEST_CASE("an output that is no regular file is refused, and a full disk gives status 1",
           "[command]") {
     const test::TemporaryDirectory folder;
     const std::string tide =
@@ -258,7 +260,8 @@ TEST_CASE("a result that has no place is refused, one that finds a full disk end
           std::string("decimate --input s.csv --column value --factor 2 --stages 1")}) {
         const Outcome refused = run(folder, step + " --output .");
         CHECK(refused.status == 2);
-        CHECK(refused.errors == "a351-correct: --output = .: no regular file; allowed: a file\n");
+        CHECK(refused.errors ==
+              "a351-correct: --output = .: not a regular file; allowed: a file\n");
     }
     folder.write("stdout.txt", "");
     const Outcome full = run(folder, tide + " > /dev/full 2> stderr.txt #");
@@ -266,7 +269,7 @@ TEST_CASE("a result that has no place is refused, one that finds a full disk end
     CHECK_THAT(full.errors, StartsWith("a351-correct: standard output: cannot be written"));
 }
 
-TEST_CASE("help and version go to standard output and end with 0", "[command]") {
+TEST_CASE("help and version are written to standard output with status 0", "[command]") {
     const test::TemporaryDirectory folder;
     CHECK(run(folder, "--version").output == "a351-correct " A351_VERSION "\n");
     const Outcome help = run(folder, "tide --help");

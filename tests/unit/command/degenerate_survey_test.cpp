@@ -1,5 +1,5 @@
-// Survey days with something missing or wrong, corrected by the program: what is good is computed,
-// what is not is said.
+// Survey days with missing or wrong input, corrected by the program: it computes the good part and
+// reports the rest.
 #include <algorithm>
 #include <boost/crc.hpp>
 #include <map>
@@ -35,7 +35,7 @@ nlohmann::json json_of(const Morning& morning) {
         text::read_text_file(morning.folder().path() / "result/result.json"));
 }
 
-/// Acceptable: the row has the value that was put in, to some hundredths of a mGal.
+/// Checks that the row has the value that was put in, to some hundredths of a mGal.
 void check_value(const text::CsvTable& table, std::size_t row) {
     const UtcTime time = parse_rfc3339(table.cell(row, "time_utc")).value();
     CHECK(table.number(row, "acceleration_mgal") ==
@@ -46,7 +46,8 @@ void check_value(const text::CsvTable& table, std::size_t row) {
 
 }  // namespace
 
-TEST_CASE("an occupation without data stays in the table, the rest is computed", "[degenerate]") {
+TEST_CASE("an occupation without data stays in the table, and the others are computed",
+          "[degenerate]") {
     const Morning morning;
     morning.folder().write("occupations.csv",
                            kHeader + kB + kS1 + kS2 +
@@ -73,7 +74,7 @@ TEST_CASE("an occupation without data stays in the table, the rest is computed",
           R"("site":"S2","start_utc":"2020-05-02T03:00:00.000Z"}])");
 }
 
-TEST_CASE("a day whose second half is missing is corrected from its first", "[degenerate]") {
+TEST_CASE("a day whose second half is missing is corrected from its first half", "[degenerate]") {
     const Morning morning;
     std::size_t removed = 0;
     for (const auto& entry :
@@ -94,7 +95,7 @@ TEST_CASE("a day whose second half is missing is corrected from its first", "[de
     CHECK(json_of(morning)["in_sample"]["n"] == 3);
 }
 
-TEST_CASE("a base and a datum station that were lost are named, and others stand in",
+TEST_CASE("a lost base and a lost datum station are reported, and other stations replace them",
           "[degenerate]") {
     const Morning morning;
     morning.folder().write(
@@ -107,12 +108,12 @@ TEST_CASE("a base and a datum station that were lost are named, and others stand
     CHECK(json_of(morning)["base"] == "S1");
     const Outcome paper = correct(morning, "base='B'\nmodel='paper'\n");
     CHECK(paper.status == 2);
-    CHECK_THAT(paper.errors, ContainsSubstring("base = B: no occupation of it"));
+    CHECK_THAT(paper.errors, ContainsSubstring("base = B: no occupation of this site"));
 }
 
-TEST_CASE("the temperature of the day before is among the inputs, with its checksum",
+TEST_CASE("the temperature file of the day before is listed among the inputs with its checksum",
           "[degenerate]") {
-    const Morning morning;  // a file for either side of midnight
+    const Morning morning;  // its archive has a file on each side of midnight
     morning.folder().write("occupations.csv",
                            kHeader + "S2,1,2020-05-02T00:01:05Z,2020-05-02T00:01:58Z,,\n" + kB2);
     REQUIRE(correct(morning, "model='t'\n").status == 0);
@@ -138,7 +139,7 @@ TEST_CASE("the temperature of the day before is among the inputs, with its check
     CHECK(count == 5);
 }
 
-TEST_CASE("a bad day of three is said, the others and the joint table are written",
+TEST_CASE("one bad day of three is reported, and the others and the joint table are written",
           "[degenerate]") {
     const Morning morning;
     const auto& folder = morning.folder();
@@ -149,11 +150,11 @@ TEST_CASE("a bad day of three is said, the others and the joint table are writte
     const Outcome outcome = run(folder, "survey a.toml b.toml c.toml");
     CHECK(outcome.status == 1);
     CHECK_THAT(outcome.errors,
-               ContainsSubstring("1 of 3 days not corrected, the others are written: "
+               ContainsSubstring("1 of 3 days are not corrected, the others are written: "
                                  "bad: b.toml: root = ") &&
                    ContainsSubstring("no occupation has samples"));
     CHECK_THAT(outcome.output, ContainsSubstring("survey a\n") && ContainsSubstring("survey c\n") &&
-                                   ContainsSubstring("all days but those not corrected"));
+                                   ContainsSubstring("all corrected days"));
     const auto result = folder.path() / "result";
     for (const std::string name : {"a", "c"})
         CHECK(std::filesystem::exists(result / name / "report.html"));
@@ -171,7 +172,7 @@ TEST_CASE("a bad day of three is said, the others and the joint table are writte
     CHECK_FALSE(std::filesystem::exists(folder.path() / "none"));
 }
 
-TEST_CASE("swapped times and overlaps cost only those occupations", "[degenerate]") {
+TEST_CASE("swapped times and overlaps exclude only the occupations concerned", "[degenerate]") {
     const Morning morning;
     morning.folder().write("occupations.csv",
                            kHeader + kB + kS1 + kS2 + kB2 +
@@ -192,7 +193,7 @@ TEST_CASE("swapped times and overlaps cost only those occupations", "[degenerate
                           "at 2020-05-02T00:01:10Z"));
 }
 
-TEST_CASE("an amendment mends swapped times without touching the data", "[degenerate]") {
+TEST_CASE("an amendment corrects swapped times without changing the data", "[degenerate]") {
     const Morning morning;
     morning.folder().write(
         "occupations.csv",
@@ -217,7 +218,7 @@ TEST_CASE("an amendment mends swapped times without touching the data", "[degene
     CHECK(json_of(morning)["inputs"][4]["role"] == "amendments");
 }
 
-TEST_CASE("a site without coordinates has the tide of the mean position, and is named",
+TEST_CASE("a site without coordinates gets the tide of the mean position and is reported",
           "[degenerate]") {
     const Morning morning;
     correct(morning, "", "--out whole");
@@ -228,7 +229,7 @@ TEST_CASE("a site without coordinates has the tide of the mean position, and is 
     CHECK(outcome.status == 0);
     CHECK(outcome.errors ==
           "a351-correct: day: B: no position in the table of sites; the mean of the others is "
-          "taken\n");
+          "used\n");
     const auto table = table_of(morning);
     const auto whole = text::read_csv(morning.folder().path() / "whole/occupations.csv");
     for (std::size_t row = 0; row < 4; ++row) {
@@ -238,8 +239,10 @@ TEST_CASE("a site without coordinates has the tide of the mean position, and is 
     CHECK(json_of(morning)["settings"]["warnings"].size() == 1);
 }
 
-TEST_CASE("one occupation alone is no survey: one line tells what became of the others",
-          "[degenerate]") {
+TEST_CASE(
+    "a survey with only one usable occupation is refused in one line that says why the others are "
+    "left out",
+    "[degenerate]") {
     const Morning morning;
     morning.folder().write("occupations.csv",
                            kHeader + kB + "S1,1,2020-05-02T03:00:00Z,2020-05-02T03:10:00Z,,\n");
@@ -252,7 +255,7 @@ TEST_CASE("one occupation alone is no survey: one line tells what became of the 
     CHECK_FALSE(std::filesystem::exists(morning.folder().path() / "result"));
 }
 
-TEST_CASE("the tide of a survey may be given by its occupations or by a file", "[degenerate]") {
+TEST_CASE("the tide of a survey can come from its occupations or from a file", "[degenerate]") {
     const Morning morning;
     morning.folder().write("occupations.csv",
                            "site,occupation,start_utc,end_utc,earth_tide_mgal\n"
@@ -271,7 +274,7 @@ TEST_CASE("the tide of a survey may be given by its occupations or by a file", "
     CHECK(table_of(morning).number(2, "tide_mgal") == 0.0);
 }
 
-TEST_CASE("wrong input files of a survey end with 2, one line and nothing written",
+TEST_CASE("a wrong input file of a survey gives status 2 and one line, and nothing is written",
           "[degenerate]") {
     const Morning morning;
     const auto& folder = morning.folder();
@@ -285,7 +288,7 @@ TEST_CASE("wrong input files of a survey end with 2, one line and nothing writte
                  "B,140.1,96.2,500,979800\n");
     const auto [keys, message] = GENERATE(table<std::string, std::string>({
         {"amendments='none.toml'\n", "none.toml: cannot be read"},
-        {"amendments='stray.toml'\n", "stray.toml:2: exclude.site = 'S9': no occupation of it"},
+        {"amendments='stray.toml'\n", "stray.toml:2: exclude.site = 'S9': no occupation there"},
         {"amendments='broken.toml'\n", "broken.toml:1: not TOML"},
         {"tide='given'\n", "tide = given: B has no earth_tide_mgal; allowed: direct"},
         {"tide='absent.csv'\n",

@@ -1,4 +1,5 @@
-// A survey day whose event log has slips, corrected by the program: they are said, the rest is computed.
+// A survey day whose event log has mistakes, corrected by the program: it reports them and computes
+// the rest.
 #include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -21,7 +22,7 @@ record::Event stop(std::size_t i) {
     return {"stop", Morning::start_of(i) + Morning::kStay, {}, {}, {}};
 }
 
-/// Corrects a morning of which these events were logged, in this order.
+/// Corrects a morning whose event log has these events in this order.
 Outcome correct(const Morning& morning, const std::vector<record::Event>& events) {
     for (const record::Event& event : events)
         record::append_event(record::posix_files(), morning.folder().path() / "data/events", event);
@@ -29,7 +30,7 @@ Outcome correct(const Morning& morning, const std::vector<record::Event>& events
     return run(morning.folder(), "survey day.toml");
 }
 
-/// "site (occupation) flags" of each row, with a star where it has no value.
+/// Returns "site (occupation) flags" of each row, with a star if it has no value.
 std::vector<std::string> rows_of(const Morning& morning) {
     const auto table = text::read_csv(morning.folder().path() / "result/occupations.csv");
     std::vector<std::string> rows;
@@ -54,7 +55,8 @@ std::vector<record::Event> whole_morning() {
 
 }  // namespace
 
-TEST_CASE("a stop logged before its start costs that occupation, by its number", "[logged]") {
+TEST_CASE("a stop logged before its start excludes that occupation, which keeps its number",
+          "[logged]") {
     const Morning morning;
     auto late = start(0), early = stop(0);
     std::swap(late.utc, early.utc);
@@ -68,20 +70,22 @@ TEST_CASE("a stop logged before its start costs that occupation, by its number",
     CHECK(rows_of(morning) == Rows{"B (1) ends-before-it-starts*", "S1 (1) ", "S2 (1) ", "B (2) "});
 }
 
-TEST_CASE("a start before the stop of another is said and flags what it ended", "[logged]") {
+TEST_CASE(
+    "a start before the stop of the previous occupation ends that one, with a warning and a flag",
+    "[logged]") {
     const Morning morning;
     const Outcome outcome =
         correct(morning, {start(0), stop(0), start(1), start(2), stop(2), start(3), stop(3)});
     CHECK(outcome.status == 0);
     CHECK_THAT(outcome.errors,
                ContainsSubstring("S1 (1) at 2020-05-01T23:54:20Z has no stop: it "
-                                 "lasts to the next start, at 2020-05-01T23:58:20Z"));
+                                 "lasts until the next start, at 2020-05-01T23:58:20Z"));
     CHECK_THAT(rows_of(morning)[1], StartsWith("S1 (1) no-stop"));
     CHECK_THAT(text::read_text_file(morning.folder().path() / "result/report.html"),
-               ContainsSubstring("the way there included"));
+               ContainsSubstring("includes the drive there"));
 }
 
-TEST_CASE("events logged in another order than they happened are the same survey", "[logged]") {
+TEST_CASE("the order in which events were logged does not change the survey", "[logged]") {
     const Morning morning;
     const Outcome outcome = correct(
         morning, {start(3), stop(3), start(1), stop(1), start(0), stop(0), start(2), stop(2)});
@@ -90,7 +94,7 @@ TEST_CASE("events logged in another order than they happened are the same survey
     CHECK(rows_of(morning) == Rows{"B (1) ", "S1 (1) ", "S2 (1) ", "B (2) "});
 }
 
-TEST_CASE("of a recorder's log the last day is corrected, or the time that is asked for",
+TEST_CASE("the last day of a recorder's log is corrected, unless another time is requested",
           "[logged]") {
     const Morning morning;
     std::vector<record::Event> events = whole_morning();
@@ -116,7 +120,8 @@ TEST_CASE("of a recorder's log the last day is corrected, or the time that is as
                           "from_utc = 2020-05-02T00:00:00Z"));
 }
 
-TEST_CASE("an option stands above the survey file, and the result says which held", "[logged]") {
+TEST_CASE("an option overrides the survey file, and the result records the setting that was used",
+          "[logged]") {
     const Morning morning;
     morning.folder().write(
         "day.toml", "[survey]\noccupations = 'occupations.csv'\nmodel = 't'\ntrend = 'smoother'\n");
@@ -138,8 +143,9 @@ TEST_CASE("an option stands above the survey file, and the result says which hel
     }
 }
 
-TEST_CASE("a damaged record of the archive is told by file and offset, and the day is corrected",
-          "[logged]") {
+TEST_CASE(
+    "a damaged archive record is reported with file and offset, and the day is still corrected",
+    "[logged]") {
     const Morning morning;
     const auto file =
         morning.folder().path() / "data/archive/2020/XX/A351/BNZ.D/XX.A351.00.BNZ.D.2020.122";
@@ -150,7 +156,7 @@ TEST_CASE("a damaged record of the archive is told by file and offset, and the d
     CHECK(outcome.status == 0);
     CHECK_THAT(
         outcome.errors,
-        ContainsSubstring("XX.A351.00.BNZ.D.2020.122: offset 2048: 512 bytes are no record"));
+        ContainsSubstring("XX.A351.00.BNZ.D.2020.122: offset 2048: 512 bytes are not a record"));
     const Rows rows = rows_of(morning);
     REQUIRE(rows.size() == 4);
     CHECK(Rows(rows.begin() + 1, rows.end()) == Rows{"S1 (1) ", "S2 (1) ", "B (2) "});

@@ -1,4 +1,5 @@
-// Networks by the program: what the readings determine comes back, what they leave open is said.
+// Networks adjusted by the program: it finds what the readings determine and reports what they
+// leave open.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -26,7 +27,7 @@ double gravity_mgal(const std::string& site) {
     return 979800.0 + 7.0 * (site == "B" ? 0.0 : site.back() - '0');
 }
 
-/// Only B is known, unless there is no datum.
+/// Writes sites of which only B has a known gravity; none has one without a datum.
 void write_sites(const test::TemporaryDirectory& folder, bool has_datum = true) {
     std::string csv = "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\n";
     for (const std::string& site : kStations)
@@ -35,7 +36,8 @@ void write_sites(const test::TemporaryDirectory& folder, bool has_datum = true) 
     folder.write("sites.csv", csv);
 }
 
-/// A stay every 45 min; one loop per day, temperature and drift of the instrument going on.
+/// Writes one reading every 45 min and one loop per day; temperature and drift of the instrument
+/// continue between days.
 void write_readings(const test::TemporaryDirectory& folder, const std::vector<Loop>& loops,
                     bool is_steady = false) {
     std::string csv =
@@ -65,7 +67,7 @@ Outcome adjust(const test::TemporaryDirectory& folder, const std::string& option
 
 }  // namespace
 
-TEST_CASE("a known quadratic drift and the unknown stations come back from the command line",
+TEST_CASE("table finds a known quadratic drift and the unknown stations of a network",
           "[network_command]") {
     const test::TemporaryDirectory folder;
     write_sites(folder);
@@ -77,7 +79,7 @@ TEST_CASE("a known quadratic drift and the unknown stations come back from the c
         nlohmann::json::parse(text::read_text_file(folder.path() / "result/result.json"));
     std::map<std::string, double> found;
     for (const auto& one : json["coefficients"]) found[one["name"]] = one["value"];
-    // Readings of 1e6 mGal are rounded to 1.2e-10, over eight hours.
+    // Readings of 1e6 mGal are rounded to 1.2e-10 mGal, and the day lasts eight hours.
     CHECK(found["time2_mgal_per_h2"] == Approx(kQuadratic_mgal_per_h2).epsilon(0).margin(1e-8));
     CHECK(found["time_mgal_per_h"] == Approx(kDrift_mgal_per_h).epsilon(0).margin(1e-8));
     CHECK(found["temperature_mgal_per_degc"] ==
@@ -88,13 +90,13 @@ TEST_CASE("a known quadratic drift and the unknown stations come back from the c
         CHECK(stations.number(row, "gravity_mgal") ==
               Approx(gravity_mgal(stations.cell(row, "site"))).epsilon(0).margin(1e-6));
 
-    // A line through the same drift leaves its bend in the stations.
+    // A linear drift model leaves the curvature of the drift in the stations.
     CHECK(adjust(folder, "--out line").status == 0);
     const auto bent = text::read_csv(folder.path() / "line/stations.csv");
     CHECK(std::abs(bent.number(1, "gravity_mgal") - gravity_mgal("S1")) > 0.1);
 }
 
-TEST_CASE("a network with something open is refused in one line that says what",
+TEST_CASE("a network with something undetermined is refused in one line that names it",
           "[network_command]") {
     const test::TemporaryDirectory folder;
     bool has_datum = true;
@@ -103,7 +105,7 @@ TEST_CASE("a network with something open is refused in one line that says what",
     SECTION("no datum") {
         has_datum = false;
         loops = {kDay};
-        parts = {"no datum", "allowed: gravity_mgal of at least one station occupied"};
+        parts = {"no datum", "allowed: gravity_mgal of at least one occupied station"};
     }
     SECTION("two groups") {
         loops = {{"B", "S1", "B", "S1"}, {"S2", "S3", "S2", "S3"}};
@@ -124,13 +126,13 @@ TEST_CASE("a network with something open is refused in one line that says what",
     CHECK_FALSE(std::filesystem::exists(folder.path() / "result"));
 }
 
-TEST_CASE("a network with something weak is adjusted and says what, in text and report",
+TEST_CASE("a network with a weak part is adjusted, and text and report name the weakness",
           "[network_command]") {
     const test::TemporaryDirectory folder;
     std::string words;
-    SECTION("groups of a day that only the drift joins") {
+    SECTION("groups of one day that only the drift connects") {
         write_readings(folder, {{"B", "S1", "B", "S1", "S2", "S3", "S2", "S3"}});
-        words = "not connected with a datum but by the instrument's constant and drift";
+        words = "connected with a datum only by the instrument's constant and drift";
     }
     SECTION("one base occupation, with drift") {
         write_readings(folder, {{"B", "S1", "S2", "S3", "S4", "S1", "S2", "S3", "S4"}});
@@ -150,9 +152,8 @@ TEST_CASE("a network with something weak is adjusted and says what, in text and 
                ContainsSubstring(words.substr(0, 40)));
 }
 
-TEST_CASE(
-    "a constant temperature and a drift of one base occupation are refused by the other models",
-    "[network_command]") {
+TEST_CASE("the other models refuse a constant temperature, and a drift from one base occupation",
+          "[network_command]") {
     const test::TemporaryDirectory folder;
     write_sites(folder);
     write_readings(folder, {{"B", "S1", "S2", "B", "S3", "B"}}, true);

@@ -18,7 +18,7 @@ void write_sine_on_a_slope(const test::TemporaryDirectory& folder) {
 
 }  // namespace
 
-TEST_CASE("tide writes instants and the effect on gravity", "[command]") {
+TEST_CASE("tide writes times and the effect on gravity", "[command]") {
     const test::TemporaryDirectory folder;
     const std::string arguments =
         "tide --latitude 40.7914 --longitude 282.1414 --height 370 --from 2015-04-23T00:00:00Z "
@@ -34,7 +34,7 @@ TEST_CASE("tide writes instants and the effect on gravity", "[command]") {
     CHECK(text::read_text_file(folder.path() / "tide.csv") == outcome.output);
 }
 
-TEST_CASE("emd writes the modes and prints what tells them apart", "[command]") {
+TEST_CASE("emd writes the modes and prints a summary of each", "[command]") {
     const test::TemporaryDirectory folder;
     write_sine_on_a_slope(folder);
     const std::string arguments = "emd --input in.csv --column v --modes 4 --output ";
@@ -63,7 +63,7 @@ TEST_CASE("emd writes the modes and prints what tells them apart", "[command]") 
     CHECK_THAT(odd.errors, ContainsSubstring("--ensemble = 21; allowed with --pairs: an even"));
 }
 
-TEST_CASE("emd ends its modes elsewhere by --s-number, which is refused out of range",
+TEST_CASE("the option --s-number changes the modes of emd and is refused out of range",
           "[command]") {
     const test::TemporaryDirectory folder;
     write_sine_on_a_slope(folder);
@@ -82,7 +82,7 @@ TEST_CASE("emd ends its modes elsewhere by --s-number, which is refused out of r
     CHECK_THAT(refused.errors, ContainsSubstring("--s-number = 0"));
 }
 
-TEST_CASE("decimate counts what is missing and keeps what is good", "[command]") {
+TEST_CASE("decimate counts missing samples and writes the valid values", "[command]") {
     const test::TemporaryDirectory folder;
     std::string rows = "time_s,a\n";
     for (int i = 0; i < 1000; ++i) {
@@ -93,7 +93,8 @@ TEST_CASE("decimate counts what is missing and keeps what is good", "[command]")
         run(folder, "decimate --factor 10 --input in.csv --column a --output out.csv");
     CHECK(outcome.status == 0);
     CHECK(outcome.output.empty());
-    // Of 100 values five reach beyond the start, four beyond the end and nine into the gap.
+    // The filters of five of the 100 values reach beyond the start, of four beyond the end, and of
+    // nine into the gap.
     CHECK_THAT(outcome.errors,
                ContainsSubstring("1000 samples (1 missing) to 100 values (82 valid)"));
     const auto table = text::read_csv(folder.path() / "out.csv");
@@ -103,7 +104,7 @@ TEST_CASE("decimate counts what is missing and keeps what is good", "[command]")
     CHECK(table.cell(60, "valid") == "0");
 }
 
-TEST_CASE("a blank line in a single column is a missing sample to every step", "[command]") {
+TEST_CASE("a blank line in a single column counts as a missing sample in every step", "[command]") {
     const test::TemporaryDirectory folder;
     std::string rows = "a\n";
     for (int i = 0; i < 100; ++i) rows += i == 40 ? "\n" : std::to_string(i % 7) + "\n";
@@ -121,15 +122,16 @@ TEST_CASE("a blank line in a single column is a missing sample to every step", "
     CHECK_THAT(refused.errors, ContainsSubstring("in.csv:42: a = "));
 }
 
-TEST_CASE("smooth says when the weights did not settle", "[command]") {
+TEST_CASE("smooth reports that its weights did not converge", "[command]") {
     const test::TemporaryDirectory folder;
     folder.write("in.csv", "a\n57\n50\n60\n1\n11\n5\n5\n2\n6\n9\n7\n4\n");
     const Outcome outcome = run(folder, "smooth --cutoff 10 --input in.csv --column a");
     CHECK(outcome.status == 0);
-    CHECK_THAT(outcome.errors, ContainsSubstring("did not settle"));
+    CHECK_THAT(outcome.errors, ContainsSubstring("did not converge"));
 }
 
-TEST_CASE("smooth and decimate refuse samples whose squares overflow, and too few", "[command]") {
+TEST_CASE("smooth and decimate refuse too few samples, and samples whose squares overflow",
+          "[command]") {
     const test::TemporaryDirectory folder;
     folder.write("huge.csv", "a\n1\n1.2e308\n-1.2e308\n3\n");
     folder.write("two.csv", "a,b\n1,0\n,0\n2,0\n");
@@ -145,7 +147,8 @@ TEST_CASE("smooth and decimate refuse samples whose squares overflow, and too fe
     CHECK_THAT(two.errors, ContainsSubstring("two.csv: a: 2 samples; allowed: 3 or more"));
 }
 
-TEST_CASE("a time column of unequal steps is refused where the step changes", "[command]") {
+TEST_CASE("a time column with unequal steps is refused at the row where the step changes",
+          "[command]") {
     const test::TemporaryDirectory folder;
     const auto refused = [&](const std::string& times, const std::string& place) {
         folder.write("in.csv", times);
@@ -161,7 +164,7 @@ TEST_CASE("a time column of unequal steps is refused where the step changes", "[
     CHECK(run(folder, "smooth --cutoff 3 --input in.csv --column a").status == 0);
 }
 
-TEST_CASE("smooth draws a line through a line, its gap and its outlier", "[command]") {
+TEST_CASE("smooth follows a straight line through a gap and an outlier", "[command]") {
     const test::TemporaryDirectory folder;
     std::string rows = "a\n";
     for (int i = 0; i < 100; ++i) {

@@ -4,8 +4,8 @@
 #include <thread>
 #include "tests/support/catch.hpp"
 
-/// Made up for tests/system/host_pauses.py, which counts its runs and stops it.
-TEST_CASE("a case that a pause of the host turns red", "[.][host_pauses]") {
+/// Case for tests/system/host_pauses.py, which counts its runs and stops the process.
+TEST_CASE("a test case that fails when the host pauses", "[.][host_pauses]") {
     using Clock = std::chrono::steady_clock;
     using std::chrono::milliseconds;
     std::ofstream("runs", std::ios::app) << "run\n";

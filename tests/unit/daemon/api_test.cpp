@@ -5,7 +5,7 @@
 using namespace a351;
 using namespace a351::daemon;
 
-TEST_CASE("an occupation is started, set up anew, renamed and stopped by POST", "[daemon][page]") {
+TEST_CASE("an occupation is started, set up again, renamed and stopped by POST", "[daemon][page]") {
     Page page;
     const auto started = page.ask(
         post("/api/occupation/start",
@@ -28,7 +28,7 @@ TEST_CASE("an occupation is started, set up anew, renamed and stopped by POST", 
     CHECK(page.recorder.log.size() == 6);
 }
 
-TEST_CASE("a request against a rule is a conflict and says why", "[daemon][page]") {
+TEST_CASE("a request that breaks a rule is answered 409 with the reason", "[daemon][page]") {
     Page page;
     const auto answer = page.ask(post("/api/occupation/start", R"({"site":"No.7"})"), 409);
     CHECK(answer["error"].get<std::string>().find("No.7") != std::string::npos);
@@ -37,14 +37,14 @@ TEST_CASE("a request against a rule is a conflict and says why", "[daemon][page]
     CHECK(page.recorder.log.empty());
 }
 
-TEST_CASE("a change that cannot be written is a server error", "[daemon][page]") {
+TEST_CASE("a change that cannot be written to disk is answered 500", "[daemon][page]") {
     Page page;
     page.recorder.is_disk_full = true;
     page.ask(post("/api/occupation/start", R"({"site":"No.0"})"), 500);
     CHECK(is(page.ask(get("/api/status")), "/occupation", "null"));
 }
 
-TEST_CASE("malformed bodies are refused by the key", "[daemon][page]") {
+TEST_CASE("a malformed body is refused with an error that names the key", "[daemon][page]") {
     Page page;
     const auto trouble = [&](const std::string& path, const std::string& body) {
         return page.ask(post(path, body), 400)["error"].get<std::string>();
@@ -70,7 +70,7 @@ TEST_CASE("malformed bodies are refused by the key", "[daemon][page]") {
     CHECK(page.recorder.log.empty());
 }
 
-TEST_CASE("a target is set by POST, within what is allowed", "[daemon][page]") {
+TEST_CASE("a target is set by POST and refused outside the allowed range", "[daemon][page]") {
     Page page;
     page.ask(post("/api/target", R"({"target_mgal":0.5})"));
     REQUIRE(page.recorder.log.size() == 1);
@@ -80,7 +80,8 @@ TEST_CASE("a target is set by POST, within what is allowed", "[daemon][page]") {
     CHECK(page.recorder.log.size() == 1);
 }
 
-TEST_CASE("GET changes nothing and unknown paths are not found", "[daemon][page]") {
+TEST_CASE("GET changes nothing, POST reads nothing, and unknown paths are answered 404",
+          "[daemon][page]") {
     Page page;
     const std::string changes[] = {"/api/occupation/start",  "/api/occupation/stop",
                                    "/api/occupation/setup",  "/api/occupation/discard",
@@ -104,7 +105,7 @@ TEST_CASE("GET changes nothing and unknown paths are not found", "[daemon][page]
     CHECK(page.recorder.log.empty());
 }
 
-TEST_CASE("events are told from an instant on, at most a thousand at a time", "[daemon][page]") {
+TEST_CASE("events are listed from a given time on, at most 1000 per answer", "[daemon][page]") {
     Page page;
     for (int i = 0; i < 1200; ++i) {
         record::Event event;
@@ -128,7 +129,8 @@ TEST_CASE("events are told from an instant on, at most a thousand at a time", "[
     }
 }
 
-TEST_CASE("sites are told with their reference or without", "[daemon][page]") {
+TEST_CASE("sites are listed with their reference gravity, or null if there is none",
+          "[daemon][page]") {
     Page page;
     const auto list = page.ask(get("/api/sites"))["sites"];
     REQUIRE(list.size() == 2);
@@ -137,7 +139,8 @@ TEST_CASE("sites are told with their reference or without", "[daemon][page]") {
     CHECK(is(list, "/1/gravity_mgal", "null"));
 }
 
-TEST_CASE("sites are told the nearest first, seen from the last occupation", "[daemon][page]") {
+TEST_CASE("sites are listed by their distance from the last occupation, nearest first",
+          "[daemon][page]") {
     Page page;
     auto sites = two_sites();
     sites[0].latitude = Degrees(36.0);
@@ -148,7 +151,7 @@ TEST_CASE("sites are told the nearest first, seen from the last occupation", "[d
     CHECK(is(page.ask(get("/api/sites")), "/sites/0/site", R"("No.1")"));
 }
 
-TEST_CASE("the token is handed out only when the interface may", "[daemon][page]") {
+TEST_CASE("the token is given out only if the interface has one to give", "[daemon][page]") {
     Page page;
     CHECK(is(page.ask(get("/api/token")), "/token", '"' + kToken + '"'));
     Api exposed({.status = [] { return Status{}; },
@@ -159,7 +162,7 @@ TEST_CASE("the token is handed out only when the interface may", "[daemon][page]
     CHECK(exposed.answer(get("/api/token")).status == 403);
 }
 
-TEST_CASE("an exception of a source is a server error and is counted", "[daemon][page]") {
+TEST_CASE("an exception in a data source is answered 500 and counted", "[daemon][page]") {
     Page page;
     Api broken({.status = []() -> Status { throw std::runtime_error("no status"); },
                 .occupations = page.occupations,

@@ -1,4 +1,4 @@
-// What the archive owes the journal when its disk fails, or the process dies, at the start.
+// The archive gets all journaled samples although its disk fails or the process dies at the start.
 
 #include <fstream>
 
@@ -19,7 +19,7 @@ bool has_reason(const Status& status, const std::string& part) {
     return false;
 }
 
-/// The last two records of each day file: what the kernel dropped after a failed sync.
+/// Zeroes the last two records of each day file, as the kernel may drop them after a failed sync.
 void zero_newest_records(const std::filesystem::path& root) {
     for (const char* channel : {"BN1", "BN2", "BNZ", "BK1"}) {
         for (const auto& file : record::day_files(root / "archive", {}, channel)) {
@@ -34,7 +34,8 @@ void zero_newest_records(const std::filesystem::path& root) {
 struct RecoveryRig : SteppedRig {
     std::filesystem::path crashed = directory.path() / "crashed";
 
-    /// A session of 60 s that ends in a crash.
+    /// Records a session of 60 s and keeps its files as a crash would leave them.
+    /// @return options of a store for these files
     [[nodiscard]] StoreOptions crash() {
         test::FailingFiles unharmed;
         Store store(unharmed, options(), clock, reads);
@@ -91,8 +92,10 @@ TEST_CASE_METHOD(Rig, "a replay that keeps failing is given up before the journa
     CHECK(recorded_counts(again.root, "BNZ") == expected_counts(fed));
 }
 
-TEST_CASE_METHOD(RecoveryRig, "after a failed sync of the archive nothing is marked, and replayed",
-                 "[daemon][store][recovery]") {
+TEST_CASE_METHOD(
+    RecoveryRig,
+    "after a failed archive sync nothing is marked as archived, and the next start replays it",
+    "[daemon][store][recovery]") {
     {
         Store store(files, options(), clock, reads);
         begin_session();
@@ -104,7 +107,7 @@ TEST_CASE_METHOD(RecoveryRig, "after a failed sync of the archive nothing is mar
         advance(store, seconds(60));
         const Status status = status_of(store);
         CHECK(status.level == Status::Level::warning);
-        CHECK(has_reason(status, "nothing more is called archived"));
+        CHECK(has_reason(status, "newer data are not confirmed as archived"));
         CHECK_FALSE(status.archived);
         CHECK(store.stop());
     }
@@ -114,8 +117,10 @@ TEST_CASE_METHOD(RecoveryRig, "after a failed sync of the archive nothing is mar
     check_archived_once(root);
 }
 
-TEST_CASE_METHOD(RecoveryRig, "after a failed sync of a replay nothing is marked, and replayed",
-                 "[daemon][store][recovery]") {
+TEST_CASE_METHOD(
+    RecoveryRig,
+    "after a failed sync during a replay nothing is marked, and the next start replays it",
+    "[daemon][store][recovery]") {
     const StoreOptions again = crash();
     const auto marks_before = read_journal(crashed).marks.size();
     {
@@ -127,8 +132,8 @@ TEST_CASE_METHOD(RecoveryRig, "after a failed sync of a replay nothing is marked
         files.does_archive_sync_fail = false;
         advance(store, seconds(60));
         const Status status = status_of(store);
-        CHECK_FALSE(has_reason(status, "is being brought in"));
-        CHECK(has_reason(status, "nothing more is called archived"));
+        CHECK_FALSE(has_reason(status, "are being added from the journal"));
+        CHECK(has_reason(status, "newer data are not confirmed as archived"));
         CHECK(store.stop());
     }
     CHECK(read_journal(crashed).marks.size() == marks_before);
@@ -136,7 +141,7 @@ TEST_CASE_METHOD(RecoveryRig, "after a failed sync of a replay nothing is marked
     check_archived_once(crashed);
 }
 
-TEST_CASE("what a replay that was killed wrote survives a power cut after the next",
+TEST_CASE("after a killed replay, a complete one and a power cut every sample is archived once",
           "[daemon][store][recovery]") {
     std::mt19937_64 random(5);
     bool is_replayed = false;
@@ -150,7 +155,7 @@ TEST_CASE("what a replay that was killed wrote survives a power cut after the ne
             rig.advance(store, seconds(20));  // No MARK yet.
             std::filesystem::copy(rig.root, rig.crashed, std::filesystem::copy_options::recursive);
         }
-        std::filesystem::remove_all(rig.crashed / "archive");  // As a power cut may leave it.
+        std::filesystem::remove_all(rig.crashed / "archive");  // A power cut may leave it so.
         std::filesystem::create_directory(rig.crashed / "archive");
         StoreOptions again = rig.options();
         again.root = rig.crashed;
@@ -181,9 +186,9 @@ TEST_CASE("what a replay that was killed wrote survives a power cut after the ne
     std::printf("replays killed: %d\n", kills);
 }
 
-TEST_CASE("a stop as soon as a stream has begun costs no sample when the stream is adopted",
+TEST_CASE("a stop right after a stream has begun loses no sample when the stream is adopted",
           "[daemon][store][recovery]") {
-    // Whether its times are fixed by then or not: ArrivalEdge::is_settled.
+    // The range has stops before and after the times are fixed (ArrivalEdge::is_settled).
     const Nanoseconds begun = GENERATE(range(1, 13)) * kStep;
     CAPTURE(begun);
     RecoveryRig rig;
@@ -201,7 +206,7 @@ TEST_CASE("a stop as soon as a stream has begun costs no sample when the stream 
     CHECK(report.records_added == 0);
 }
 
-TEST_CASE_METHOD(RecoveryRig, "a clock of 1970 begins no epoch of the station metadata",
+TEST_CASE_METHOD(RecoveryRig, "a host clock at 1970 starts no epoch of the station metadata",
                  "[daemon][store][recovery]") {
     const auto file = root / "metadata" / "station.xml";
     Store store(files, options(), clock, reads);

@@ -36,15 +36,15 @@ inline Request without(Request request, const std::string& name) {
     return request;
 }
 
-/// Whether the member at `pointer` is written as `expected`.  Not json's own comparison, each use
-/// of which within CHECK costs the compiler a second.
+/// Returns true if the member at `pointer` is written as `expected`.  json's own comparison is not
+/// used, because each use within CHECK costs the compiler a second.
 inline bool is(const json& whole, const std::string& pointer, const std::string& expected) {
     const auto found = whole.at(json::json_pointer(pointer)).dump();
     UNSCOPED_INFO(pointer << " is " << found << ", not " << expected);
     return found == expected;
 }
 
-/// An interface over a recorder that remembers an hour.
+/// The HTTP interface of a recorder that has one hour of samples.
 struct Page {
     FakeRecorder recorder;
     Occupations occupations{recorder, two_sites(), {}};

@@ -22,7 +22,7 @@ bool has(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("the page and all it loads are compiled in", "[daemon][page]") {
+TEST_CASE("the page and every file it loads are compiled in", "[daemon][page]") {
     const Assets assets({}, "sesame");
     const auto index = assets.answer("/");
     CHECK(index.content_type == "text/html; charset=utf-8");
@@ -34,7 +34,7 @@ TEST_CASE("the page and all it loads are compiled in", "[daemon][page]") {
     CHECK(has(body_of(assets, "/dygraph.min.js"), "Dygraph"));
     CHECK(has(body_of(assets, "/dygraph.css"), ".dygraph-"));
 
-    // Whatever the page names as its own is there.
+    // Every file that the page loads from the daemon is there.
     const auto& page = index.body;
     for (const std::string mark : {"src=\"/", "href=\"/"}) {
         for (auto at = page.find(mark); at != std::string::npos; at = page.find(mark, at + 1)) {
@@ -44,13 +44,13 @@ TEST_CASE("the page and all it loads are compiled in", "[daemon][page]") {
             CHECK(assets.contains(path));
         }
     }
-    // What the content security policy forbids would not run.
+    // Inline code and styles would be blocked by the content security policy.
     CHECK_FALSE(has(page, "<script>"));
     CHECK_FALSE(has(page, " style="));
     CHECK_FALSE(has(page, " onclick="));
 }
 
-TEST_CASE("compiled files are the files, to the byte", "[daemon][page]") {
+TEST_CASE("a compiled-in file is identical to its source, byte for byte", "[daemon][page]") {
     const Assets assets({}, "");
     std::ifstream file("/usr/share/javascript/dygraphs/dygraph.min.js", std::ios::binary);
     REQUIRE(file);
@@ -58,12 +58,13 @@ TEST_CASE("compiled files are the files, to the byte", "[daemon][page]") {
     CHECK((body_of(assets, "/dygraph.min.js") == bytes));
 }
 
-TEST_CASE("a token of any characters stays within its attribute", "[daemon][page]") {
+TEST_CASE("special characters in a token are escaped in its HTML attribute", "[daemon][page]") {
     const Assets assets({}, R"("><script>&)");
     CHECK(has(body_of(assets, "/"), R"(content="&quot;>&lt;script>&amp;")"));
 }
 
-TEST_CASE("a directory replaces files of known names and opens no others", "[daemon][page]") {
+TEST_CASE("an assets directory replaces files of known names and exposes no others",
+          "[daemon][page]") {
     const test::TemporaryDirectory directory;
     std::ofstream(directory.path() / "page.js") << "changed";
     std::ofstream(directory.path() / "secret.js") << "secret";

@@ -1,6 +1,6 @@
 /// @file
-/// A host that sleeps, or inserts a leap second.  A program of its own, for it replaces the calls by
-/// which clocks are read.
+/// Tests of a host that sleeps or inserts a leap second.  They are a separate program, because they
+/// replace the system calls that read the clocks.
 
 #include <sys/syscall.h>
 #include <sys/timex.h>
@@ -16,9 +16,9 @@
 namespace {
 
 std::atomic<int> slept_s{0};
-std::atomic<int> calls_before_leap{-1};  ///< Of those below; negative: no leap second.
+std::atomic<int> calls_before_leap{-1};  ///< Clock calls until the leap second; negative: none.
 
-/// Whether the leap second has been inserted.
+/// Counts a clock call.  @return true once the leap second has been inserted
 bool is_leap_over() {
     if (calls_before_leap <= 0) return calls_before_leap == 0;
     --calls_before_leap;
@@ -67,7 +67,7 @@ struct Sleeper {
         REQUIRE(eventually([&] { return sensor.frames_sent >= sent + 20; }));
     }
 
-    /// Kinds in their order, runs of one kind as one.
+    /// Empties the queue.  @return the kinds of its items in order; a run of one kind counts once
     std::vector<Kind> take_all() {
         std::vector<Kind> kinds;
         for (auto item = queue.front(); item; item = queue.front()) {
@@ -81,12 +81,12 @@ struct Sleeper {
         return kinds;
     }
     std::vector<timing::ClockReading> readings;
-    bool is_in_order = true;  ///< No bytes are older than the reading before them.
+    bool is_in_order = true;  ///< No bytes are older than the clock reading before them.
 };
 
 }  // namespace
 
-TEST_CASE("each sleep is told by a reading of its own that what follows is not before",
+TEST_CASE("each sleep of the host puts one clock reading before the bytes received after it",
           "[daemon][sensor_link]") {
     Sleeper host;
     host.link.start();
@@ -109,14 +109,14 @@ TEST_CASE("each sleep is told by a reading of its own that what follows is not b
     CHECK(host.is_in_order);
 }
 
-TEST_CASE("a sleep before the first byte of a session is told behind its header",
+TEST_CASE("a sleep before the first byte of a session is reported after the session header",
           "[daemon][sensor_link]") {
     Sleeper host;
     host.sensor.is_idle = true;
     host.link.start();
     REQUIRE(eventually([&] { return host.link.status().device.has_value(); }));
     slept_s = 40;
-    // The reader looks at what it knows of sleeps every 200 ms.
+    // The reader checks for a sleep every 200 ms.
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     CHECK(host.queue.fill() == 0);
     host.sensor.is_idle = false;
@@ -127,7 +127,7 @@ TEST_CASE("a sleep before the first byte of a session is told behind its header"
     host.link.stop();
 }
 
-TEST_CASE("a reading from before a leap second announces it, wherever in it midnight falls",
+TEST_CASE("a clock reading from before a leap second announces it, even if the leap interrupts it",
           "[daemon][host_clock]") {
     const HostClock clock;
     int before = 0, after = 0;

@@ -27,7 +27,7 @@ struct Fixture {
         return read_config(file);
     }
 
-    /// The message without the directory.
+    /// Returns the error message without the directory, or "accepted".
     std::string refusal(const std::string& text) const {
         try {
             (void)read(text);
@@ -46,7 +46,7 @@ struct Fixture {
 
 }  // namespace
 
-TEST_CASE_METHOD(Fixture, "the least configuration has the documented defaults",
+TEST_CASE_METHOD(Fixture, "a minimal configuration has the documented defaults",
                  "[daemon][config]") {
     const Config config = read(kStation + kSensor + kStorage);
     CHECK(config.station.codes == record::StationCodes{});
@@ -72,7 +72,7 @@ TEST_CASE("the annotated example is accepted", "[daemon][config]") {
     CHECK(config.verdict == VerdictOptions{});
 }
 
-TEST_CASE_METHOD(Fixture, "every key that is documented is accepted and read", "[daemon][config]") {
+TEST_CASE_METHOD(Fixture, "every documented key is accepted and read", "[daemon][config]") {
     std::ofstream(directory.path() / "sites.csv")
         << "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\nNo.0,140.1,36.1,26,\n";
     const Config config = read(
@@ -106,8 +106,7 @@ TEST_CASE_METHOD(Fixture, "every key that is documented is accepted and read", "
     CHECK(config.verdict == verdict);
 }
 
-TEST_CASE_METHOD(Fixture,
-                 "a refused configuration names file, line, key, value and what is allowed",
+TEST_CASE_METHOD(Fixture, "a configuration error names file, line, key, value and what is allowed",
                  "[daemon][config]") {
     CHECK(refusal(kStation + kSensor + "bits = 7\n" + kStorage) ==
           "a351d.toml:7: sensor.bits = 7: unknown key; allowed: axes, baud, filter, "
@@ -129,11 +128,11 @@ TEST_CASE_METHOD(Fixture,
           "a351d.toml:6: sensor.port = '/dev/ttyUSB0': given together with usb; allowed: exactly "
           "one of port and usb");
     CHECK(refusal(kStation + "[sensor]\nusb = \"X\"\n" + kStorage) ==
-          "a351d.toml:6: sensor.usb = 'X': not an adapter; allowed: VID:PID:SERIAL as a351d "
-          "--list-ports prints it");
+          "a351d.toml:6: sensor.usb = 'X': not an adapter's address; allowed: VID:PID:SERIAL as "
+          "printed by a351d --list-ports");
     CHECK(refusal(kStation + "[sensor]\n" + kStorage) ==
-          "a351d.toml:5: sensor.port: missing, and so is usb; allowed: exactly one of port and "
-          "usb");
+          "a351d.toml:5: sensor.port: port and usb are both missing; allowed: exactly one of port "
+          "and usb");
     CHECK(refusal(kStation + kSensor + "filter = \"k512_fc16\"\n" + kStorage) ==
           "a351d.toml:7: sensor.filter = 'k512_fc16': not usable at 50 Hz with profile A351; "
           "allowed: k512_fc9");
@@ -144,8 +143,8 @@ TEST_CASE_METHOD(Fixture,
     CHECK(refusal(before_oven + "enabled = true\n") ==
           "a351d.toml:9: oven.port: missing; allowed: the controller's serial port");
     CHECK(refusal(before_oven + "enabled = true\nport = \"/dev/../dev/ttyUSB0\"\n") ==
-          "a351d.toml:11: oven.port = '/dev/../dev/ttyUSB0': the sensor's own; allowed: another "
-          "port than sensor.port");
+          "a351d.toml:11: oven.port = '/dev/../dev/ttyUSB0': the sensor's port; allowed: a port "
+          "other than sensor.port");
     CHECK(refusal(before_oven + "baud = 14400\n") ==
           "a351d.toml:10: oven.baud = 14400: not a known value; allowed: 1200, 2400, 4800, 9600, "
           "19200, 38400, 57600, 115200");
@@ -157,18 +156,19 @@ TEST_CASE_METHOD(Fixture,
     CHECK_THAT(refusal(kStation + kSensor + kStorage + "[page]\nassets = \"none\"\n"),
                ContainsSubstring("page.assets = 'none': no such directory: none; allowed: "));
     CHECK(refusal(kStation + kSensor + kStorage + "[survey]\nsites = \"no.csv\"\n") ==
-          "a351d.toml:10: survey.sites = 'no.csv': no such file: no.csv; allowed: a CSV of sites, "
-          "or \"\"");
+          "a351d.toml:10: survey.sites = 'no.csv': no such file: no.csv; allowed: a CSV file of "
+          "sites, or \"\"");
     CHECK_THAT(refusal(kStation + kSensor + kStorage + "[verdict]\nslope = 1\n"),
                StartsWith("a351d.toml:10: verdict.slope = 1: unknown key; allowed: ") &&
                    ContainsSubstring("slope_degc_per_h"));
     CHECK_THAT(refusal(kStation + kSensor + kStorage + "[verdict]\nshake_factor = 0.5\n"),
                StartsWith("a351d.toml:10: verdict.shake_factor = 0.5: out of range"));
     CHECK(refusal(kStation + kSensor + "[storage]\n") ==
-          "a351d.toml:7: storage.root: missing; allowed: the directory of the record");
+          "a351d.toml:7: storage.root: missing; allowed: the directory for the recorded data");
 }
 
-TEST_CASE_METHOD(Fixture, "a line too slow for the output rate is refused", "[daemon][config]") {
+TEST_CASE_METHOD(Fixture, "a baud rate too low for the output rate is refused",
+                 "[daemon][config]") {
     // 500 Hz x 24 bytes x 10 bits = 120 000 bit/s.
     CHECK(refusal(kStation + kSensor + "baud = 115200\noutput_rate_hz = 500\n" +
                   "filter = \"k512_fc210\"\n" + kStorage) ==
@@ -176,7 +176,7 @@ TEST_CASE_METHOD(Fixture, "a line too slow for the output rate is refused", "[da
           "120000 bit/s");
 }
 
-TEST_CASE_METHOD(Fixture, "beyond loopback a token is a must", "[daemon][config]") {
+TEST_CASE_METHOD(Fixture, "listening beyond loopback requires a token", "[daemon][config]") {
     const std::string all = kStation + kSensor + kStorage;
     const std::string token = "\ntoken = \"sixteen-or-longer\"\n";
     const auto page = [&](const std::string& listen) {
@@ -205,15 +205,17 @@ TEST_CASE_METHOD(Fixture, "beyond loopback a token is a must", "[daemon][config]
     }
 }
 
-TEST_CASE_METHOD(Fixture, "a link to the sensor's port is the sensor's port", "[daemon][config]") {
+TEST_CASE_METHOD(Fixture, "a symbolic link to the sensor's port is refused as the oven's port",
+                 "[daemon][config]") {
     std::filesystem::create_symlink("/dev/null", directory.path() / "sensor");
     std::filesystem::create_symlink("sensor", directory.path() / "oven");
     CHECK_THAT(refusal(kStation + "[sensor]\nport = \"sensor\"\n" + kStorage +
                        "[oven]\nenabled = true\nport = \"oven\"\n"),
-               ContainsSubstring("oven.port = 'oven': the sensor's own"));
+               ContainsSubstring("oven.port = 'oven': the sensor's port"));
 }
 
-TEST_CASE_METHOD(Fixture, "a calibration gives the verdict the unit's own defaults",
+TEST_CASE_METHOD(Fixture,
+                 "a calibration sets the verdict's defaults, and explicit keys override them",
                  "[daemon][config]") {
     corrector::Calibration unit;
     unit.serial_number = "00000042";
@@ -227,10 +229,10 @@ TEST_CASE_METHOD(Fixture, "a calibration gives the verdict the unit's own defaul
                                "[survey]\ncalibration = \"unit.toml\"\n[verdict]\n"
                                "slow_mgal_per_degc = -17\n");
     CHECK(config.verdict.static_mgal_per_degc == -10.0);
-    CHECK(config.verdict.slow_mgal_per_degc == -17.0);  // What is given has the last word.
+    CHECK(config.verdict.slow_mgal_per_degc == -17.0);  // The explicit key wins.
     CHECK(config.verdict.rate_mgal_h_per_degc == 9.0);
     CHECK(config.verdict.slow_lag_min == Approx(30.0));
-    // 36 mGal that are 1 after 9 h.
+    // 36 mGal at power-on decay to 1 mGal after 9 h.
     CHECK(36.0 * std::exp(-9.0 / config.verdict.warm_up_h) == Approx(1.0));
 
     std::ofstream(directory.path() / "unit.toml") << "format = 2\n";

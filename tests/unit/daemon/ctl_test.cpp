@@ -37,7 +37,7 @@ Run run(const std::string& arguments) {
     return result;
 }
 
-/// The interface of a daemon without the daemon.
+/// The HTTP interface of a daemon without the rest of the daemon.
 struct FakeDaemon {
     explicit FakeDaemon(Status::Level level = Status::Level::good) {
         status.level = level;
@@ -66,7 +66,7 @@ bool has(const Run& result, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("status ends as a monitoring plugin does", "[daemon][ctl]") {
+TEST_CASE("the exit code of status is that of a monitoring plugin", "[daemon][ctl]") {
     for (const auto& [level, exit] :
          {std::pair(Status::Level::good, 0), std::pair(Status::Level::warning, 1),
           std::pair(Status::Level::fault, 2)}) {
@@ -81,7 +81,8 @@ TEST_CASE("status ends as a monitoring plugin does", "[daemon][ctl]") {
     CHECK(run("--url ftp://127.0.0.1 status").exit == 3);
 }
 
-TEST_CASE("other commands end with 0 done, 1 refused, 2 usage, 3 no daemon", "[daemon][ctl]") {
+TEST_CASE("other commands exit with 0 if done, 1 if refused, 2 for wrong usage, 3 without a daemon",
+          "[daemon][ctl]") {
     FakeDaemon daemon;
     const auto started =
         daemon.ctl("start No.0 --at 2026-03-14T08:10:00Z --operator 'M. Ito' --note windy");
@@ -117,7 +118,7 @@ TEST_CASE("other commands end with 0 done, 1 refused, 2 usage, 3 no daemon", "[d
     CHECK(daemon.ctl("--clock scaled:60@2026-03-14T08:00:00Z sites").exit == 0);
 }
 
-TEST_CASE("the events carry what the command line gave", "[daemon][ctl]") {
+TEST_CASE("options of the command line are in the recorded event", "[daemon][ctl]") {
     FakeDaemon daemon;
     daemon.ctl("start No.0 --at 2026-03-14T08:10:00Z --operator 'M. Ito' --note windy");
     daemon.server.stop();
@@ -127,12 +128,12 @@ TEST_CASE("the events carry what the command line gave", "[daemon][ctl]") {
     CHECK(daemon.recorder.log.front().details.at("note") == "windy");
 }
 
-TEST_CASE("a wrong token is refused", "[daemon][ctl]") {
+TEST_CASE("a command with a wrong token is refused", "[daemon][ctl]") {
     const FakeDaemon daemon;
     CHECK(daemon.ctl("--token 0123456789abcdef discard").exit == 1);
 }
 
-TEST_CASE("watch goes on until it is interrupted, also without a daemon", "[daemon][ctl]") {
+TEST_CASE("watch runs until it is interrupted, even without a daemon", "[daemon][ctl]") {
     const FakeDaemon daemon;
     const auto url = "http://127.0.0.1:" + std::to_string(daemon.server.port());
     const auto seen = run("--url " + url + " watch & sleep 0.6; kill -INT $!; wait $!");
@@ -144,7 +145,7 @@ TEST_CASE("watch goes on until it is interrupted, also without a daemon", "[daem
     CHECK(has(lonely, "no daemon answers"));
 }
 
-TEST_CASE("the screen shows what is known and a dash for the rest", "[daemon][ctl]") {
+TEST_CASE("the status screen shows known values and a dash for missing ones", "[daemon][ctl]") {
     const auto bare = status_screen(nlohmann::json::object(), false);
     CHECK(bare.find("temperature  -\n") != std::string::npos);
     const auto odd = nlohmann::json::parse(
@@ -155,20 +156,21 @@ TEST_CASE("the screen shows what is known and a dash for the rest", "[daemon][ct
         "level":"warning","reasons":["disk nearly full"],"received":1000,"journaled":990,
         "device":{"output_rate_hz":50},"sample":{"acceleration_mg":[1.5,-2.25,999.3]},
         "counters":{"gaps":2,"duplicates":0,"frames":1000,"journal_bytes":24000,"archive_records":5},
-        "verdict":{"state":"no data","held_s":null,"reasons":["no sample has come yet"]},
+        "verdict":{"state":"no data","held_s":null,"reasons":["no sample has been received yet"]},
         "disk":{"free_bytes":5500000000}})");
     const auto screen = status_screen(full, false);
     CHECK(screen.find("warning: disk nearly full") != std::string::npos);
     CHECK(screen.find("990, 10 behind (0.2 s)") != std::string::npos);
     CHECK(screen.find("x 1.500   y -2.250   z 999.300 mg") != std::string::npos);
     CHECK(screen.find("troubles     gaps 2\n") != std::string::npos);
-    CHECK(screen.find("verdict      no data: no sample has come yet\n") != std::string::npos);
+    CHECK(screen.find("verdict      no data: no sample has been received yet\n") !=
+          std::string::npos);
     CHECK(screen.find("5.5 GB free") != std::string::npos);
     CHECK(screen.find('\x1b') == std::string::npos);
     CHECK(status_screen(full, true).find("\x1b[1;33mwarning") != std::string::npos);
 }
 
-TEST_CASE("the oven is one line", "[daemon][ctl]") {
+TEST_CASE("the status screen shows the oven in one line", "[daemon][ctl]") {
     const auto line_of = [](const char* oven) {
         const auto screen =
             status_screen(nlohmann::json{{"oven", nlohmann::json::parse(oven)}}, false);
@@ -188,7 +190,7 @@ TEST_CASE("the oven is one line", "[daemon][ctl]") {
           "-, set point 43.0 degC, heating 0.0 %, input error, silent, 64 s old");
 }
 
-TEST_CASE("names cannot speak to the terminal", "[daemon][ctl]") {
+TEST_CASE("control characters in names do not reach the terminal", "[daemon][ctl]") {
     CHECK(printable("No.0 \xC3\xA9") == "No.0 \xC3\xA9");
     CHECK(printable("\x1b[2J\x07\n\x7f") == "?[2J???");
     CHECK(printable("\xC2\x9B"
@@ -197,7 +199,7 @@ TEST_CASE("names cannot speak to the terminal", "[daemon][ctl]") {
     CHECK(status_screen(hostile, false).find('\x1b') == std::string::npos);
 }
 
-TEST_CASE("an address is http, a host and a port", "[daemon][ctl]") {
+TEST_CASE("the URL of a daemon is http, a host and an optional port", "[daemon][ctl]") {
     CHECK(parse_url("http://127.0.0.1:8351").authority() == "127.0.0.1:8351");
     CHECK(parse_url("http://[::1]:8351/").authority() == "[::1]:8351");
     CHECK(parse_url("http://gravbox").authority() == "gravbox:80");

@@ -11,10 +11,11 @@ using test::Fault;
 
 namespace {
 
-// FIR filter k512_fc9 at 50 Hz, and the time on the wire of 24 bytes of 10 bits at 460 800 Bd.
+// Time of a frame on the wire: 24 bytes of 10 bits at 460 800 Bd.
 constexpr Nanoseconds kWire{24LL * 10 * 1'000'000'000 / 460'800};
 
-/// 60 s of signal and two events through a store whose files fail as asked; then another start.
+/// A run of 60 s with two events, through a store whose files fail as requested.  check() recovers
+/// what it left.
 class Minute : public SteppedRig {
 public:
     explicit Minute(const Fault& fault) : kind_(fault.kind) {
@@ -40,7 +41,7 @@ public:
         failing_.set({});
     }
 
-    /// Nothing is lost that was called journaled, nothing doubled, nothing changed.
+    /// Checks that no sample reported as journaled is lost, duplicated or changed.
     void check(const Fault& fault) {
         CAPTURE(fault.at, fault.lasts, static_cast<int>(fault.kind));
         check_root(killed_, published_);
@@ -58,13 +59,13 @@ private:
         if (commit(store, event)) acknowledged_.push_back(record::to_json(event));
     }
 
-    /// @return samples in the archive after recovery, of the channel that has fewest.
+    /// Recovers `found` and checks it.  @return the smallest sample count of any archived channel
     int check_root(const std::filesystem::path& found, std::int64_t published) {
         StoreOptions again = options();
         again.root = found;
         test::FailingFiles unharmed;
         const auto report = recover(unharmed, again, clock);
-        // Where the journal lost what it had not synced, the archive may be ahead of it.
+        // A journal that lost data in a failed sync may lack samples that the archive has.
         if (kind_ != Fault::Kind::sync) CHECK(report.records_conflicting == 0);
         int archived = fed;
         const std::array<const char*, 4> channels{"BN1", "BN2", "BNZ", "BK1"};
@@ -122,7 +123,8 @@ private:
     std::vector<std::string> acknowledged_;
 };
 
-// Of the short form; primes, so that the few n are of all sorts.  A sanitizer takes 30 times as long.
+// Step between tried operations in the short form.  It is prime, so that the tries meet operations
+// of every kind.  A sanitizer takes 30 times as long.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr int kShortStride = 97;
 #else
@@ -136,7 +138,8 @@ bool is_long() {
 
 }  // namespace
 
-TEST_CASE("the same minute is the same operations each time", "[daemon][store][every_operation]") {
+TEST_CASE("a minute without faults needs the same number of file operations each time",
+          "[daemon][store][every_operation]") {
     Minute once{Fault{}};
     Minute twice{Fault{}};
     CHECK(once.operations() == twice.operations());
@@ -144,7 +147,8 @@ TEST_CASE("the same minute is the same operations each time", "[daemon][store][e
     once.check({});
 }
 
-TEST_CASE_METHOD(SteppedRig, "one failed sync is an alarm for 10 s and written again at once",
+TEST_CASE_METHOD(SteppedRig,
+                 "one failed sync is an alarm for 10 s, and its data are written again at once",
                  "[daemon][store][every_operation]") {
     test::FailingFiles failing;
     Store store(failing, options(), clock, reads);
@@ -166,7 +170,7 @@ TEST_CASE_METHOD(SteppedRig, "one failed sync is an alarm for 10 s and written a
     CHECK(store.stop());
 }
 
-TEST_CASE("whichever operation of a minute fails, what was journaled is archived once",
+TEST_CASE("whichever file operation fails, every journaled sample is archived once",
           "[daemon][store][every_operation]") {
     const struct {
         Fault::Kind kind;

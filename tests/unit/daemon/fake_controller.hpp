@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A temperature controller on a pseudo-terminal that answers, or fails to, as it is told.
+/// A temperature controller on a pseudo-terminal.  A test chooses how it answers or fails to.
 
 #include <atomic>
 #include <chrono>
@@ -23,18 +23,18 @@ public:
         half,           ///< The first half of the answer only.
         bad_crc,        ///< One bit of the CRC is wrong.
         refused,        ///< Exception 02.
-        other_unit,     ///< As if from the next unit.
-        babble,         ///< 64 bytes that look like another unit's, but for the CRC.
-        own_babble,     ///< The same, as if from this unit.
-        other_question  ///< Fewer registers than were asked for.
+        other_unit,     ///< An answer from the next unit number.
+        babble,         ///< 64 bytes like another unit's answer, with a wrong CRC.
+        own_babble,     ///< 64 bytes like an answer of this unit, with a wrong CRC.
+        other_question  ///< Fewer registers than requested.
     };
-    std::atomic<Manner> manner{Manner::good};           ///< For 2000h.
-    std::atomic<Manner> decimals_manner{Manner::good};  ///< For 2410h.
+    std::atomic<Manner> manner{Manner::good};           ///< How requests for 2000h are answered.
+    std::atomic<Manner> decimals_manner{Manner::good};  ///< How requests for 2410h are answered.
     std::atomic<std::uint16_t> decimals{1};
-    std::atomic<bool> is_four_byte{false};  ///< Knows 0000h and 0420h, refuses 2000h and 2410h.
-    std::atomic<std::chrono::milliseconds> delay{};  ///< Of the answers for 2000h.
+    std::atomic<bool> is_four_byte{false};  ///< Accepts 0000h and 0420h, refuses 2000h and 2410h.
+    std::atomic<std::chrono::milliseconds> delay{};  ///< Delay of answers for 2000h.
     std::atomic<int> polls{0}, decimal_requests{0};
-    std::atomic<int> other_requests{0};  ///< Other functions, addresses or counts.
+    std::atomic<int> other_requests{0};  ///< Requests with other functions, addresses or counts.
 
     FakeController() : thread_([this] { run(); }) {}
     ~FakeController() { switch_off(); }
@@ -43,7 +43,7 @@ public:
 
     [[nodiscard]] const std::string& path() const noexcept { return pty_.path(); }
 
-    /// The terminal goes, as with an adapter that is pulled out.
+    /// Closes the terminal, as if the adapter were pulled out.
     void switch_off() {
         stop_ = true;
         if (thread_.joinable()) thread_.join();

@@ -15,7 +15,7 @@ inline const UtcTime kMorning = *parse_rfc3339("2026-03-14T08:00:00Z");
 
 inline UtcTime minute(int minutes) { return kMorning + std::chrono::minutes(minutes); }
 
-/// Remembers samples, one a second, from minute 0 to `last`.
+/// A recorder with one sample per second, from minute 0 to `last`.
 class FakeRecorder : public Recorder {
 public:
     std::optional<Instant> latest() override {

@@ -21,7 +21,7 @@ public:
     std::atomic<bool> is_mute{false};       ///< Neither answers nor sends.
     std::atomic<bool> is_idle{false};       ///< Answers, but sends no frame.
     std::atomic<bool> does_babble{false};   ///< Sends bytes that are no frames.
-    std::atomic<int> counts_per_frame{80};  ///< 40: as if somebody had set 100 samples/s.
+    std::atomic<int> counts_per_frame{80};  ///< 80 at 50 samples/s; 40 as if somebody had set 100.
     std::atomic<std::int32_t> frames_sent{0};
 
     explicit FakeSensor(std::string serial_number = "00000042") {
@@ -40,14 +40,14 @@ public:
 
     [[nodiscard]] const std::string& path() const noexcept { return pty_.path(); }
 
-    /// The terminal goes, as with an adapter that is pulled out.
+    /// Closes the terminal, as if the adapter were pulled out.
     void switch_off() {
         stop_ = true;
         if (thread_.joinable()) thread_.join();
         pty_.close_master();
     }
 
-    /// Without having been asked to: as after an outage of the host.
+    /// Starts sampling without a command, as after an outage of the host.
     void start_sampling() {
         const std::lock_guard lock(mutex_);
         registers_.is_sampling = true;
@@ -58,7 +58,7 @@ public:
         return registers_.is_sampling;
     }
 
-    /// The i-th frame it sends.
+    /// Returns the values of the i-th frame sent.
     [[nodiscard]] static wire::BurstValues values(std::int32_t i) {
         wire::BurstValues values;
         values.temperature = 1000 + i;
@@ -99,7 +99,7 @@ private:
     std::thread thread_;
 };
 
-/// Waits until `claim` holds.  @return false when it does not within `limit` of real time.
+/// Waits until `claim` is true.  @return false if it is not true within `limit` of real time
 template <class Claim>
 [[nodiscard]] bool eventually(Claim claim, std::chrono::seconds limit = std::chrono::seconds(20)) {
     const auto end = std::chrono::steady_clock::now() + limit;

@@ -15,11 +15,12 @@
 
 namespace a351::test {
 
-/// The real files, and a copy of what a power cut would leave of them: of a page that was not synced
-/// nobody knows whether it reached the disk, nor of a file or directory whose parent was not synced.
+/// The real files, with a record of what has been synced.  cut() copies them as a power cut would
+/// leave them: pages that were not synced may be missing, and so may files and directories whose
+/// parent was not synced.
 class ForgetfulFiles : public ForwardingFiles {
 public:
-    /// Operations until the process is killed: none has an effect from then on.
+    /// Number of operations until the process is killed.  Later ones fail without an effect.
     std::atomic<int> operations_left{std::numeric_limits<int>::max()};
 
     std::unique_ptr<record::AppendFile> open_append(const std::filesystem::path& file) override {
@@ -65,7 +66,7 @@ public:
         files_.remove(file);
     }
 
-    /// What is found of `root` after a cut just now.
+    /// Copies `root` to `found` as a power cut at this moment would leave it.
     void cut(const std::filesystem::path& root, const std::filesystem::path& found,
              std::mt19937_64& random) {
         const std::lock_guard lock(mutex_);
@@ -110,7 +111,7 @@ private:
             throw std::system_error(EIO, std::generic_category(), "the process is gone");
     }
 
-    /// A size between the synced one and the last; of the pages in between any may be zeros.
+    /// Cuts `file` to a random size above the synced one, and zeroes random unsynced pages.
     static void lose_pages(const std::filesystem::path& file, std::uint64_t synced,
                            std::mt19937_64& random) {
         constexpr std::size_t kPage = 4096;

@@ -17,7 +17,7 @@ int refused_with(const Guard& guard, const Request& request) {
 
 }  // namespace
 
-TEST_CASE("a Host outside the list is misdirected", "[daemon][page]") {
+TEST_CASE("a request for an unknown Host is answered 421", "[daemon][page]") {
     const Guard guard(8351, {"Gravbox", "field.example:80"}, kToken);
     for (const char* host : {"127.0.0.1:8351", "localhost:8351", "LocalHost:8351", "[::1]:8351",
                              "gravbox:8351", "GRAVBOX:8351", "field.example:80"}) {
@@ -35,7 +35,8 @@ TEST_CASE("a Host outside the list is misdirected", "[daemon][page]") {
     CHECK(refused_with(guard, two) == 421);
 }
 
-TEST_CASE("under rebinding Host and Origin agree and are refused all the same", "[daemon][page]") {
+TEST_CASE("under DNS rebinding Host and Origin agree, and the request is still refused",
+          "[daemon][page]") {
     const Guard guard(8351, {}, kToken);
     auto request = with(post("/api/note"), "Host", "evil.example:8351");
     request = with(request, "Origin", "http://evil.example:8351");
@@ -54,7 +55,7 @@ TEST_CASE("a change from a foreign Origin is forbidden", "[daemon][page]") {
     }
 }
 
-TEST_CASE("a change needs the token, also without Origin", "[daemon][page]") {
+TEST_CASE("a change needs the token, even without an Origin", "[daemon][page]") {
     const Guard guard(8351, {}, kToken);
     CHECK(refused_with(guard, post("/api/note")) == 200);
     CHECK(refused_with(guard, without(post("/api/note"), "X-A351-Token")) == 403);
@@ -69,12 +70,13 @@ TEST_CASE("a change needs the token, also without Origin", "[daemon][page]") {
     CHECK(refused_with(guard, delete_request) == 403);
 }
 
-TEST_CASE("an empty token opens nothing", "[daemon][page]") {
+TEST_CASE("if no token is configured, an empty one is refused", "[daemon][page]") {
     const Guard guard(8351, {}, "");
     CHECK(refused_with(guard, with(post("/api/note"), "X-A351-Token", "")) == 403);
 }
 
-TEST_CASE("a change is application/json, for a form can be sent across sites", "[daemon][page]") {
+TEST_CASE("a change must be application/json, because a form can be sent across sites",
+          "[daemon][page]") {
     const Guard guard(8351, {}, kToken);
     for (const char* type : {"application/json", "application/json; charset=utf-8",
                              "Application/JSON ;charset=utf-8"}) {

@@ -17,7 +17,7 @@ std::int64_t ms_of(UtcTime time) {
 
 }  // namespace
 
-TEST_CASE("a history is least and largest value of each interval, with its unit",
+TEST_CASE("a history has the smallest and largest value of each interval, with the unit",
           "[daemon][history]") {
     LiveRecord live = quiet_live_record();
     take_samples(live, 0, 1000);  // 20 s.
@@ -47,7 +47,7 @@ TEST_CASE("a history is least and largest value of each interval, with its unit"
     CHECK(warm["points"][0][2].get<double>() == Approx(std::max(first, last)).epsilon(1e-6));
 }
 
-TEST_CASE("a gap in the record is missing points", "[daemon][history]") {
+TEST_CASE("a gap in the record appears as missing points", "[daemon][history]") {
     LiveRecord live = quiet_live_record();
     take_samples(live, 0, 500);
     take_samples(live, 1000, 1500);
@@ -57,7 +57,7 @@ TEST_CASE("a gap in the record is missing points", "[daemon][history]") {
     CHECK(points[5][0] == ms_of(instant_of(1000)));
 }
 
-TEST_CASE("a history has no more points than asked for, within the times asked for",
+TEST_CASE("a history has at most the requested number of points, within the requested times",
           "[daemon][history]") {
     LiveRecord live = quiet_live_record();
     take_samples(live, 0, 50 * 120);
@@ -77,7 +77,7 @@ TEST_CASE("a history has no more points than asked for, within the times asked f
     CHECK(late["points"].size() == 30);
 }
 
-TEST_CASE("the oven's history is process value and set point", "[daemon][history]") {
+TEST_CASE("the oven's history has process value and set point", "[daemon][history]") {
     LiveRecord live = quiet_live_record();
     CHECK(json::parse(history_json(live, "channel=oven", minute(1)))["points"].empty());
     live.take(OvenPoint{kMorning, DegC(42.25), DegC(42.5)});
@@ -92,7 +92,8 @@ TEST_CASE("the oven's history is process value and set point", "[daemon][history
                                            json::array({begin + 13000, 42.75, 43.0})}));
 }
 
-TEST_CASE("a question that is no question of history is refused by its key", "[daemon][history]") {
+TEST_CASE("a wrong history query is refused with an error that names the key",
+          "[daemon][history]") {
     LiveRecord live = quiet_live_record();
     const auto trouble = [&](const std::string& query) {
         try {

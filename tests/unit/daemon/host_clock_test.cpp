@@ -5,7 +5,7 @@
 using namespace a351;
 using namespace a351::daemon;
 
-TEST_CASE("on simulated time all clocks are the simulated UTC, synchronised, without error",
+TEST_CASE("on simulated time all clocks show the simulated UTC, synchronised and without error",
           "[daemon][host_clock]") {
     const UtcTime start = *parse_rfc3339("2026-03-01T00:00:00Z");
     const UtcTime host = host_realtime();

@@ -16,7 +16,8 @@ namespace {
 
 constexpr JournalKeeper::Options kEager{.keep_days = 10, .compress_after = 0s, .interval = 10ms};
 
-/// One segment a day, each a session of its own unless said otherwise; the last has a MARK.
+/// A journal with one segment per day.  With sessions(n) each segment is a session of its own, and
+/// the last one has a MARK.
 struct Journal {
     test::TemporaryDirectory directory;
     std::filesystem::path path = directory.path() / "journal";
@@ -72,7 +73,7 @@ TEST_CASE("closed segments are compressed, the newest is not", "[daemon][keeper]
     CHECK(keeper.status().compressed == 3);
 }
 
-TEST_CASE("segments whose names are read are not compressed, but go when they are old",
+TEST_CASE("while names of segments must be kept none is compressed, but old ones are removed",
           "[daemon][keeper]") {
     const Journal journal(Journal::sessions(20));
     JournalKeeper keeper(record::posix_files(), journal.path, kEager);
@@ -85,14 +86,14 @@ TEST_CASE("segments whose names are read are not compressed, but go when they ar
     CHECK(keeper.status().compressed > 0);
 }
 
-TEST_CASE("what was written lately is not compressed", "[daemon][keeper]") {
+TEST_CASE("a segment that was written recently is not compressed", "[daemon][keeper]") {
     const Journal journal(Journal::sessions(4));
     JournalKeeper keeper(record::posix_files(), journal.path, {});
     keeper.tidy();
     CHECK(journal.numbers(".zst").empty());
 }
 
-TEST_CASE("sessions go that ended long ago and are in the archive", "[daemon][keeper]") {
+TEST_CASE("sessions that ended long ago and are in the archive are removed", "[daemon][keeper]") {
     const Journal journal(Journal::sessions(20));
     JournalKeeper keeper(record::posix_files(), journal.path, kEager);
     keeper.tidy();
@@ -103,7 +104,7 @@ TEST_CASE("sessions go that ended long ago and are in the archive", "[daemon][ke
     CHECK(keeper.status().removed == 9);
 }
 
-TEST_CASE("what no later session's mark covers stays", "[daemon][keeper]") {
+TEST_CASE("segments that no later session's MARK covers are kept", "[daemon][keeper]") {
     auto days = Journal::sessions(20);
     days[19].has_mark = false;
     const auto removed_of = [&] {
@@ -117,7 +118,7 @@ TEST_CASE("what no later session's mark covers stays", "[daemon][keeper]") {
     CHECK(removed_of() == 4);
 }
 
-TEST_CASE("a session that goes on is kept as a whole", "[daemon][keeper]") {
+TEST_CASE("old segments of a session that lasted until recently are kept", "[daemon][keeper]") {
     auto days = Journal::sessions(20);
     for (std::size_t i = 5; i < 15; ++i) days[i].session = 77;
     const Journal journal(days);
@@ -131,7 +132,8 @@ TEST_CASE("a session that goes on is kept as a whole", "[daemon][keeper]") {
     CHECK(other.status().removed == 5);
 }
 
-TEST_CASE("clocks that nobody set say nothing of age", "[daemon][keeper]") {
+TEST_CASE("dates of an unsynchronised clock do not count, and keep_days = 0 removes nothing",
+          "[daemon][keeper]") {
     auto days = Journal::sessions(20);
     days[3].is_synchronised = false;
     const Journal journal(days);
@@ -151,7 +153,7 @@ TEST_CASE("clocks that nobody set say nothing of age", "[daemon][keeper]") {
     CHECK(third.status().removed == 0);
 }
 
-TEST_CASE("a segment without a header stops nothing", "[daemon][keeper]") {
+TEST_CASE("a segment without a header does not stop the removal of others", "[daemon][keeper]") {
     const Journal journal(Journal::sessions(20));
     std::filesystem::resize_file(record::journal_segments(journal.path)[4], 10);
     JournalKeeper keeper(record::posix_files(), journal.path, kEager);
@@ -159,7 +161,7 @@ TEST_CASE("a segment without a header stops nothing", "[daemon][keeper]") {
     CHECK(keeper.status().removed == 8);
 }
 
-TEST_CASE("a fault of the disk is counted, and the keeper goes on", "[daemon][keeper]") {
+TEST_CASE("a disk fault is counted, and the keeper continues", "[daemon][keeper]") {
     const Journal journal(Journal::sessions(4));
     test::FailingFiles files(1);
     JournalKeeper keeper(files, journal.path, kEager);
@@ -169,7 +171,8 @@ TEST_CASE("a fault of the disk is counted, and the keeper goes on", "[daemon][ke
     CHECK_FALSE(keeper.status().trouble.empty());
 }
 
-TEST_CASE_METHOD(Rig, "a segment goes when the archive has it, and only then", "[daemon][keeper]") {
+TEST_CASE_METHOD(Rig, "a segment is removed when the archive has its samples, and not before",
+                 "[daemon][keeper]") {
     StoreOptions tidy = options();
     tidy.keeper = kEager;
     files.does_archive_fail = true;

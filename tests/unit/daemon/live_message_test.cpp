@@ -9,7 +9,7 @@
 using namespace a351;
 using namespace a351::daemon;
 
-TEST_CASE("a block of samples is encoded as the format says, to the byte", "[daemon][live]") {
+TEST_CASE("a block of samples is encoded as the format says, byte for byte", "[daemon][live]") {
     LiveBlock block;
     block.first_index = 0x0102030405060708;
     block.first_time = *parse_rfc3339("1970-01-01T00:00:01.5Z");
@@ -30,7 +30,8 @@ TEST_CASE("a block of samples is encoded as the format says, to the byte", "[dae
     CHECK(std::memcmp(bytes.data(), expected, sizeof expected) == 0);
 }
 
-TEST_CASE("a message of as many samples as may be is no larger than allowed", "[daemon][live]") {
+TEST_CASE("a message with the largest number of samples just fits the size limit",
+          "[daemon][live]") {
     LiveBlock block;
     for (auto& channel : block.counts) channel.resize(kMostSamplesPerMessage);
     const auto size = encoded(block).size();
@@ -38,7 +39,8 @@ TEST_CASE("a message of as many samples as may be is no larger than allowed", "[
     CHECK(size + kLiveChannelCount * sizeof(std::int32_t) > 64 * 1024);
 }
 
-TEST_CASE("each viewer reads on from where it was, and all read the same bytes", "[daemon][live]") {
+TEST_CASE("each viewer has its own position, and all viewers read the same bytes",
+          "[daemon][live]") {
     LiveMessages messages;
     std::uint64_t one = messages.end(), other = one, missed = 0;
     CHECK_FALSE(messages.next(one, missed));
@@ -53,7 +55,7 @@ TEST_CASE("each viewer reads on from where it was, and all read the same bytes",
     CHECK(missed == 0);
 }
 
-TEST_CASE("who reads too slowly misses messages, which are counted", "[daemon][live]") {
+TEST_CASE("a viewer that reads too slowly misses messages, which are counted", "[daemon][live]") {
     LiveMessages messages;
     std::uint64_t position = messages.end(), missed = 0;
     for (int i = 0; i < 1000; ++i) messages.push({.bytes = std::to_string(i)});
@@ -63,7 +65,7 @@ TEST_CASE("who reads too slowly misses messages, which are counted", "[daemon][l
     CHECK(missed == 1000 - kMostMessagesKept);
 }
 
-TEST_CASE("of large messages fewer are kept, but the newest always", "[daemon][live]") {
+TEST_CASE("fewer messages are kept if they are large, but always the newest", "[daemon][live]") {
     LiveMessages messages;
     std::uint64_t position = messages.end(), missed = 0;
     for (int i = 0; i < 100; ++i) messages.push({.bytes = std::string(kLargestLiveMessage, 'x')});

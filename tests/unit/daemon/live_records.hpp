@@ -7,12 +7,12 @@ namespace a351::daemon {
 
 inline LiveRecord quiet_live_record() { return {*wire::find_profile("A351"), 50, {}}; }
 
-/// Instant of sample `index` at 50 Hz, from kMorning on.
+/// Returns the time of sample `index` at 50 Hz; sample 0 is at kMorning.
 inline UtcTime instant_of(std::int64_t index) {
     return kMorning + index * std::chrono::milliseconds(20);
 }
 
-/// A sample whose counts tell its index: index + 1000 x the number of the channel.
+/// Returns a sample whose counts show its index: index + 1000 x the number of the channel.
 inline PlacedSample numbered_sample(std::int64_t index) {
     PlacedSample sample{index, instant_of(index), {}};
     for (std::size_t channel = 0; channel < kLiveChannelCount; ++channel) {
@@ -22,7 +22,7 @@ inline PlacedSample numbered_sample(std::int64_t index) {
     return sample;
 }
 
-/// Takes the samples first, first + 1 ... last - 1.
+/// Adds the samples first, first + 1 ... last - 1.
 inline void take_samples(LiveRecord& live, std::int64_t first, std::int64_t last) {
     for (std::int64_t index = first; index < last; ++index) live.take(numbered_sample(index));
 }

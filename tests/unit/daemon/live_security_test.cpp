@@ -20,7 +20,8 @@ const std::string kForeign = "Origin: http://evil.example\r\n";
 
 }  // namespace
 
-TEST_CASE("a stream under a foreign Host is misdirected before any upgrade", "[daemon][live]") {
+TEST_CASE("a stream request for a foreign Host is answered 421 before any upgrade",
+          "[daemon][live]") {
     const Served served;
     const auto port = std::to_string(served.server.port());
     const auto own = served.own_origin();
@@ -35,12 +36,12 @@ TEST_CASE("a stream under a foreign Host is misdirected before any upgrade", "[d
         CHECK(asked(served, host, own) == 421);
         CHECK(asked(served, host, kWithToken) == 421);
     }
-    // Rebinding: both carry the attacker's name.
+    // DNS rebinding: Host and Origin both carry the attacker's name.
     CHECK(asked(served, "Host: evil.example:" + port + "\r\n",
                 "Origin: http://evil.example:" + port + "\r\n") == 421);
 }
 
-TEST_CASE("a stream for a foreign Origin, or for none without the token, is forbidden",
+TEST_CASE("a stream with a foreign Origin, or with neither Origin nor token, is forbidden",
           "[daemon][live]") {
     const Served served;
     const auto port = std::to_string(served.server.port());
@@ -59,7 +60,7 @@ TEST_CASE("a stream for a foreign Origin, or for none without the token, is forb
     CHECK(asked(served, served.host(), "Origin: http://[::1]:" + port + "\r\n") == 101);
 }
 
-TEST_CASE("no spelling of an upgrade goes around the rule of Origin", "[daemon][live]") {
+TEST_CASE("no spelling of the Upgrade header bypasses the check of Origin", "[daemon][live]") {
     const Served served;
     for (const char* upgrade : {"WebSocket", "h2c, websocket", "websocket, h2c", "WEBSOCKET/13"}) {
         CAPTURE(upgrade);
@@ -70,11 +71,12 @@ TEST_CASE("no spelling of an upgrade goes around the rule of Origin", "[daemon][
             kForeign + "\r\n");
         CHECK(status_of(answer) == 403);
     }
-    // An upgrade to something else is a plain request.
+    // An upgrade to another protocol is treated as a plain request.
     CHECK(status_of(served.answer(served.get("/api/status", "Upgrade: h2c\r\n"))) == 200);
 }
 
-TEST_CASE("the stream is a WebSocket and nothing else is", "[daemon][live]") {
+TEST_CASE("the stream accepts WebSocket upgrades only, and no other path accepts them",
+          "[daemon][live]") {
     const Served served;
     const auto plain = served.answer(served.get("/live"));
     CHECK(status_of(plain) == 426);
@@ -96,8 +98,7 @@ TEST_CASE("the stream is a WebSocket and nothing else is", "[daemon][live]") {
     CHECK(served.is_well());
 }
 
-TEST_CASE("every answer has the headers of a private interface, files and upgrade too",
-          "[daemon][live]") {
+TEST_CASE("every answer has the security headers, including files and upgrades", "[daemon][live]") {
     const Served served;
     const RawViewer viewer(served);
     std::vector<std::string> answers{viewer.answer()};
@@ -125,7 +126,7 @@ TEST_CASE("every answer has the headers of a private interface, files and upgrad
     }
 }
 
-TEST_CASE("the 21st stream is told to come back, and pages are answered all the same",
+TEST_CASE("the 21st stream is answered 503, and other requests are still answered",
           "[daemon][live]") {
     const Served served;
     {
@@ -136,7 +137,7 @@ TEST_CASE("the 21st stream is told to come back, and pages are answered all the 
         }
         const RawViewer late(served);
         CHECK(late.status() == 503);
-        // The refused one may go on with plain requests.
+        // The refused connection can still send plain requests.
         late.client().send(served.get("/api/status"));
         CHECK(status_of(late.client().response()) == 200);
         CHECK(served.answer(served.get("/metrics")).find("\na351_page_streams 20\n") !=
@@ -160,7 +161,7 @@ TEST_CASE("the 21st stream is told to come back, and pages are answered all the 
     CHECK(status == 101);
 }
 
-TEST_CASE("a message of more than 4 KiB from a client ends its stream, others are ignored",
+TEST_CASE("a client message of more than 4 KiB ends its stream, smaller ones are ignored",
           "[daemon][live]") {
     const Served served;
     const RawViewer polite(served);

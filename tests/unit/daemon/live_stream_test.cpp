@@ -18,14 +18,14 @@ using std::chrono::milliseconds;
 
 namespace {
 
-// Under a sanitizer the reader falls behind what a test demands of it, and freed memory is kept.
+// A sanitizer makes the reader too slow for some tests, and it keeps freed memory.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kIsSanitized = true;
 #else
 constexpr bool kIsSanitized = false;
 #endif
 
-/// The next block, whose form and counts are those of numbered samples.
+/// Returns the next block, after a check that it has the form and counts of numbered samples.
 ReadBlock next_block(const RawViewer& viewer) {
     const auto frame = viewer.next(RawViewer::binary);
     REQUIRE(frame);
@@ -46,7 +46,7 @@ ReadBlock next_block(const RawViewer& viewer) {
     return block;
 }
 
-/// Reads on until the sample before `last` is there; @return the number of samples.
+/// Reads blocks until the sample before `last` has come.  @return the number of samples
 std::int64_t read_up_to(const RawViewer& viewer, std::int64_t first, std::int64_t last) {
     std::int64_t expected = first;
     while (expected < last) {
@@ -58,7 +58,7 @@ std::int64_t read_up_to(const RawViewer& viewer, std::int64_t first, std::int64_
     return expected - first;
 }
 
-/// Numbered samples; @return `last`.
+/// Adds numbered samples from `first` to `last` - 1, one per `step`.  @return `last`
 std::int64_t take_every(milliseconds step, Served& served, std::int64_t first, std::int64_t last) {
     for (std::int64_t index = first; index < last; ++index) {
         auto sample = numbered_sample(index);
@@ -83,7 +83,7 @@ double metric(const Served& served, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("a stream begins with the status and the past, and goes on to the count",
+TEST_CASE("a stream begins with the status and past samples, and continues without a gap",
           "[daemon][live]") {
     Served served;
     take_samples(served.live, 0, 1000);
@@ -109,7 +109,7 @@ TEST_CASE("a stream begins with the status and the past, and goes on to the coun
     CHECK(read_up_to(viewer, 1000, 1700) == 700);
 }
 
-TEST_CASE("the past of a stream is 60 s", "[daemon][live]") {
+TEST_CASE("a stream begins with the samples of the last 60 s", "[daemon][live]") {
     Served served;
     take_samples(served.live, 0, 50 * 80);
     const RawViewer viewer(served);
@@ -118,7 +118,7 @@ TEST_CASE("the past of a stream is 60 s", "[daemon][live]") {
     CHECK(past.count == 50 * 60);
 }
 
-TEST_CASE("a past larger than a message comes in several", "[daemon][live]") {
+TEST_CASE("past samples that do not fit into one message come in several", "[daemon][live]") {
     Served served({}, 1000);
     take_every(milliseconds(1), served, 0, 60'000);
     const RawViewer viewer(served);
@@ -134,7 +134,7 @@ TEST_CASE("a past larger than a message comes in several", "[daemon][live]") {
     CHECK(messages == 15);
 }
 
-TEST_CASE("behind a gap a new message begins", "[daemon][live]") {
+TEST_CASE("a new message begins after a gap", "[daemon][live]") {
     Served served;
     take_samples(served.live, 0, 10);
     take_samples(served.live, 13, 20);
@@ -149,7 +149,7 @@ TEST_CASE("behind a gap a new message begins", "[daemon][live]") {
     CHECK(next_block(viewer).first_index == 40);
 }
 
-TEST_CASE("viewers that come at any time have every sample once", "[daemon][live]") {
+TEST_CASE("viewers that connect at any time get every sample once", "[daemon][live]") {
     Served served;
     std::atomic<bool> is_done{false};
     std::atomic<int> bad{0};
@@ -200,7 +200,7 @@ TEST_CASE("the status comes once a second, and at once when the level changes", 
     REQUIRE(status);
     CHECK(json::parse(status->payload).at("status").at("level") == "fault");
     CHECK(after < milliseconds(700));
-    std::cout << "a change was told after "
+    std::cout << "a change was reported after "
               << std::chrono::duration<double, std::milli>(after).count() << " ms\n";
 }
 
@@ -219,7 +219,7 @@ TEST_CASE("samples reach a viewer soon after they were taken", "[daemon][live]")
     CHECK(largest_ms < 500.0);
 }
 
-TEST_CASE("a viewer that does not read misses messages, holds up nobody and costs little memory",
+TEST_CASE("a viewer that does not read misses messages, delays nobody and costs little memory",
           "[daemon][live]") {
     if (kIsSanitized) {
         std::cout << "skipped: a sanitizer makes the reader too slow\n";
@@ -246,10 +246,10 @@ TEST_CASE("a viewer that does not read misses messages, holds up nobody and cost
               << " messages not sent to the other; memory grew by " << grown_mb << " MB\n";
     CHECK(read == kBursts * kBurst);
     CHECK(metric(served, "a351_page_streams") == 2);
-    CHECK(dropped == 0);  // Missed ones count when it reads on.
+    CHECK(dropped == 0);  // Missed messages are counted when it reads again.
     CHECK(grown_mb < 4.0);
 
-    // It reads on behind what it missed, and on to the end.
+    // It continues after the messages that it missed, up to the end.
     std::int64_t behind = 0;
     while (behind < taken) {
         const auto block = next_block(stuck);
@@ -259,7 +259,7 @@ TEST_CASE("a viewer that does not read misses messages, holds up nobody and cost
     CHECK(metric(served, "a351_page_messages_dropped_total") > 100);
 }
 
-TEST_CASE("viewers that take or answer nothing are left", "[daemon][live]") {
+TEST_CASE("viewers that read nothing or answer no ping are disconnected", "[daemon][live]") {
     if (kIsSanitized) {
         std::cout << "skipped: a sanitizer makes the reader too slow\n";
         return;
@@ -269,7 +269,7 @@ TEST_CASE("viewers that take or answer nothing are left", "[daemon][live]") {
     Served served(options, 1000);
     const RawViewer reader(served);
     const RawViewer mute(served);    // Answers no ping.
-    const RawViewer talker(served);  // Talks on without ever reading.
+    const RawViewer talker(served);  // Sends without ever reading.
     std::int64_t at = 0;
     const auto begin = std::chrono::steady_clock::now();
     double streams = 3;
@@ -279,14 +279,14 @@ TEST_CASE("viewers that take or answer nothing are left", "[daemon][live]") {
         at += read_up_to(reader, at, at + 10'000);
         streams = metric(served, "a351_page_streams");
     }
-    std::cout << "left after "
+    std::cout << "disconnected after "
               << std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()
               << " s\n";
     CHECK(streams == 1);
     CHECK(reader.next());
 }
 
-TEST_CASE("a viewer that leaves without a word, and the server's end, do no harm",
+TEST_CASE("a viewer that disconnects without notice, or a stop of the server, does no harm",
           "[daemon][live]") {
     Served served;
     for (int i = 0; i < 50; ++i) {
@@ -300,7 +300,7 @@ TEST_CASE("a viewer that leaves without a word, and the server's end, do no harm
     served.server.stop();
 }
 
-TEST_CASE("a status that fails is counted and stops no samples", "[daemon][live]") {
+TEST_CASE("a failing status is counted and does not stop the samples", "[daemon][live]") {
     Served served;
     served.is_failing = true;
     take_samples(served.live, 0, 100);

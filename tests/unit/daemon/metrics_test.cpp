@@ -32,7 +32,7 @@ std::string metrics_of(const Status& status, const PageUse& use = {}) {
 
 bool has_line(const std::string& text, const std::string& line) {
     const bool is_there = ('\n' + text).find('\n' + line + '\n') != std::string::npos;
-    UNSCOPED_INFO("sought: " << line);
+    UNSCOPED_INFO("expected line: " << line);
     return is_there;
 }
 
@@ -96,11 +96,12 @@ TEST_CASE("metrics carry the status in base units", "[daemon][metrics]") {
                              "a351_occupation_running 0"}) {
         CHECK(has_line(text, line));
     }
-    CHECK(text.find("archived") == std::string::npos);  // None yet.
+    CHECK(text.find("\"archived\"") == std::string::npos);  // None yet.
     CHECK(text.find("archive_records_waiting\"") == std::string::npos);
 }
 
-TEST_CASE("before the first sample metrics say no data and invent nothing", "[daemon][metrics]") {
+TEST_CASE("before the first sample the metrics show no data and no invented values",
+          "[daemon][metrics]") {
     const auto text = metrics_of({});
     CAPTURE(text);
     CHECK(has_line(text, R"(a351_verdict{state="no data"} 1)"));
@@ -112,7 +113,7 @@ TEST_CASE("before the first sample metrics say no data and invent nothing", "[da
     }
 }
 
-TEST_CASE("metrics are in the text format: each declared once, before its samples",
+TEST_CASE("metrics follow the text format: each is declared once, before its samples",
           "[daemon][metrics]") {
     // Names and labels as the page "Exposition formats" of Prometheus defines them.
     const std::regex sample(

@@ -34,7 +34,7 @@ TEST_CASE("a change is committed with its sample before it is answered", "[daemo
     CHECK(recorder.log.back().utc == *recorder.last);
 }
 
-TEST_CASE("a change that is not on disk did not happen", "[daemon][occupations]") {
+TEST_CASE("a change that cannot be written to disk has no effect", "[daemon][occupations]") {
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});
     recorder.is_disk_full = true;
@@ -104,7 +104,7 @@ TEST_CASE("stays at a site are counted without the discarded ones", "[daemon][oc
     CHECK(list[1].set_ups.back().end == minute(6));
 }
 
-TEST_CASE("discard and rename take the running occupation, else the last one",
+TEST_CASE("discard and rename apply to the running occupation, or else to the last one",
           "[daemon][occupations]") {
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});
@@ -126,7 +126,7 @@ TEST_CASE("discard and rename take the running occupation, else the last one",
     CHECK(occupations.discard().kind == Kind::refused);
 }
 
-TEST_CASE("an instant outside the remembered record is refused", "[daemon][occupations]") {
+TEST_CASE("a time outside the remembered record is refused", "[daemon][occupations]") {
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});
     CHECK(mentions(occupations.start("No.0", {}, minute(61)), "later than the last sample"));
@@ -137,7 +137,7 @@ TEST_CASE("an instant outside the remembered record is refused", "[daemon][occup
     CHECK(recorder.log.empty());
 }
 
-TEST_CASE("an unknown or missing site is refused, unless there is no list",
+TEST_CASE("a missing site is refused, and an unknown one too if there is a list of sites",
           "[daemon][occupations]") {
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});
@@ -149,7 +149,8 @@ TEST_CASE("an unknown or missing site is refused, unless there is no list",
     CHECK(unlisted.rename("", {}).kind == Kind::refused);
 }
 
-TEST_CASE("a second start says which occupation runs and since when", "[daemon][occupations]") {
+TEST_CASE("a second start is refused with the name and start of the running occupation",
+          "[daemon][occupations]") {
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});
     occupations.start("No.0", {}, minute(1));
@@ -165,7 +166,8 @@ TEST_CASE("occupations do not overlap, but a forgotten one can be entered later"
     Occupations occupations(recorder, two_sites(), {});
     occupations.start("No.0", {}, minute(10));
     occupations.stop({}, minute(20));
-    CHECK(mentions(occupations.start("No.1", {}, minute(19)), "within No.0 (stay 1)"));
+    CHECK(
+        mentions(occupations.start("No.1", {}, minute(19)), "within the occupation No.0 (stay 1)"));
     CHECK(occupations.start("No.1", {}, minute(10)).kind == Kind::refused);
     CHECK(occupations.start("No.1", {}, minute(5)).kind == Kind::done);
     CHECK(mentions(occupations.stop({}, minute(11)), "No.0 (stay 1) lies between"));
@@ -174,7 +176,7 @@ TEST_CASE("occupations do not overlap, but a forgotten one can be entered later"
     CHECK(occupations.running()->number == 2);
 }
 
-TEST_CASE("stop and set-up need a running occupation and come after its set-up",
+TEST_CASE("stop and setup need a running occupation and a time after its last set-up",
           "[daemon][occupations]") {
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});
@@ -191,7 +193,7 @@ TEST_CASE("stop and set-up need a running occupation and come after its set-up",
     CHECK(occupations.list().front().set_ups.size() == 2);
 }
 
-TEST_CASE("a log can be completed when the sensor is unplugged", "[daemon][occupations]") {
+TEST_CASE("notes and renames are possible while the sensor is unplugged", "[daemon][occupations]") {
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});
     occupations.start("No.0", {}, minute(1));

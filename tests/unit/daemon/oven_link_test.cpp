@@ -23,7 +23,7 @@ using State = OvenLinkStatus::State;
 
 namespace {
 
-/// The link to a controller, and what it hands on.
+/// A link to a fake controller, with the polls that it delivers.
 class OvenRig {
 public:
     FakeController controller;
@@ -50,18 +50,18 @@ public:
     }
 
 private:
-    // Fast, so that backing off takes its shortest time.
+    // A fast clock makes the pauses between attempts short.
     HostClock clock_{ClockScale{1000.0, *parse_rfc3339("2026-03-01T00:00:00Z"), host_realtime()}};
     mutable std::mutex mutex_;
     std::vector<OvenChunk> polls_;
 
 public:
-    OvenLink link;  // The last, so that its thread ends first.
+    OvenLink link;  // Declared last, so that its thread ends first.
 };
 
 }  // namespace
 
-TEST_CASE("a controller is asked for its values again and again, and for nothing else",
+TEST_CASE("a controller is polled for its values, once for its decimals and for nothing else",
           "[daemon][oven_link]") {
     OvenRig rig;
     CHECK(rig.link.status().is_stale);
@@ -94,7 +94,7 @@ TEST_CASE("a controller is asked for its values again and again, and for nothing
     CHECK(rig.controller.other_requests == 0);
 }
 
-TEST_CASE("each way of not answering has its own counter, and the next answer is taken",
+TEST_CASE("each kind of failed answer has its own counter, and the next answer is accepted",
           "[daemon][oven_link]") {
     const auto [manner, outcome] =
         GENERATE(table<Manner, OvenOutcome>({{Manner::mute, OvenOutcome::timed_out},
@@ -123,12 +123,12 @@ TEST_CASE("each way of not answering has its own counter, and the next answer is
     }
     CHECK(handed_on == rig.link.status().polls);
     CHECK(rig.count(OvenOutcome::answered) + rig.count(outcome) == rig.polls().size());
-    // Refused, it is asked for the addresses of four-byte mode.
+    // After each refusal the link tries the addresses of four-byte mode.
     const auto refused = manner == Manner::refused ? rig.count(OvenOutcome::exception) : 0;
     CHECK(rig.controller.other_requests == static_cast<int>(refused));
 }
 
-TEST_CASE("one lost answer is no change of state, a last answer that has grown old is",
+TEST_CASE("one lost answer does not change the state, but a last answer that is too old does",
           "[daemon][oven_link]") {
     OvenRig rig;
     rig.link.start();
@@ -142,11 +142,11 @@ TEST_CASE("one lost answer is no change of state, a last answer that has grown o
     REQUIRE(eventually([&] { return rig.link.status().state == State::silent; }));
     status = rig.link.status();
     CHECK(status.is_stale);
-    REQUIRE(status.values);  // As a last value with its age, which says that it is old.
+    REQUIRE(status.values);  // The last values remain, and their age shows that they are old.
     CHECK(status.values->process_value == DegC(42.5));
 }
 
-TEST_CASE("the controller's own decimals come before the configured ones", "[daemon][oven_link]") {
+TEST_CASE("the controller's own decimals override the configured ones", "[daemon][oven_link]") {
     OvenRig rig;
     rig.controller.decimals = 2;
     rig.link.start();
@@ -156,12 +156,13 @@ TEST_CASE("the controller's own decimals come before the configured ones", "[dae
     CHECK(rig.polls().front().decimals == 2);
 }
 
-TEST_CASE("decimals that are not told, or cannot be, leave the configured ones and every value",
-          "[daemon][oven_link]") {
+TEST_CASE(
+    "without usable decimals of the controller the configured ones apply, and no value is lost",
+    "[daemon][oven_link]") {
     OvenRig rig;
     SECTION("no such register") { rig.controller.decimals_manner = Manner::refused; }
-    SECTION("a number that makes no sense") { rig.controller.decimals = 425; }
-    SECTION("silence") { rig.controller.decimals_manner = Manner::mute; }
+    SECTION("an impossible number") { rig.controller.decimals = 425; }
+    SECTION("no answer") { rig.controller.decimals_manner = Manner::mute; }
     rig.link.start();
     REQUIRE(rig.reaches(OvenOutcome::answered, 5));
     rig.link.stop();
@@ -170,7 +171,8 @@ TEST_CASE("decimals that are not told, or cannot be, leave the configured ones a
     for (const OvenChunk& poll : rig.polls()) CHECK(poll.decimals == 1);
 }
 
-TEST_CASE("a controller of four-byte mode is read as one of two-byte mode", "[daemon][oven_link]") {
+TEST_CASE("a controller in four-byte mode is read, and recorded like one in two-byte mode",
+          "[daemon][oven_link]") {
     OvenRig rig;
     rig.controller.is_four_byte = true;
     rig.link.start();
@@ -182,18 +184,18 @@ TEST_CASE("a controller of four-byte mode is read as one of two-byte mode", "[da
     CHECK(rig.polls().back().registers == std::vector<std::uint16_t>{0xFFF1, 0x0100, 425, 0, 250});
     CHECK(rig.controller.other_requests == 1);  // 2000h, once
 
-    // Another one takes its place.
+    // A controller in two-byte mode takes its place.
     rig.controller.is_four_byte = false;
     REQUIRE(rig.reaches(OvenOutcome::answered, 5));
     CHECK(rig.link.status().values->process_value == DegC(42.5));
 }
 
-TEST_CASE("a link that is stopped asks no second question", "[daemon][oven_link]") {
+TEST_CASE("a link that is being stopped sends no second request", "[daemon][oven_link]") {
     bool is_left_alone = false;
-    // Some tries, for a busy host may come to stop it after the answer.
+    // Several tries, because a busy host may stop it only after the answer.
     for (int i = 0; i < 5 && !is_left_alone; ++i) {
         OvenRig rig;
-        rig.controller.manner = Manner::refused;  // Else it would be asked in four-byte mode.
+        rig.controller.manner = Manner::refused;  // A running link would now try four-byte mode.
         rig.controller.delay = ModbusLine::kResponseTimeout / 2;
         rig.link.start();
         REQUIRE(eventually([&] { return rig.controller.polls > 0; }));
@@ -228,12 +230,12 @@ TEST_CASE("a controller that comes back under another name is found through its 
     rig.link.stop();
 }
 
-TEST_CASE("a port is one link's alone", "[daemon][oven_link]") {
+TEST_CASE("a port is used by one link at a time", "[daemon][oven_link]") {
     OvenRig rig;
     const auto sensor = open_port({rig.controller.path(), {}}, 460800);
     rig.link.start();
     REQUIRE(rig.reaches(OvenOutcome::no_port));
-    CHECK(rig.link.status().trouble == rig.controller.path() + ": somebody else holds it");
+    CHECK(rig.link.status().trouble == rig.controller.path() + ": in use by another process");
     CHECK(rig.controller.polls == 0);
     rig.link.stop();
 
@@ -244,7 +246,7 @@ TEST_CASE("a port is one link's alone", "[daemon][oven_link]") {
     CHECK_THROWS_AS(open_port({other.path(), {}}, 460800), PortError);
 }
 
-TEST_CASE("what came unasked is not taken for the answer", "[daemon][oven_link]") {
+TEST_CASE("leftover bytes of one answer are not taken for the next answer", "[daemon][oven_link]") {
     FakeController controller;
     ModbusLine line({.port = controller.path(), .parity = 'N'});
     controller.manner = Manner::babble;  // libmodbus reads eight of its 64 bytes.
@@ -255,7 +257,8 @@ TEST_CASE("what came unasked is not taken for the answer", "[daemon][oven_link]"
           oven::kMonitorCount);
 }
 
-TEST_CASE("a port that echoes does so no more, even after it was closed", "[daemon][oven_link]") {
+TEST_CASE("opening a port turns its echo off, also for the time after it is closed",
+          "[daemon][oven_link]") {
     Pty pty;
     const int host = open(pty.path().c_str(), O_RDWR | O_NOCTTY);
     termios settings{};
@@ -267,13 +270,17 @@ TEST_CASE("a port that echoes does so no more, even after it was closed", "[daem
     CHECK((settings.c_lflag & (ECHO | ICANON)) == 0);
 }
 
-TEST_CASE("what is no port, or does not take the settings, is refused", "[daemon][oven_link]") {
-    const Pty pty;  // It carries no parity, and does not say so when it is asked for one.
+TEST_CASE("a path that is not a port, and a port that does not accept the settings, are refused",
+          "[daemon][oven_link]") {
+    // A pseudo-terminal has no parity, and ignores a request for it without an error.
+    const Pty pty;
     CHECK_NOTHROW(ModbusLine({.port = pty.path(), .parity = 'N'}));
-    CHECK_THROWS_WITH(ModbusLine({.port = pty.path(), .parity = 'N', .is_rs485 = true}),
-                      EndsWith("its driver does not switch an RS-485 line"));
-    CHECK_THROWS_WITH(ModbusLine({.port = pty.path(), .parity = 'E'}),
-                      EndsWith("baud 8E1: does not keep this parity"));
+    CHECK_THROWS_WITH(
+        ModbusLine({.port = pty.path(), .parity = 'N', .is_rs485 = true}),
+        EndsWith("the port's driver cannot switch an RS-485 line; set rs485 = false"));
+    CHECK_THROWS_WITH(
+        ModbusLine({.port = pty.path(), .parity = 'E'}),
+        EndsWith("baud 8E1: the port does not keep this parity; use another parity or port"));
     CHECK_THROWS_AS(ModbusLine({.port = "/dev/null"}), PortError);
     CHECK_THROWS_AS(ModbusLine({.port = "/nonexistent/oven"}), PortError);
 }

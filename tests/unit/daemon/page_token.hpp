@@ -4,7 +4,7 @@
 
 namespace a351::daemon {
 
-/// Of the page in tests.
+/// The page's token in tests.
 inline const std::string kToken = "0123456789abcdef0123456789abcdef";
 
 }  // namespace a351::daemon

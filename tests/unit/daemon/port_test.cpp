@@ -57,7 +57,7 @@ TEST_CASE("every byte value passes a port both ways", "[daemon][port]") {
     CHECK(received == sent);
 }
 
-TEST_CASE("a port that was left cooked, with XON/XOFF and parity bits, is set to 8N1 raw",
+TEST_CASE("a port left in cooked mode, with flow control and two stop bits, is set to raw 8N1",
           "[daemon][port]") {
     Pty pty;
     const int before = open(pty.path().c_str(), O_RDWR | O_NOCTTY);
@@ -81,7 +81,7 @@ TEST_CASE("a port that was left cooked, with XON/XOFF and parity bits, is set to
     CHECK(port->description().find("230400 baud") != std::string::npos);
 }
 
-TEST_CASE("a port that is held is refused as locked, and free again after it was closed",
+TEST_CASE("a port that is in use is refused as locked, and free again after it is closed",
           "[daemon][port]") {
     Pty pty;
     auto port = open_port({pty.path(), {}}, 460800);
@@ -90,7 +90,7 @@ TEST_CASE("a port that is held is refused as locked, and free again after it was
     CHECK_NOTHROW(open_port({pty.path(), {}}, 460800));
 }
 
-TEST_CASE("silence is no end, a closed far side is", "[daemon][port]") {
+TEST_CASE("silence does not end a connection, but closing the other end does", "[daemon][port]") {
     Pty pty;
     const auto port = open_port({pty.path(), {}}, 460800);
     std::vector<std::byte> some(100);
@@ -102,7 +102,7 @@ TEST_CASE("silence is no end, a closed far side is", "[daemon][port]") {
     CHECK_FALSE(port->write(some));
 }
 
-TEST_CASE("a port is found through links, and what is not there or no port is told apart",
+TEST_CASE("a port is found through links, and a missing port and a wrong file are different errors",
           "[daemon][port]") {
     Pty pty;
     const test::TemporaryDirectory directory;

@@ -13,7 +13,8 @@ TEST_CASE_METHOD(Rig, "after a power cut every journaled sample is archived once
     store.start();
     begin_session();
     std::size_t lost = 0, mended = 0, torn = 0;
-    std::vector<std::chrono::steady_clock::time_point> fed_at;  // By sample.
+    // Time at which each sample was fed.
+    std::vector<std::chrono::steady_clock::time_point> fed_at;
     std::chrono::duration<double> oldest_lost{0};
     for (int cut = 0; cut < kCuts; ++cut) {
         feed(static_cast<int>(random() % 1000));
@@ -44,7 +45,7 @@ TEST_CASE_METHOD(Rig, "after a power cut every journaled sample is archived once
     }
     std::printf(
         "power cuts: %d; samples fed that were not journaled yet and lost: %zu, the oldest fed "
-        "%.2f s before its cut; journals torn: %zu, day files mended: %zu\n",
+        "%.2f s before its cut; journals torn: %zu, day files repaired: %zu\n",
         kCuts, lost, oldest_lost.count(), torn, mended);
     CHECK(mended > 0);
     CHECK(torn > 0);

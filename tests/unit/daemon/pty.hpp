@@ -14,7 +14,7 @@
 
 namespace a351 {
 
-/// The far side of a pseudo-terminal.
+/// The master side of a pseudo-terminal.
 class Pty {
 public:
     Pty() : descriptor_(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {
@@ -34,7 +34,7 @@ public:
         descriptor_ = -1;
     }
 
-    /// What comes within `timeout`; empty when nothing does.
+    /// Waits up to `timeout` for bytes.  @return those that have come; empty if none have
     [[nodiscard]] std::vector<std::byte> read(std::chrono::milliseconds timeout) {
         pollfd waited{descriptor_, POLLIN, 0};
         poll(&waited, 1, static_cast<int>(timeout.count()));
@@ -44,7 +44,8 @@ public:
         return bytes;
     }
 
-    /// Waits while the other side does not read.
+    /// Writes all bytes.  Waits while the other side does not read.
+    /// @throws std::runtime_error  if it does not read for 1 s
     void write(std::span<const std::byte> bytes) {
         while (!bytes.empty()) {
             const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());

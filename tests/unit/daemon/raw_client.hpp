@@ -28,7 +28,7 @@ public:
 
     [[nodiscard]] bool is_open() const noexcept { return is_open_; }
 
-    /// What the daemon does not want any more is dropped without a word.
+    /// Sends `bytes`.  Bytes that the daemon does not accept any more are silently dropped.
     void send(std::string_view bytes) const {
         while (!bytes.empty()) {
             const auto sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -39,7 +39,7 @@ public:
 
     void finish_sending() const { ::shutdown(socket_, SHUT_WR); }
 
-    /// The next `count` bytes; fewer when the connection ends or nothing comes for 20 s.
+    /// Returns the next `count` bytes; fewer if the connection ends or nothing comes for 20 s.
     std::string take(std::size_t count) const {
         std::string received(count, '\0');
         std::size_t filled = 0;
@@ -54,7 +54,8 @@ public:
         return received;
     }
 
-    /// Everything up to the end of the connection; 20 s at most, so that a failure ends, too.
+    /// Returns everything up to the end of the connection.  After 20 s without a byte it appends
+    /// "(no end)".
     std::string rest() const {
         std::string received;
         char bytes[4096];
@@ -67,7 +68,7 @@ public:
         }
     }
 
-    /// Up to the end of one response, which has a Content-Length.
+    /// Returns one response.  Its body is read by its Content-Length.
     std::string response() const {
         std::string received;
         char byte = 0;
@@ -89,7 +90,7 @@ private:
     bool is_open_ = false;
 };
 
-/// The status code of a response; 0 for none.
+/// Returns the status code of a response; 0 if there is none.
 inline int status_of(std::string_view response) {
     if (!response.starts_with("HTTP/1.1 ") || response.size() < 12) return 0;
     return std::stoi(std::string(response.substr(9, 3)));

@@ -11,7 +11,7 @@
 
 namespace a351::daemon {
 
-/// A client of the live stream, RFC 6455 in the least form: no fragments from the server.
+/// A client of the live stream with the minimum of RFC 6455: no fragments from the server.
 class RawViewer {
 public:
     enum Kind { text = 1, binary = 2, close = 8, ping = 9, pong = 10 };
@@ -21,7 +21,7 @@ public:
     };
 
     explicit RawViewer(const Served& served) : RawViewer(served, served.own_origin()) {}
-    /// @param headers  besides those of the upgrade, Origin among them.
+    /// @param headers  headers to add to those of the upgrade, for example Origin
     RawViewer(const Served& served, const std::string& headers) : client_(served.server.port()) {
         client_.send(request(served.host(), headers));
         answer_ = client_.response();
@@ -38,7 +38,7 @@ public:
     [[nodiscard]] int status() const { return status_of(answer_); }
     [[nodiscard]] const RawClient& client() const noexcept { return client_; }
 
-    /// The next message, pings answered; std::nullopt at the end of the connection.
+    /// Returns the next message and answers pings; std::nullopt at the end of the connection.
     std::optional<Frame> next() const {
         for (;;) {
             const auto head = client_.take(2);
@@ -56,7 +56,7 @@ public:
         }
     }
 
-    /// The next one of that kind, others dropped; std::nullopt also when it does not come in 20 s.
+    /// Returns the next message of a kind and drops others; std::nullopt also after 20 s.
     std::optional<Frame> next(Kind kind) const {
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
         while (std::chrono::steady_clock::now() < end) {
@@ -82,7 +82,7 @@ private:
     std::string answer_;
 };
 
-/// A binary message, read as the format says.
+/// A binary message, decoded as the format says.
 struct ReadBlock {
     explicit ReadBlock(const std::string& bytes) {
         const auto get = [&](auto& value, std::size_t at) {

@@ -16,7 +16,7 @@ RawTime at(std::int64_t ns) { return RawTime(Nanoseconds(ns)); }
 
 }  // namespace
 
-TEST_CASE("what goes into the queue in one thread comes out in another, in order and unchanged",
+TEST_CASE("items pushed in one thread come out in another, in order and unchanged",
           "[daemon][read_queue]") {
     ReadQueue queue(kSmall);
     constexpr std::int64_t kItems = 20000;
@@ -46,7 +46,7 @@ TEST_CASE("what goes into the queue in one thread comes out in another, in order
     CHECK(queue.fill() == 0);
 }
 
-TEST_CASE("a full queue refuses and keeps what it has", "[daemon][read_queue]") {
+TEST_CASE("a full queue refuses new items and keeps the old ones", "[daemon][read_queue]") {
     ReadQueue queue(kSmall);
     const std::vector<std::byte> bytes(1000, std::byte{7});
     std::int64_t taken = 0;
@@ -71,7 +71,8 @@ TEST_CASE("the queue holds an hour of reads at 50 Hz", "[daemon][read_queue]") {
     CHECK(refused == 0);
 }
 
-TEST_CASE("a session header stands between the bytes before and after it", "[daemon][read_queue]") {
+TEST_CASE("a session header comes out between the bytes pushed before and after it",
+          "[daemon][read_queue]") {
     ReadQueue queue(kSmall);
     const std::vector<std::byte> bytes(5);
     REQUIRE(queue.push(ReadQueue::Kind::rx, at(1), bytes));

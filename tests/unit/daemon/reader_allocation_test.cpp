@@ -1,6 +1,6 @@
 /// @file
-/// The reader thread allocates nothing while it samples: an allocator may wait for a lock that a
-/// thread without its urgency holds.  A program of its own, for it replaces operator new.
+/// The reader thread must not allocate while it samples, because an allocator may wait for a lock
+/// that a less urgent thread holds.  A separate program, because it replaces operator new.
 
 #include <filesystem>
 #include <set>
@@ -24,7 +24,7 @@ std::set<pid_t> threads() {
 using namespace a351;
 using namespace a351::daemon;
 
-TEST_CASE("the reader allocates nothing while it samples", "[daemon][sensor_link]") {
+TEST_CASE("the reader thread allocates no memory while it samples", "[daemon][sensor_link]") {
     FakeSensor sensor;
     LinkOptions options;
     options.address.path = sensor.path();
@@ -42,7 +42,7 @@ TEST_CASE("the reader allocates nothing while it samples", "[daemon][sensor_link
 
     test::watched_thread = *after.begin();
     REQUIRE(eventually([&] { return sensor.frames_sent >= 20; }));
-    CHECK(test::allocations > 0);  // It has configured the sensor: it is the right thread.
+    CHECK(test::allocations > 0);  // Configuring the sensor allocates, so this is the right thread.
     test::allocations = 0;
     const auto sent = sensor.frames_sent.load();
     REQUIRE(eventually([&] { return sensor.frames_sent >= sent + 150; }));

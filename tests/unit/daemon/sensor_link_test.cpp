@@ -24,7 +24,7 @@ LinkOptions options_for(const std::filesystem::path& path) {
     return options;
 }
 
-/// As if frame `count` / 80 - 1 of a FakeSensor had been the last one heard, now.
+/// Returns a stream whose last received frame is frame `count` / 80 - 1 of a FakeSensor, now.
 record::StreamEnd known_stream(const LinkOptions& options, const HostClock& clock,
                                std::uint16_t count) {
     record::StreamEnd known{options.header, count, clock.raw()};
@@ -34,7 +34,7 @@ record::StreamEnd known_stream(const LinkOptions& options, const HostClock& cloc
     return known;
 }
 
-/// What came through the queue.
+/// Everything that came through the queue.
 struct Received {
     std::vector<record::JournalHeader> sessions;
     std::vector<std::byte> bytes;
@@ -156,7 +156,8 @@ TEST_CASE("a sensor whose rate was changed is configured again", "[daemon][senso
     CHECK(Received(queue).sessions.size() == 2);
 }
 
-TEST_CASE("a sensor that answers but never sends begins no session", "[daemon][sensor_link]") {
+TEST_CASE("a sensor that answers but never sends a frame starts no session",
+          "[daemon][sensor_link]") {
     FakeSensor sensor;
     sensor.is_idle = true;
     ReadQueue queue;
@@ -169,7 +170,7 @@ TEST_CASE("a sensor that answers but never sends begins no session", "[daemon][s
     link.stop();
 }
 
-TEST_CASE("a port that goes is searched for until it is back", "[daemon][sensor_link]") {
+TEST_CASE("a port that disappears is searched for until it is back", "[daemon][sensor_link]") {
     const test::TemporaryDirectory directory;
     const auto name = directory.path() / "sensor";
     ReadQueue queue;
@@ -206,7 +207,7 @@ TEST_CASE("another instrument is refused by its serial number and stopped",
     CHECK(queue.fill() == 0);
 }
 
-TEST_CASE("a port that another process holds is refused at the start", "[daemon][sensor_link]") {
+TEST_CASE("a port that another process has open is refused at the start", "[daemon][sensor_link]") {
     FakeSensor sensor;
     const auto held = open_port({sensor.path(), {}}, 460800);
     ReadQueue queue;
@@ -215,7 +216,7 @@ TEST_CASE("a port that another process holds is refused at the start", "[daemon]
     CHECK_THROWS_AS(link.start(), PortError);
 }
 
-TEST_CASE("a stream that goes on where the journal left it is adopted untouched",
+TEST_CASE("a stream that continues where the journal ended is adopted without a command",
           "[daemon][sensor_link][adoption]") {
     FakeSensor sensor;
     ReadQueue queue;
@@ -243,7 +244,7 @@ TEST_CASE("a stream that goes on where the journal left it is adopted untouched"
     CHECK(received.frames()[0] == FakeSensor::values(0));
 }
 
-TEST_CASE("a stream that may be another one is stopped and configured",
+TEST_CASE("a stream that may be another one is stopped, and the sensor is configured",
           "[daemon][sensor_link][adoption]") {
     FakeSensor sensor;
     ReadQueue queue;
@@ -252,9 +253,9 @@ TEST_CASE("a stream that may be another one is stopped and configured",
     options.known = known_stream(options, clock, 0);
     SECTION("its counter is eight seconds off") { options.known->count = 80 * 400; }
     SECTION("the port was another one") { options.known->header.port = "elsewhere"; }
-    SECTION("it ran under another filter") { options.known->header.filter = "other"; }
-    SECTION("the host was started anew") { options.known->header.boot_id = "other"; }
-    SECTION("another instrument is wanted") {
+    SECTION("it had another filter") { options.known->header.filter = "other"; }
+    SECTION("the host was rebooted") { options.known->header.boot_id = "other"; }
+    SECTION("another instrument is expected") {
         options.known->header.serial_number = "00000099";
         options.expected_serial_number = "00000042";
     }

@@ -12,7 +12,7 @@
 using namespace a351;
 using namespace a351::daemon;
 
-TEST_CASE("the server answers with the headers of a private interface", "[daemon][server]") {
+TEST_CASE("an answer of the server has the security headers", "[daemon][server]") {
     const Served served;
     const auto answer = served.answer(served.get("/api/status"));
     CHECK(status_of(answer) == 200);
@@ -28,7 +28,8 @@ TEST_CASE("the server answers with the headers of a private interface", "[daemon
     CHECK(answer.find("\"level\":\"good\"") != std::string::npos);
 }
 
-TEST_CASE("the rules of security hold on the wire", "[daemon][server]") {
+TEST_CASE("the server enforces the rules for Host, Origin, token and content type",
+          "[daemon][server]") {
     Served served;
     CHECK(status_of(served.answer("GET /api/status HTTP/1.1\r\nHost: evil.example\r\n\r\n")) ==
           421);
@@ -52,7 +53,7 @@ TEST_CASE("the rules of security hold on the wire", "[daemon][server]") {
     CHECK(served.recorder.log.front().details.at("note") == "a lorry passed");
 }
 
-TEST_CASE("a change that is answered is in the log", "[daemon][server]") {
+TEST_CASE("a change that was answered 200 is in the log", "[daemon][server]") {
     Served served;
     const std::string body = R"({"site":"No.0"})";
     const auto answer = served.answer(
@@ -75,7 +76,8 @@ TEST_CASE("a header beyond 8 KiB and a body beyond 16 KiB are refused", "[daemon
     const auto noted = [&](std::size_t size) {
         return served.post(R"({"note":")" + std::string(size, 'x') + "\"}", kJson);
     };
-    CHECK(status_of(served.answer(noted(16 * 1024 - 11))) == 403);  // Read whole; no token.
+    // This one is read completely and then refused, because it has no token.
+    CHECK(status_of(served.answer(noted(16 * 1024 - 11))) == 403);
     CHECK(status_of(served.answer(noted(16 * 1024 - 10))) == 413);
     CHECK(status_of(served.answer(noted(1024 * 1024))) == 413);
     const std::string chunked = "POST /api/note HTTP/1.1\r\n" + served.host() + kJson +
@@ -85,7 +87,7 @@ TEST_CASE("a header beyond 8 KiB and a body beyond 16 KiB are refused", "[daemon
     CHECK(served.is_well());
 }
 
-TEST_CASE("one connection too many is told to come back and seats become free again",
+TEST_CASE("one connection too many is answered 503, and closed connections make room again",
           "[daemon][server]") {
     const Served served;
     {
@@ -100,7 +102,7 @@ TEST_CASE("one connection too many is told to come back and seats become free ag
         CHECK(status_of(late.response()) == 503);
         seated.front().send(served.get("/api/status"));
         CHECK(status_of(seated.front().response()) == 200);
-        // Hundreds more neither get a seat nor do harm.
+        // Hundreds more are not served and do no harm.
         std::list<RawClient> crowd;
         for (int i = 0; i < 300; ++i) crowd.emplace_back(served.server.port());
         seated.back().send(served.get("/api/status"));
@@ -114,14 +116,14 @@ TEST_CASE("one connection too many is told to come back and seats become free ag
     CHECK(is_well);
 }
 
-TEST_CASE("a request that is not complete in time is cut", "[daemon][server]") {
+TEST_CASE("a request that is not complete in time is cut off", "[daemon][server]") {
     ServerOptions options;
     options.request_limit = std::chrono::milliseconds(200);
     const Served served(options);
     const RawClient silent(served.server.port());
     const RawClient half(served.server.port());
     half.send("GET /api/status HTTP/1.1\r\nHost: ");
-    // A byte now and then does not buy more time.
+    // A byte now and then does not extend the time limit.
     const RawClient trickle(served.server.port());
     for (int i = 0; i < 20; ++i) {
         trickle.send("x");
@@ -158,7 +160,7 @@ TEST_CASE("HEAD is answered without a body", "[daemon][server]") {
     CHECK(answer.find("Content-Length: 0") == std::string::npos);
 }
 
-TEST_CASE("bytes that are no request do no harm", "[daemon][server]") {
+TEST_CASE("bytes that are not a request do no harm", "[daemon][server]") {
     const Served served;
     for (const std::string& bytes :
          {std::string("\0\0\0\0", 4), std::string("\x16\x03\x01\x02\x00\x01\xfc\x03\x03", 9),
@@ -194,7 +196,8 @@ TEST_CASE("a client that leaves before the answer does no harm", "[daemon][serve
     CHECK(served.is_well());
 }
 
-TEST_CASE("the server stops with connections open and before it was started", "[daemon][server]") {
+TEST_CASE("the server can be stopped with connections open, and before it was started",
+          "[daemon][server]") {
     Served served;
     const RawClient open(served.server.port());
     open.send(served.get("/api/status"));
@@ -205,14 +208,14 @@ TEST_CASE("the server stops with connections open and before it was started", "[
     CHECK(idle.port() != 0);
 }
 
-TEST_CASE("a port in use is known before the start", "[daemon][server]") {
+TEST_CASE("a port in use is reported before the server is started", "[daemon][server]") {
     Served served;
     auto options = Served::own({});
     options.listen.port = served.server.port();
     CHECK_THROWS_AS(Server(options, served.sources()), std::system_error);
 }
 
-TEST_CASE("loopback is served in both families", "[daemon][server]") {
+TEST_CASE("loopback is served on IPv4 and, if available, on IPv6", "[daemon][server]") {
     const Served served;
     const auto port = std::to_string(served.server.port());
     const auto& addresses = served.server.addresses();

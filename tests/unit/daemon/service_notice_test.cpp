@@ -20,7 +20,7 @@ namespace {
 /// A service manager: a bound datagram socket.
 class Manager {
 public:
-    /// @param name  as NOTIFY_SOCKET has it.
+    /// @param name  address in the form of NOTIFY_SOCKET
     explicit Manager(const std::string& name) {
         sockaddr_un address{};
         address.sun_family = AF_UNIX;
@@ -47,7 +47,7 @@ private:
 
 }  // namespace
 
-TEST_CASE("the service manager hears of a start, of life, of a change of state and of the end",
+TEST_CASE("the service manager is notified of start, life signs, changed status and stop",
           "[daemon][service]") {
     const test::TemporaryDirectory directory;
     const bool is_abstract = GENERATE(false, true);
@@ -70,8 +70,7 @@ TEST_CASE("the service manager hears of a start, of life, of a change of state a
     CHECK(manager.heard() == std::nullopt);
 }
 
-TEST_CASE("a service manager that is not there, or does not listen, holds nothing up",
-          "[daemon][service]") {
+TEST_CASE("a service manager that is absent or does not read delays nothing", "[daemon][service]") {
     ServiceNotice("").ready();
     const test::TemporaryDirectory directory;
     const std::string name = directory.path().string() + "/notify";
@@ -82,7 +81,7 @@ TEST_CASE("a service manager that is not there, or does not listen, holds nothin
     int heard = 0;
     while (manager.heard()) ++heard;
     CHECK(heard < 5000);
-    notice.beat(true, "told when there is room");
+    notice.beat(true, "sent when there is room");
     CHECK(manager.heard() == "WATCHDOG=1");
-    CHECK(manager.heard() == "STATUS=told when there is room");
+    CHECK(manager.heard() == "STATUS=sent when there is room");
 }

@@ -8,12 +8,12 @@
 
 namespace a351::test {
 
-/// The real files, of which only so many bytes fit.  For one thread.
+/// The real files, on a disk of limited capacity.  For one thread.
 class SmallDisk : public ForwardingFiles {
 public:
     explicit SmallDisk(std::uint64_t capacity) : capacity_(capacity) {}
 
-    /// Somebody else takes, or leaves, so much.
+    /// Lets others fill the disk up to `free` bytes; empty() removes what they wrote.
     void fill_up_to(std::uint64_t free) { others_ = capacity_ - used() - free; }
     void empty() { others_ = 0; }
     int error_of_allocate = 0;

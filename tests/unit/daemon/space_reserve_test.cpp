@@ -39,7 +39,7 @@ bool has_reason(const Status& status, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("the blocks of the reserve are really there", "[daemon][reserve]") {
+TEST_CASE("the blocks of the reserve are really allocated", "[daemon][reserve]") {
     const test::TemporaryDirectory directory;
     const auto file = directory.path() / "reserve";
     SpaceReserve reserve(record::posix_files(), file, 8 << 20);
@@ -58,7 +58,7 @@ TEST_CASE("the blocks of the reserve are really there", "[daemon][reserve]") {
     CHECK(reserve.status().times_given_up == 1);
 }
 
-TEST_CASE("a reserve is made with more than twice its size free", "[daemon][reserve]") {
+TEST_CASE("a reserve is made only if more than twice its size is free", "[daemon][reserve]") {
     const test::TemporaryDirectory directory;
     test::SmallDisk disk(1000);
     disk.fill_up_to(200);
@@ -75,7 +75,7 @@ TEST_CASE("a reserve is made with more than twice its size free", "[daemon][rese
     CHECK(reserve.is_space_short());
 }
 
-TEST_CASE("a reserve that is there needs no further space at start", "[daemon][reserve]") {
+TEST_CASE("an existing reserve needs no further space at a start", "[daemon][reserve]") {
     const test::TemporaryDirectory directory;
     test::SmallDisk disk(1000);
     { const SpaceReserve reserve(disk, directory.path() / "reserve", 100); }
@@ -86,7 +86,7 @@ TEST_CASE("a reserve that is there needs no further space at start", "[daemon][r
     CHECK(disk.free_bytes(directory.path()) == 100);
 }
 
-TEST_CASE("a file system that cannot promise space is said, and holds up nothing",
+TEST_CASE("a file system that cannot reserve space is reported and delays nothing",
           "[daemon][reserve]") {
     const test::TemporaryDirectory directory;
     test::SmallDisk disk(1000);
@@ -98,7 +98,8 @@ TEST_CASE("a file system that cannot promise space is said, and holds up nothing
     CHECK_FALSE(reserve.is_space_short());
 }
 
-TEST_CASE_METHOD(SmallRig, "on a full disk the journal goes on in the reserve, the archive waits",
+TEST_CASE_METHOD(SmallRig,
+                 "on a full disk the journal continues in the reserve, and the archive waits",
                  "[daemon][store][reserve]") {
     disk.error_when_full = GENERATE(ENOSPC, EDQUOT);  // No space, or none within the quota.
     Store store(disk, options(), clock, reads);
@@ -132,7 +133,7 @@ TEST_CASE_METHOD(SmallRig, "on a full disk the journal goes on in the reserve, t
     CHECK(record::read_events(root / "events").events.size() == 1);
 }
 
-TEST_CASE_METHOD(SmallRig, "a reserve that is used up costs nothing when space comes back",
+TEST_CASE_METHOD(SmallRig, "after the reserve is used up nothing is lost once there is space again",
                  "[daemon][store][reserve]") {
     Store store(disk, options(), clock, reads);
     begin_session();
@@ -143,7 +144,7 @@ TEST_CASE_METHOD(SmallRig, "a reserve that is used up costs nothing when space c
     CHECK(full.more_counters.at("journal_faults") > 0);
     CHECK(full.journaled.value() < fed - 50 * 60);
     CHECK(full.journaled.value() > 50 * 40);
-    disk.fill_up_to(0);  // A short line still found room.
+    disk.fill_up_to(0);  // Otherwise a short line would still find room.
     CHECK_FALSE(commit(store, note("nowhere")));
     for (const auto& segment : record::journal_segments(root / "journal")) {
         record::JournalReader reader(segment);
@@ -163,7 +164,8 @@ TEST_CASE_METHOD(SmallRig, "a reserve that is used up costs nothing when space c
     CHECK(record::read_events(root / "events").events.size() == 1);
 }
 
-TEST_CASE_METHOD(SmallRig, "what the archive could not write before the stop it gets then",
+TEST_CASE_METHOD(SmallRig,
+                 "records that the archive could not write before are written at the stop",
                  "[daemon][store][reserve]") {
     Store store(disk, options(), clock, reads);
     begin_session();
@@ -177,7 +179,8 @@ TEST_CASE_METHOD(SmallRig, "what the archive could not write before the stop it 
     CHECK(is_archive_complete());
 }
 
-TEST_CASE_METHOD(SmallRig, "a start on a full disk journals, and recovers when space is back",
+TEST_CASE_METHOD(SmallRig,
+                 "a start on a full disk records to the journal, and recovers once there is space",
                  "[daemon][store][reserve]") {
     const auto crashed = directory.path() / "crashed";
     {
@@ -195,7 +198,7 @@ TEST_CASE_METHOD(SmallRig, "a start on a full disk journals, and recovers when s
     const int before = fed;
     advance(store, seconds(20));
     CHECK(reserve(store) == "given_up");
-    CHECK(has_reason(status_of(store), "the last run's journal is being brought in"));
+    CHECK(has_reason(status_of(store), "the last run's data are being added"));
     CHECK(archived_counts(crashed, "BNZ").size() < 2900);
     full.empty();
     advance(store, seconds(20));

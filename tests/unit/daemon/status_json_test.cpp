@@ -43,7 +43,7 @@ TEST_CASE("every fixed field of the status is there before the first sample", "[
     CHECK(status["verdict"]["reasons"].size() == 1);
 }
 
-TEST_CASE("the status tells of the oven with units, and of a doubtful temperature nothing",
+TEST_CASE("the status gives the oven's values with units, and null for a doubtful temperature",
           "[daemon][page]") {
     Page page;
     CHECK(page.ask(get("/api/status"))["oven"] == json{{"state", "disabled"}});
@@ -129,7 +129,7 @@ TEST_CASE("the status carries values with their units", "[daemon][page]") {
     CHECK(is(status, "/occupation/session", '"' + page.recorder.session.to_hex() + '"'));
 }
 
-TEST_CASE("the verdict is no data from 3 s without a sample on", "[daemon][page]") {
+TEST_CASE("the verdict becomes no data after 3 s without a sample", "[daemon][page]") {
     Page page;
     page.status.last_sample = minute(1);
     page.status.verdict.state = VerdictState::stable;

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// A store that one thread drives, on a clock that only advance() moves: every run does the same
-/// file operations in the same order.
+/// A store driven by one thread, on a clock that only the test moves.  Every run does the same file
+/// operations in the same order.
 
 #include "tests/unit/daemon/store_rig.hpp"
 
@@ -26,14 +26,15 @@ struct SteppedRig : Rig {
         return options;
     }
 
-    /// Counts like noise, so that records are as long as they are in the field.
+    /// Returns the values of sample i.  Their counts look like noise, so that records are as long
+    /// as in the field.
     static wire::BurstValues values(int i) {
         wire::BurstValues values = FakeSensor::values(i);
         for (std::size_t axis = 0; axis < values.axes.size(); ++axis)
             values.axes[axis] = counts(i, axis);
         return values;
     }
-    /// Of an axis; 3: the temperature.
+    /// Returns the counts of sample i on an axis; axis 3 is the temperature.
     static std::int32_t counts(int i, std::size_t axis) {
         if (axis == 3) return FakeSensor::values(i).temperature;
         const auto mixed = (static_cast<std::uint32_t>(i) * 3 + static_cast<std::uint32_t>(axis)) *
@@ -41,15 +42,15 @@ struct SteppedRig : Rig {
         return static_cast<std::int32_t>(mixed >> 20) + 16'000'000;
     }
 
-    Nanoseconds largest_lateness{0};  ///< Of frames, less than their period.
+    Nanoseconds largest_lateness{0};  ///< Largest delay of a frame; less than a period.
 
-    /// Arrival of the frame of a sample.
+    /// Returns the arrival time of the frame of sample i.
     [[nodiscard]] UtcTime arrival(int i) const {
         const Nanoseconds late = largest_lateness * (counts(i, 0) % 256) / 256;
         return UtcTime((first + i * kPeriod + late).time_since_epoch());
     }
 
-    /// Frames arrive, and the store goes round once, every 250 ms.
+    /// Moves the clock on by `span`.  Every 250 ms frames arrive, and the store takes one step.
     void advance(Store& store, Nanoseconds span) {
         for (Nanoseconds done{0}; done < span; done += kStep) {
             pass(kStep);
@@ -63,13 +64,13 @@ struct SteppedRig : Rig {
         }
     }
 
-    /// Nothing arrives.
+    /// Moves the clock on by `span` without any frame.
     void pass(Nanoseconds span) {
         set(utc + span);
         real += std::chrono::duration_cast<std::chrono::steady_clock::duration>(span);
     }
 
-    /// Somebody sets the clock; frames go on as they did.
+    /// Sets the clock back; frames continue at their period.
     void set_clock_back(Nanoseconds by) {
         set(utc - by);
         first = clock.raw() + kPeriod - fed * kPeriod;
@@ -83,7 +84,7 @@ struct SteppedRig : Rig {
         return event;
     }
 
-    /// @return whether the store took it.
+    /// @return true if the store accepted the event
     static bool commit(Store& store, const record::Event& event) {
         try {
             store.commit(event);

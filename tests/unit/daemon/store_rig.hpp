@@ -147,7 +147,7 @@ struct Rig {
     }
 };
 
-/// As a start and a stop of the daemon, with no sensor there.
+/// Starts and stops a store, like a daemon without a sensor.  @return the report of its recovery
 inline record::RecoveryReport recover(record::FileLayer& files, StoreOptions options,
                                       const HostClock& clock) {
     ReadQueue nothing;
@@ -193,7 +193,7 @@ inline std::vector<std::int32_t> archived_counts(const std::filesystem::path& ro
     return counts;
 }
 
-/// As the records are, whether they overlap or not.
+/// Returns the samples of all records in the order of the files, including overlaps.
 inline std::vector<std::int32_t> recorded_counts(const std::filesystem::path& root,
                                                  const char* channel) {
     std::vector<std::int32_t> counts;

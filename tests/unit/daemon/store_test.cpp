@@ -8,7 +8,7 @@
 using namespace a351;
 using namespace a351::daemon;
 
-TEST_CASE_METHOD(Rig, "what was read is in the journal byte by byte and in the archive once",
+TEST_CASE_METHOD(Rig, "everything read is in the journal byte for byte and in the archive once",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
     store.start();
@@ -28,7 +28,7 @@ TEST_CASE_METHOD(Rig, "what was read is in the journal byte by byte and in the a
     CHECK(std::filesystem::exists(root / "metadata" / "station.xml"));
 }
 
-TEST_CASE_METHOD(Rig, "an event is in journal and event log once commit returns",
+TEST_CASE_METHOD(Rig, "an event is in the journal and in the event log when commit returns",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
     store.start();
@@ -50,7 +50,7 @@ TEST_CASE_METHOD(Rig, "an event is in journal and event log once commit returns"
     CHECK(record::read_events(root / "events").events.size() == 2);
 }
 
-TEST_CASE_METHOD(Rig, "after a sleep the journal has the reader's own reading before what follows",
+TEST_CASE_METHOD(Rig, "after a sleep the journal has the reader's clock reading before later bytes",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
     store.start();
@@ -80,7 +80,7 @@ TEST_CASE_METHOD(Rig, "after a sleep the journal has the reader's own reading be
     CHECK(header->clock == woken);
 }
 
-TEST_CASE("after the journal is drained only what the archive posts is written to it",
+TEST_CASE("after the journal is drained only chunks posted by the archive are written to it",
           "[daemon][store]") {
     SteppedRig rig;
     SpaceReserve reserve(rig.files, rig.root / "state" / "reserve", 0);
@@ -92,7 +92,7 @@ TEST_CASE("after the journal is drained only what the archive posts is written t
     rig.feed(10);
     rig.pass(std::chrono::seconds(5));
     journal.drain();
-    rig.pass(std::chrono::seconds(5));  // The archive takes its time to end.
+    rig.pass(std::chrono::seconds(5));  // Time that the archive takes to end.
     journal.post(record::MarkChunk{});
     CHECK(journal.finish());
 
@@ -105,7 +105,7 @@ TEST_CASE("after the journal is drained only what the archive posts is written t
     CHECK(std::holds_alternative<record::MarkChunk>(journaled.back()));
 }
 
-TEST_CASE_METHOD(Rig, "the store says which sample belongs to an instant", "[daemon][store]") {
+TEST_CASE_METHOD(Rig, "the store finds the sample that belongs to a time", "[daemon][store]") {
     Store store(files, options(), clock, reads);
     store.start();
     CHECK_FALSE(store.latest());
@@ -124,7 +124,7 @@ TEST_CASE_METHOD(Rig, "the store says which sample belongs to an instant", "[dae
     CHECK_FALSE(store.at(latest->utc - (kFrames + 10) * kPeriod));
 }
 
-TEST_CASE_METHOD(Rig, "a data root takes one daemon at a time", "[daemon][store]") {
+TEST_CASE_METHOD(Rig, "a data root accepts one daemon at a time", "[daemon][store]") {
     {
         const Store store(files, options(), clock, reads);
         CHECK_THROWS_AS(Store(files, options(), clock, reads), DataRootLocked);
@@ -132,7 +132,7 @@ TEST_CASE_METHOD(Rig, "a data root takes one daemon at a time", "[daemon][store]
     CHECK_NOTHROW(Store(files, options(), clock, reads));
 }
 
-TEST_CASE_METHOD(Rig, "station metadata are replaced only when they say something else",
+TEST_CASE_METHOD(Rig, "station metadata are replaced only if they describe something else",
                  "[daemon][data_root]") {
     record::StationDescription station = options().station;
     station.start = clock.now();
@@ -151,7 +151,7 @@ TEST_CASE_METHOD(Rig, "station metadata are replaced only when they say somethin
     CHECK_THAT(extended, ContainsSubstring("<SerialNumber>00000043<"));
 }
 
-TEST_CASE_METHOD(Rig, "station metadata that are damaged are kept aside and written anew",
+TEST_CASE_METHOD(Rig, "damaged station metadata are set aside and written again",
                  "[daemon][data_root]") {
     record::StationDescription station = options().station;
     station.start = clock.now();
@@ -173,7 +173,7 @@ TEST_CASE_METHOD(Rig, "station metadata that are damaged are kept aside and writ
     CHECK(text::read_text_file(root / "metadata" / "station.xml.damaged").empty());
     CHECK(text::read_text_file(root / "metadata" / "station.xml.damaged.3") ==
           whole.substr(0, whole.size() - 20));
-    // Found at the start of a session, it is told.
+    // Damage found at the start of a session is reported.
     write("no xml");
     Store store(files, options(), clock, reads);
     store.start();
@@ -186,7 +186,8 @@ TEST_CASE_METHOD(Rig, "station metadata that are damaged are kept aside and writ
     CHECK(is_told);
 }
 
-TEST_CASE_METHOD(Rig, "an instant of a session that is over is still known", "[daemon][store]") {
+TEST_CASE_METHOD(Rig, "samples of a finished session can still be found by time",
+                 "[daemon][store]") {
     Store store(files, options(), clock, reads);
     store.start();
     begin_session(1);

@@ -6,7 +6,7 @@
 using namespace a351;
 using namespace a351::daemon;
 
-TEST_CASE_METHOD(Rig, "no sample is called journaled before its bytes are synced",
+TEST_CASE_METHOD(Rig, "no sample is reported as journaled before its bytes are synced",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
     record_first(store);
@@ -20,7 +20,7 @@ TEST_CASE_METHOD(Rig, "no sample is called journaled before its bytes are synced
     CHECK(store.stop());
 }
 
-TEST_CASE_METHOD(Rig, "a sync that hangs for 10 s loses nothing, and the status tells it meanwhile",
+TEST_CASE_METHOD(Rig, "a sync that hangs for 10 s loses nothing, and the status shows it meanwhile",
                  "[daemon][store]") {
     std::atomic<std::chrono::seconds> stalled{std::chrono::seconds(0)};
     StoreOptions stalling = options();
@@ -50,32 +50,33 @@ TEST_CASE_METHOD(Rig, "a sync that hangs for 10 s loses nothing, and the status 
     CHECK(archived_counts(root, "BNZ") == expected_counts(fed));
 }
 
-TEST_CASE_METHOD(
-    Rig, "a journal thread that stands still is noticed, one that waits for the disk is let be",
-    "[daemon][store]") {
+TEST_CASE_METHOD(Rig,
+                 "a journal thread that stops is noticed, but one that waits for the disk is not",
+                 "[daemon][store]") {
     {
         Store stepped(files, options(), clock, reads);
-        CHECK_FALSE(stepped.has_come_round());
+        CHECK_FALSE(stepped.is_alive());
         stepped.step();
-        CHECK(stepped.has_come_round());
-        CHECK_FALSE(stepped.has_come_round());
+        CHECK(stepped.is_alive());
+        CHECK_FALSE(stepped.is_alive());
     }
     Store store(files, options(), clock, reads);
     record_first(store);
-    CHECK(store.has_come_round());
-    CHECK(eventually([&] { return store.has_come_round(); }));
+    CHECK(store.is_alive());
+    CHECK(eventually([&] { return store.is_alive(); }));
     files.does_sync_hang = true;
     feed(100);
     REQUIRE(eventually([&] { return files.hanging == 1; }));
     for (int i = 0; i < 3; ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        CHECK(store.has_come_round());
+        CHECK(store.is_alive());
     }
     files.does_sync_hang = false;
     CHECK(store.stop());
 }
 
-TEST_CASE_METHOD(Rig, "after a failed sync its samples are called journaled when written again",
+TEST_CASE_METHOD(Rig,
+                 "after a failed sync its samples count as journaled when they are written again",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
     record_first(store);
@@ -94,7 +95,7 @@ TEST_CASE_METHOD(Rig, "after a failed sync its samples are called journaled when
     CHECK(archived_counts(root, "BNZ") == expected_counts(300));
 }
 
-TEST_CASE_METHOD(Rig, "what a full disk refused is kept and written when there is space",
+TEST_CASE_METHOD(Rig, "data that a full disk refused are kept and written when there is space",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
     record_first(store);
@@ -111,10 +112,10 @@ TEST_CASE_METHOD(Rig, "what a full disk refused is kept and written when there i
 }
 
 struct SmallQueueRig : Rig {
-    SmallQueueRig() : Rig(std::size_t{16} << 10) {}  // some 340 reads
+    SmallQueueRig() : Rig(std::size_t{16} << 10) {}  // About 340 reads.
 };
 
-TEST_CASE_METHOD(SmallQueueRig, "of what a disk refuses for too long the newest is kept",
+TEST_CASE_METHOD(SmallQueueRig, "if a disk refuses data for too long the newest data are kept",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
     record_first(store);
@@ -140,7 +141,7 @@ TEST_CASE_METHOD(SmallQueueRig, "of what a disk refuses for too long the newest 
     CHECK(std::equal(before_gap, archived.end(), gap + static_cast<std::ptrdiff_t>(dropped)));
 }
 
-TEST_CASE_METHOD(SmallQueueRig, "a session that begins while the disk refuses is kept too",
+TEST_CASE_METHOD(SmallQueueRig, "a session that begins while the disk refuses data is kept too",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
     record_first(store);
@@ -187,7 +188,7 @@ TEST_CASE_METHOD(Rig, "after a crash the next start completes the archive", "[da
     CHECK(archived_counts(crashed, "BNZ") == expected_counts(kFrames));
 }
 
-TEST_CASE_METHOD(Rig, "while the archive cannot be written the journal goes on",
+TEST_CASE_METHOD(Rig, "while the archive cannot be written the journal continues",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
     record_first(store);
@@ -212,7 +213,8 @@ TEST_CASE_METHOD(Rig, "while the archive cannot be written the journal goes on",
     CHECK(status_of(store).archived == fed - 1);
 }
 
-TEST_CASE_METHOD(Rig, "an archive that fails to the end is a failure of stop, not of the journal",
+TEST_CASE_METHOD(Rig,
+                 "an archive that fails to the end makes stop() fail, but the journal is complete",
                  "[daemon][store]") {
     {
         Store store(files, options(), clock, reads);
@@ -228,7 +230,7 @@ TEST_CASE_METHOD(Rig, "an archive that fails to the end is a failure of stop, no
     CHECK(archived_counts(root, "BNZ") == expected_counts(kFrames));
 }
 
-TEST_CASE_METHOD(Rig, "an event whose turn did not come is withdrawn, not written later",
+TEST_CASE_METHOD(Rig, "an event that could not be written in time is withdrawn, not written later",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
     record_first(store);
@@ -255,7 +257,7 @@ TEST_CASE_METHOD(Rig, "an event whose turn did not come is withdrawn, not writte
     CHECK(record::read_events(root / "events").events.size() == 1);
 }
 
-TEST_CASE_METHOD(Rig, "a journal in trouble gets an event as soon as it can be written",
+TEST_CASE_METHOD(Rig, "an event reaches a failing journal as soon as the journal can be written",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
     record_first(store);
@@ -273,7 +275,7 @@ TEST_CASE_METHOD(Rig, "a journal in trouble gets an event as soon as it can be w
     CHECK(status_of(store).more_counters["journal_faults"] > 0);
 }
 
-TEST_CASE_METHOD(Rig, "an event log that cannot be written leaves the journal alone",
+TEST_CASE_METHOD(Rig, "an event log that cannot be written does not affect the journal",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
     record_first(store);
@@ -307,7 +309,7 @@ TEST_CASE_METHOD(Rig, "a full disk leaves no segments without a header", "[daemo
     CHECK(read_journal(root).bytes == bytes);
 }
 
-TEST_CASE_METHOD(Rig, "what the archive cannot take stays a fault, and the journal has it",
+TEST_CASE_METHOD(Rig, "data that the archive cannot take are in the journal, and the fault remains",
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
     store.start();
@@ -319,7 +321,8 @@ TEST_CASE_METHOD(Rig, "what the archive cannot take stays a fault, and the journ
     CHECK(read_journal(root).bytes == bytes);
 }
 
-TEST_CASE_METHOD(SteppedRig, "a session after a restart with the clock set back is archived whole",
+TEST_CASE_METHOD(SteppedRig,
+                 "a session after a restart with the clock set back is archived completely",
                  "[daemon][store]") {
     {
         Store store(files, options(), clock, reads);

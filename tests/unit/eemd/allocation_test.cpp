@@ -1,5 +1,5 @@
 /// @file
-/// Sifting allocates nothing.  A program of its own, for it replaces operator new.
+/// Sifting allocates no memory. This is a separate program because it replaces operator new.
 
 #include "tests/support/catch.hpp"
 
@@ -8,7 +8,7 @@
 
 namespace a351::corrector {
 
-TEST_CASE("a workspace sifts record after record without allocating") {
+TEST_CASE("a workspace sifts one record after another without allocating memory") {
     EmdWorkspace emd(1000);
     SiftOptions options;
     for (const EndRule ends : {EndRule::line, EndRule::mirror}) {

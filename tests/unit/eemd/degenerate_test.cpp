@@ -34,7 +34,8 @@ std::vector<EemdOptions> every_kind() {
     return kinds;
 }
 
-/// Every component finite and of the right length, their sum the signal but for the mean noise.
+/// Checks that all components are finite and of the right length, and that their sum is the signal
+/// except for the mean noise.
 void check_sane(const std::vector<double>& signal) {
     for (const EemdOptions& options : every_kind()) {
         const EemdResult result = eemd(signal, options);
@@ -49,11 +50,11 @@ void check_sane(const std::vector<double>& signal) {
 
 }  // namespace
 
-TEST_CASE("series of 0 to 8 samples decompose") {
+TEST_CASE("series of 0 to 8 samples can be decomposed") {
     for (std::size_t n = 0; n <= 8; ++n) check_sane(white_noise(n, n));
 }
 
-TEST_CASE("a constant has zero modes and is its own residue, with noise asked for or not") {
+TEST_CASE("a constant has zero modes and is its own residue, with and without noise") {
     for (const double value : {0.0, 9.80665, -1e-300}) {
         const std::vector<double> signal(64, value);
         for (const EemdOptions& options : every_kind()) {
@@ -65,13 +66,13 @@ TEST_CASE("a constant has zero modes and is its own residue, with noise asked fo
     }
 }
 
-TEST_CASE("hard shapes decompose") {
+TEST_CASE("difficult shapes can be decomposed") {
     std::vector<double> signal(64);
     const auto fill = [&](auto shape) {
         for (std::size_t i = 0; i < signal.size(); ++i) signal[i] = shape(i);
         check_sane(signal);
     };
-    SECTION("constant but for rounding") {
+    SECTION("constant except for rounding") {
         fill([](std::size_t i) { return 980'000.0 + (i % 3 == 0 ? 1.2e-10 : 0.0); });
     }
     SECTION("monotone") {
@@ -98,7 +99,7 @@ TEST_CASE("hard shapes decompose") {
     }
 }
 
-TEST_CASE("a tone sampled at its own extrema has maxima and minima of one value each") {
+TEST_CASE("a tone with four samples per period stays in the first mode") {
     std::vector<double> signal(256);
     for (std::size_t i = 0; i < signal.size(); ++i)
         signal[i] = i % 4 == 0 ? 1.0 : (i % 4 == 2 ? -1.0 : 0.0);
@@ -110,7 +111,7 @@ TEST_CASE("a tone sampled at its own extrema has maxima and minima of one value 
     CHECK(result.modes[0].energy_share > 0.99);
 }
 
-TEST_CASE("a record of a million samples decomposes") {
+TEST_CASE("a record of a million samples can be decomposed") {
     const std::vector<double> signal = white_noise(1'000'000, 3);
     EemdOptions options;
     options.noise_ratio = 0.0;
@@ -121,7 +122,7 @@ TEST_CASE("a record of a million samples decomposes") {
     CHECK(result.modes[0].mean_period_samples > 2.0);
 }
 
-TEST_CASE("a sample that is no number, or too large for noise on top, is refused with its index") {
+TEST_CASE("a sample that is not finite, or too large to add noise, is refused with its index") {
     for (const double bad : {kNan, kInfinity, -kInfinity, -1.7e308}) {
         std::vector<double> signal = white_noise(32, 1);
         signal[17] = bad;

@@ -16,7 +16,7 @@ EemdOptions small_ensemble(int members = 20) {
 
 }  // namespace
 
-TEST_CASE("results are the same bits on any number of threads and in every run") {
+TEST_CASE("results are bit-identical on any number of threads and in every run") {
     const std::vector<double> signal = mixed_series(450);
     EemdOptions options = small_ensemble(37);
     const EemdResult one = eemd(signal, options);
@@ -31,7 +31,7 @@ TEST_CASE("results are the same bits on any number of threads and in every run")
     }
 }
 
-TEST_CASE("what the components leave over is the mean of the added noise") {
+TEST_CASE("the signal minus the sum of the components is the mean of the added noise") {
     const std::vector<double> signal = mixed_series(450);
     const EemdOptions options = small_ensemble(20);
     const EemdResult result = eemd(signal, options);
@@ -47,10 +47,10 @@ TEST_CASE("what the components leave over is the mean of the added noise") {
     }
 }
 
-TEST_CASE("the noise left over falls with the root of the ensemble size") {
+TEST_CASE("the remaining noise falls with the square root of the ensemble size") {
     const std::vector<double> signal = mixed_series(128);
     const EemdResult result = eemd(signal, small_ensemble(1000));
-    // 128 samples determine an rms to 1 in sqrt(2 x 128): three times that is allowed.
+    // 128 samples determine an rms to one part in sqrt(2 x 128); three times that is allowed.
     CHECK(rms(closure(signal, result)) * std::sqrt(1000.0) / result.noise_level ==
           Approx(1.0).margin(3.0 / 16.0));
 }
@@ -62,7 +62,7 @@ TEST_CASE("the noise level is the ratio times the standard deviation of the sign
     CHECK(eemd(signal, options).noise_level == Approx(0.5 * std::sqrt(5.0 / 3.0)));
 }
 
-TEST_CASE("neighbouring seeds give unrelated noise") {
+TEST_CASE("neighbouring seeds give uncorrelated noise") {
     const std::vector<double> signal = mixed_series(1000);
     EemdOptions options = small_ensemble(16);
     const auto first = closure(signal, eemd(signal, options));
@@ -75,7 +75,7 @@ TEST_CASE("neighbouring seeds give unrelated noise") {
     CHECK(std::abs(correlation) < 4.0 / std::sqrt(1000.0));
 }
 
-TEST_CASE("a signal in another unit has components in that unit, powers of two bit for bit") {
+TEST_CASE("components scale with the unit of the signal, for powers of two bit for bit") {
     const std::vector<double> signal = mixed_series(300);
     const auto unit = components_of(eemd(signal, small_ensemble()));
     for (const double factor : {0x1p-40, 0x1p40, 0x1p-900, 0x1p900}) {
@@ -99,7 +99,7 @@ TEST_CASE("a signal in another unit has components in that unit, powers of two b
     }
 }
 
-TEST_CASE("the standard error is the scatter of repeated ensembles") {
+TEST_CASE("the stated standard error is the scatter of repeated ensembles") {
     const std::vector<double> signal = mixed_series(300);
     const int runs = 40;
     std::vector<std::vector<double>> sum, squares;
@@ -133,7 +133,7 @@ TEST_CASE("the standard error is the scatter of repeated ensembles") {
     CHECK(std::sqrt(stated / found) == Approx(1.0).margin(0.2));
 }
 
-TEST_CASE("the standard error falls with the noise, down to the rounding of its squares") {
+TEST_CASE("the standard error falls with the noise, down to the rounding of the sums of squares") {
     const std::vector<double> signal = mixed_series(300);
     EemdOptions options = small_ensemble(16);
     options.noise_ratio = 1e-5;
@@ -151,7 +151,7 @@ TEST_CASE("the standard error falls with the noise, down to the rounding of its 
     }
 }
 
-TEST_CASE("complementary pairs leave nothing over") {
+TEST_CASE("with complementary pairs the components add up to the signal") {
     const std::vector<double> signal = mixed_series(450);
     EemdOptions options = small_ensemble(20);
     options.complementary_pairs = true;
@@ -161,7 +161,7 @@ TEST_CASE("complementary pairs leave nothing over") {
     CHECK(result.closure_error <= 1e-12 * rms(signal));
 }
 
-TEST_CASE("pairs of a signal upside down are upside down, bit for bit") {
+TEST_CASE("with complementary pairs an inverted signal has inverted components, bit for bit") {
     std::vector<double> signal = mixed_series(450);
     EemdOptions options = small_ensemble(10);
     options.complementary_pairs = true;
@@ -176,7 +176,7 @@ TEST_CASE("pairs of a signal upside down are upside down, bit for bit") {
     }
 }
 
-TEST_CASE("a constant added to the signal of an ensemble appears in the residue alone") {
+TEST_CASE("a constant added to a signal appears only in the residue of an ensemble") {
     std::vector<double> signal = mixed_series(450);
     const auto before = components_of(eemd(signal, small_ensemble()));
     for (double& value : signal) value += 1024.0;
@@ -189,7 +189,7 @@ TEST_CASE("a constant added to the signal of an ensemble appears in the residue 
     }
 }
 
-TEST_CASE("shares of energy add up to one and are the components' variances") {
+TEST_CASE("energy shares add up to one and are in the ratio of the components' variances") {
     std::vector<double> signal = mixed_series(450);
     for (double& value : signal) value += 1e6;
     const EemdResult result = eemd(signal, small_ensemble());
@@ -198,11 +198,11 @@ TEST_CASE("shares of energy add up to one and are the components' variances") {
     CHECK(total == Approx(1.0));
     const double ratio = rms(result.modes[1].values) / rms(result.modes[0].values);
     CHECK(result.modes[1].energy_share / result.modes[0].energy_share ==
-          Approx(ratio * ratio).epsilon(1e-3));  // but for the modes' small means
+          Approx(ratio * ratio).epsilon(1e-3));  // the small means of the modes are neglected
     CHECK(eemd(std::vector<double>(64, 2.0)).residue.energy_share == 0.0);
 }
 
-TEST_CASE("a record with reflected ends decomposes into components of its own length") {
+TEST_CASE("the components of a record with reflected ends have the length of the record") {
     const std::vector<double> signal = mixed_series(451);
     EemdOptions options = small_ensemble();
     options.reflect_ends = true;
@@ -214,7 +214,7 @@ TEST_CASE("a record with reflected ends decomposes into components of its own le
         for (const auto& component : components_of(result)) CHECK(component.size() == n);
         CHECK(result.closure_error <= 1e-12);
     }
-    // A cosine reflected about its extrema goes on as it was: one mode, all extrema alike.
+    // A cosine reflected at its extrema continues unchanged: one mode with equal extrema.
     std::vector<double> cosine(401);
     for (std::size_t i = 0; i < 401; ++i) {
         cosine[i] = std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / 40.0);
@@ -226,7 +226,7 @@ TEST_CASE("a record with reflected ends decomposes into components of its own le
     }
 }
 
-TEST_CASE("progress counts up to all members, and saying no cancels") {
+TEST_CASE("progress counts up to all members, and returning false cancels the decomposition") {
     const std::vector<double> signal = mixed_series(200);
     for (const int threads : {1, 3}) {
         EemdOptions options = small_ensemble(50);

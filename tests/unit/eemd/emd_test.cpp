@@ -27,7 +27,7 @@ TEST_CASE("modes and residue of plain EMD add up to the signal") {
     }
 }
 
-TEST_CASE("a signal upside down has its components upside down, bit for bit") {
+TEST_CASE("an inverted signal has inverted components, bit for bit") {
     std::vector<double> signal = mixed_series(450);
     const auto upright = components_of(eemd(signal, plain()));
     for (double& value : signal) value = -value;
@@ -38,7 +38,7 @@ TEST_CASE("a signal upside down has its components upside down, bit for bit") {
     CHECK(flipped == upright);
 }
 
-TEST_CASE("a signal run backwards has its components backwards") {
+TEST_CASE("a signal reversed in time has components reversed in time") {
     std::vector<double> signal = mixed_series(450);
     const auto forward = components_of(eemd(signal, plain()));
     std::reverse(signal.begin(), signal.end());
@@ -51,7 +51,7 @@ TEST_CASE("a signal run backwards has its components backwards") {
     }
 }
 
-TEST_CASE("a constant added to the signal appears in the residue alone") {
+TEST_CASE("a constant added to a signal appears only in the residue of plain EMD") {
     std::vector<double> signal = mixed_series(450);
     const auto before = components_of(eemd(signal, plain()));
     for (double& value : signal) value += 1024.0;
@@ -65,7 +65,7 @@ TEST_CASE("a constant added to the signal appears in the residue alone") {
     }
 }
 
-TEST_CASE("the finish rule keeps a clean trend whole, and takes a bow off it on request") {
+TEST_CASE("a trend without extrema stays in the residue, unless the finish rule is always") {
     std::vector<double> signal(256);
     for (std::size_t i = 0; i < signal.size(); ++i)
         signal[i] = std::exp(0.01 * static_cast<double>(i));
@@ -77,7 +77,7 @@ TEST_CASE("the finish rule keeps a clean trend whole, and takes a bow off it on 
     CHECK(rms(eemd(signal, options).modes[0].values) > 0.05 * rms(signal));
 }
 
-TEST_CASE("every decomposition has the number of modes asked for") {
+TEST_CASE("every decomposition has the requested number of modes") {
     EemdOptions options = plain();
     for (const int count : {0, 1, 5, 30}) {
         options.mode_count = count;
@@ -89,7 +89,7 @@ TEST_CASE("every decomposition has the number of modes asked for") {
     CHECK(eemd(mixed_series(63), plain()).modes.size() == 4);
 }
 
-TEST_CASE("extrema and mean period of a mode describe it") {
+TEST_CASE("a mode reports its number of extrema and its mean period") {
     std::vector<double> signal(400);
     for (std::size_t i = 0; i < 400; ++i) {
         signal[i] = std::sin(2.0 * std::numbers::pi * (static_cast<double>(i) + 0.3) / 20.0);

@@ -41,7 +41,7 @@ Found find(const Numbers& curve) {
 
 }  // namespace
 
-TEST_CASE("maxima and minima of any series alternate and agree with the plain count") {
+TEST_CASE("maxima and minima of any series alternate and agree with a simple count") {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         Numbers curve = white_noise(300, seed);
         for (double& value : curve) value = std::round(2.0 * value);  // plateaus of every length
@@ -69,26 +69,26 @@ TEST_CASE("a plateau is one extremum at its middle, which may fall between sampl
     CHECK(find({0, -1, -1, 0}).minima == Numbers{1.5});
 }
 
-TEST_CASE("a terrace is no extremum") {
+TEST_CASE("a flat step on a slope is not an extremum") {
     const Found found = find({0, 1, 1, 2, 3});
     CHECK(found.maxima.empty());
     CHECK(found.minima.empty());
 }
 
-TEST_CASE("a plateau that touches an end is no extremum") {
+TEST_CASE("a plateau at an end of the series is not an extremum") {
     const Found found = find({1, 1, 0, 2, 2});
     CHECK(found.maxima.empty());
     CHECK(found.minima == Numbers{2.0});
 }
 
-TEST_CASE("series of no, one and two samples have no extrema") {
+TEST_CASE("series of zero, one and two samples have no extrema") {
     for (const Numbers& curve : {Numbers{}, Numbers{1}, Numbers{1, 2}}) {
         CHECK(find(curve).maxima.empty());
         CHECK(find(curve).minima.empty());
     }
 }
 
-TEST_CASE("the densest alternation fits into the knots") {
+TEST_CASE("a series in which every inner sample is an extremum fits into the knots") {
     for (std::size_t n = 0; n < 40; ++n) {
         Numbers curve(n);
         for (std::size_t i = 0; i < n; ++i) curve[i] = i % 2 == 0 ? 1.0 : -1.0;
@@ -111,7 +111,8 @@ TEST_CASE("segments begin at the first sample at or after an extremum") {
     CHECK(found == count_extrema(wave));
 }
 
-TEST_CASE("the line through two extrema replaces an end only when it lies outside") {
+TEST_CASE(
+    "the line through the two outermost extrema replaces an end value only if it lies outside") {
     // Maxima (1, 3), (3, 2): the line gives 3.5 at 0 and 1 at 5.
     const Numbers curve = {0, 3, 0, 2, 0, 1.5};
     AlternatingKnots knots = extrema_of(curve);
@@ -123,16 +124,16 @@ TEST_CASE("the line through two extrema replaces an end only when it lies outsid
     CHECK(copy(knots.values()) == Numbers{0, 0, 3, 0, 2, 0, 1.5, 1.5});
 }
 
-TEST_CASE("mirrored extrema go on alternating beyond the ends") {
+TEST_CASE("mirrored extrema continue to alternate beyond the ends") {
     const auto copy = [](std::span<const double> s) { return Numbers(s.begin(), s.end()); };
-    SECTION("about the outermost extremum where the end sample lies within") {
+    SECTION("about the outermost extremum if the end sample lies within") {
         const Numbers curve = {1, 3, 0, 2, 0, 3, 1};
         AlternatingKnots knots = extrema_of(curve);
         knots.add_ends(curve, EndRule::mirror);
         CHECK(copy(knots.positions()) == Numbers{-3, -2, -1, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
         CHECK(copy(knots.values()) == Numbers{3, 0, 2, 0, 3, 0, 2, 0, 3, 0, 2, 0, 3});
     }
-    SECTION("about the end sample where that lies beyond the next extremum") {
+    SECTION("about the end sample if it lies beyond the next extremum") {
         const Numbers curve = {-1, 3, 0, 2, 0, 3, -1};
         AlternatingKnots knots = extrema_of(curve);
         knots.add_ends(curve, EndRule::mirror);

@@ -1,5 +1,6 @@
 /// @file
-/// What decompositions of noise, tones and bursts must show, with the sources of the figures.
+/// Properties that decompositions of noise, tones and bursts must have, with the sources of the
+/// figures.
 
 #include <array>
 #include <utility>
@@ -31,7 +32,7 @@ std::vector<double> sum(std::vector<double> a, const std::vector<double>& b) {
     return a;
 }
 
-/// Rms difference over all but a tenth of the record at either end.
+/// Returns the rms difference, without a tenth of the record at each end.
 double inner_difference(const std::vector<double>& a, const std::vector<double>& b) {
     const std::size_t margin = a.size() / 10;
     std::vector<double> difference;
@@ -41,7 +42,7 @@ double inner_difference(const std::vector<double>& a, const std::vector<double>&
 
 }  // namespace
 
-TEST_CASE("ten sifts of white noise are a bank of octave filters") {
+TEST_CASE("ten sifts of white noise act like a bank of octave filters") {
     // P. Flandrin, G. Rilling and P. Goncalves, IEEE Signal Process. Lett. 11, 112-114, 2004; Z. Wu
     // and N. E. Huang, Proc. R. Soc. A 460, 1597-1611, 2004.  The limits hold for ten sifts, 8192
     // samples and geometric means over 40 records; energy times period is nearly constant.
@@ -108,7 +109,7 @@ TEST_CASE("an ensemble separates a burst from the wave it rides on, plain EMD mi
     const auto before_burst = [](const std::vector<double>& values) {
         return rms(std::span(values).subspan(205, 600));
     };
-    CHECK(before_burst(eemd(signal, plain()).modes[0].values) > 0.5);  // the slow wave's is 0.7
+    CHECK(before_burst(eemd(signal, plain()).modes[0].values) > 0.5);  // the slow wave has 0.7
 
     EemdOptions options;
     options.noise_ratio = 0.2;
@@ -121,16 +122,16 @@ TEST_CASE("an ensemble separates a burst from the wave it rides on, plain EMD mi
     CHECK(inner_difference(fast, burst) < 0.3 * rms(std::span(burst).subspan(900, 200)));
 }
 
-TEST_CASE("the noise an ensemble leaves over has the theoretical size within 5 percent") {
-    const auto signal = mixed_series(5400);  // whose rms 5400 samples determine to 1 percent
+TEST_CASE("the noise that an ensemble leaves has the theoretical size within 5 percent") {
+    const auto signal = mixed_series(5400);  // 5400 samples determine its rms to 1 percent
     EemdOptions options;
     options.ensemble_size = 16;
     const EemdResult result = eemd(signal, options);
     CHECK(rms(closure(signal, result)) * 4.0 / result.noise_level == Approx(1.0).epsilon(0.05));
 }
 
-TEST_CASE("a record turned round in time has its modes turned round") {
-    // Short ones, for their later modes and many of their first have few extrema.
+TEST_CASE("a short record reversed in time has its first mode reversed, with every end rule") {
+    // Records are short, so that their modes have few extrema.
     for (const EndRule ends : {EndRule::line, EndRule::mirror, EndRule::pinned}) {
         for (const SplineEnds spline_ends : {SplineEnds::not_a_knot, SplineEnds::natural}) {
             for (std::size_t n = 8; n <= 40; ++n) {
@@ -140,7 +141,7 @@ TEST_CASE("a record turned round in time has its modes turned round") {
                     options.ends = ends;
                     options.spline_ends = spline_ends;
                     std::vector<double> signal = white_noise(n, seed);
-                    // Three samples' mean: waves of five samples and more.
+                    // The mean of three samples leaves waves of five samples and longer.
                     for (std::size_t i = 0; i + 2 < n && seed % 2 == 1; ++i) {
                         signal[i] = signal[i] + signal[i + 1] + signal[i + 2];
                     }
@@ -166,8 +167,9 @@ TEST_CASE("a record turned round in time has its modes turned round") {
     }
 }
 
-TEST_CASE("no component grows beyond the record at its ends") {
-    // White noise on a drift, every end rule, 20 records: within three times the record's range.
+TEST_CASE("no component grows far beyond the range of the record at its ends") {
+    // White noise on a drift, 20 records, each end rule: the limit is three times the record's
+    // range.
     for (const EndRule ends : {EndRule::line, EndRule::mirror}) {
         for (std::uint64_t seed = 0; seed < 20; ++seed) {
             auto signal = white_noise(450, seed);

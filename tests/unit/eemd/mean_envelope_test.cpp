@@ -16,7 +16,7 @@ const std::vector<double> kKnots = {0,      0,    1,    2,      3.5,  5,      9.
                                     14,     15,   16,   4014.5, 4017, 4020,   4021, 4025,
                                     4026.5, 4029, 4033, 4034,   4035, 4035.5, 4040, 4040};
 
-/// The mean of both splines, from the cubics that fit_mean_envelope() left.
+/// The mean of both splines, computed from the cubics of fit_mean_envelope().
 class Mean {
 public:
     Mean(const std::vector<double>& x, std::vector<double> y, SplineEnds ends)
@@ -40,15 +40,15 @@ private:
     MeanEnvelope envelope_;
 };
 
-/// Every second element from `first`.
+/// Returns every second element, beginning at `first`.
 std::vector<double> lane(const std::vector<double>& all, std::size_t first) {
     std::vector<double> out;
     for (std::size_t k = first; k < all.size(); k += 2) out.push_back(all[k]);
     return out;
 }
 
-/// One spline from one dense system written down from its conditions: all cubics
-/// y + b d + c d^2 + e d^3 with b, c, e of every segment unknown.
+/// A spline from one dense system of its conditions. The unknowns are b, c, e of all segments'
+/// cubics y + b d + c d^2 + e d^3.
 class DenseSpline {
 public:
     DenseSpline(std::vector<double> x, std::vector<double> y, SplineEnds ends)
@@ -92,8 +92,8 @@ private:
     Eigen::VectorXd solution_;
 };
 
-/// One spline through thousands of knots: curvatures (half the second derivatives) by plain
-/// elimination from the left and substitution from the right, in numbers of 64 bits' mantissa.
+/// A spline through thousands of knots. Its curvatures (half the second derivatives) come from
+/// plain elimination from the left and substitution from the right, with 64-bit mantissas.
 class EliminatedSpline {
 public:
     EliminatedSpline(std::vector<double> x, std::vector<double> y, SplineEnds ends)
@@ -154,7 +154,7 @@ double cubic(double t) { return 2.0 + t * (-3.0 + t * (0.5 - 0.125 * t)); }
 
 }  // namespace
 
-TEST_CASE("splines through samples of two cubics have the cubics' mean") {
+TEST_CASE("splines through samples of two cubics have the mean of the cubics") {
     for (std::size_t count = 8; count <= 11; ++count) {
         const std::vector<double> x(kKnots.begin(), kKnots.begin() + static_cast<long>(count));
         std::vector<double> y;
@@ -166,7 +166,7 @@ TEST_CASE("splines through samples of two cubics have the cubics' mean") {
     }
 }
 
-TEST_CASE("envelopes of two to four knots are the polynomials through them") {
+TEST_CASE("envelopes with two to four knots are the polynomials through the knots") {
     // Even knots: 1 + t^2; odd ones: t^3, as far as their number determines them.
     const std::vector<double> x = {0, 0, 2, 3, 5, 7, 9, 9};
     const auto at = [](std::size_t k, double t) { return k % 2 == 0 ? 1 + t * t : t * t * t; };
@@ -192,7 +192,7 @@ TEST_CASE("envelopes of two to four knots are the polynomials through them") {
     }
 }
 
-TEST_CASE("the mean envelope agrees with dense solutions of both splines' conditions") {
+TEST_CASE("the mean envelope agrees with dense solutions of both splines") {
     for (const SplineEnds ends : {SplineEnds::not_a_knot, SplineEnds::natural}) {
         // An envelope of three knots has no two segments left for not-a-knot.
         const std::size_t fewest = ends == SplineEnds::natural ? 4 : 8;
@@ -229,7 +229,8 @@ TEST_CASE("thousands of knots are eliminated without overflow, to the same accur
                 const double t = knots[k] + 0.375 * (knots[k + 1] - knots[k]);
                 const double expected = 0.5 * (even(t) + odd(t));
                 INFO(count << " knots, t = " << t);
-                // Of the cubics' terms, which are as large as the splines' swings between knots.
+                // The limits are relative to the cubics' terms, which are as large as the splines'
+                // swings between knots.
                 REQUIRE(mean(t) == Approx(expected).epsilon(1e-9).margin(1e-9));
             }
         }

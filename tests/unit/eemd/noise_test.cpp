@@ -16,7 +16,7 @@ TEST_CASE("Philox 4x32-10 gives the published words") {
           Words{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1});
 }
 
-TEST_CASE("noise is the Box-Muller transform of its words") {
+TEST_CASE("noise is the Box-Muller transform of the generator's words") {
     std::vector<double> noise(2000);
     fill_white_noise(5, 9, noise);
     const auto uniform = [](std::uint32_t low, std::uint32_t high) {
@@ -31,7 +31,7 @@ TEST_CASE("noise is the Box-Muller transform of its words") {
     }
 }
 
-TEST_CASE("noise has mean 0, variance 1, fourth moment 3 and no memory") {
+TEST_CASE("noise has mean 0, variance 1, fourth moment 3 and no correlation between neighbours") {
     const std::size_t n = 1'000'000;
     const std::vector<double> w = white_noise(n, 1);
     double mean = 0.0, square = 0.0, fourth = 0.0, neighbour = 0.0, next_pair = 0.0;
@@ -51,7 +51,7 @@ TEST_CASE("noise has mean 0, variance 1, fourth moment 3 and no memory") {
     CHECK(std::abs(next_pair / count) < 4 * sigma);
 }
 
-TEST_CASE("a longer request begins with the shorter one") {
+TEST_CASE("a longer series of noise begins with the shorter one") {
     const auto longer = white_noise(101, 4);
     auto shorter = white_noise(50, 4);
     CHECK(std::equal(shorter.begin(), shorter.end(), longer.begin()));

@@ -24,7 +24,7 @@ std::vector<double> read_input(const std::string& name) {
     return values;
 }
 
-/// One vector per column.
+/// Returns one vector per column.
 std::vector<std::vector<double>> read_table(const std::string& name) {
     std::istringstream in(golden("imf/" + name + ".csv"));
     std::vector<std::vector<double>> columns;
@@ -39,7 +39,7 @@ std::vector<std::vector<double>> read_table(const std::string& name) {
     return columns;
 }
 
-/// Rms of the signal without its mean; 1 for a constant.
+/// Returns the rms of the signal without its mean, or 1 for a constant.
 double scale_of(std::vector<double> signal) {
     double mean = 0.0;
     for (const double value : signal) mean += value / static_cast<double>(signal.size());
@@ -48,8 +48,8 @@ double scale_of(std::vector<double> signal) {
     return scale > 1e-12 ? scale : 1.0;
 }
 
-/// Largest difference over all components, relative to scale_of(input), at the rows of the table: all
-/// samples, or one in `every`.
+/// Returns the largest difference over all components, relative to scale_of(input). The table has
+/// all samples or one in `every`.
 double plain_difference(const std::string& input, const std::string& settings,
                         StoppingRule stopping, std::size_t every = 1) {
     const std::vector<double> signal = read_input(input);
@@ -97,8 +97,9 @@ TEST_CASE("the S-number rule reproduces the reference modes") {
         {"s6_plateau64", "s4max50_m6", 6e-15},
         {"s6_short2", "s4max50_m1", 6e-15},
         {"s6_short4", "s4max50_m2", 6e-15},
-        // Its third mode is the bow of a monotone rest, sampled symmetrically: whether the two samples
-        // at its bottom differ in the last bit, or are a plateau, depends on the roundings before.
+        // Its third mode is the curvature of a monotone remainder, sampled symmetrically. Whether
+        // the two samples at its bottom differ in the last bit or are a plateau depends on earlier
+        // rounding.
         {"s6_short16", "s4max50_m4", 6e-15},
     }));
     const double difference = plain_difference(input, settings, four);
@@ -106,7 +107,7 @@ TEST_CASE("the S-number rule reproduces the reference modes") {
     CHECK(difference <= limit);
 }
 
-TEST_CASE("the deep modes of a long record are the reference ones, at every twentieth sample") {
+TEST_CASE("the deep modes of a long record agree with the reference at every twentieth sample") {
     const auto [settings, stopping, limit] = GENERATE(table<std::string, StoppingRule, double>({
         {"fix10_m12", FixedSifts{10}, 2e-10},
         {"s4max50_m12", SNumber{4, 50}, 3e-8},
@@ -116,7 +117,9 @@ TEST_CASE("the deep modes of a long record are the reference ones, at every twen
     CHECK(difference <= limit);
 }
 
-TEST_CASE("an ensemble lies as far from the converged one as its members' scatter says") {
+TEST_CASE(
+    "an ensemble differs from the converged one by as much as the scatter of its members "
+    "predicts") {
     const std::vector<double> signal = read_input("s1_sine_trend");
     const auto expected = read_table("s1_sine_trend__eemd_eps0.1_fix10_m9_mean16000");
     const auto facts = nlohmann::json::parse(golden("sigma_member.json")).at("s1_sine_trend");
@@ -142,7 +145,7 @@ TEST_CASE("an ensemble lies as far from the converged one as its members' scatte
         INFO("component " << k << ", " << extrema << " extrema, ratio " << ratio);
         CHECK(ratio < factor);
         CHECK(ratio > 1.0 / factor);
-        // The other sigmas are dominated by rare members and known to some ten per cent only.
+        // The other sigmas are dominated by rare members and are only known to some ten per cent.
         if (extrema < 100.0) continue;
         CHECK(*component.standard_error * std::sqrt(640.0) == Approx(sigma[k]).epsilon(0.03));
     }

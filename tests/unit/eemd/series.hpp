@@ -20,7 +20,7 @@ inline std::vector<double> white_noise(std::size_t n, std::uint64_t seed) {
     return noise;
 }
 
-/// A drift, a slow and a fast wave, and some noise; of order 1.
+/// Returns a drift, a slow and a fast wave, and some noise; of order 1.
 inline std::vector<double> mixed_series(std::size_t n) {
     std::vector<double> series = white_noise(n, 7);
     for (std::size_t i = 0; i < n; ++i) {
@@ -31,7 +31,7 @@ inline std::vector<double> mixed_series(std::size_t n) {
     return series;
 }
 
-/// Every component, the residue last.
+/// Returns all components, the residue last.
 inline std::vector<std::vector<double>> components_of(const EemdResult& result) {
     std::vector<std::vector<double>> all;
     for (const Component& mode : result.modes) all.push_back(mode.values);
@@ -51,7 +51,7 @@ inline double largest_magnitude(std::span<const double> values) {
     return largest;
 }
 
-/// signal - sum of components.
+/// Returns the signal minus the sum of the components.
 inline std::vector<double> closure(std::span<const double> signal, const EemdResult& result) {
     std::vector<double> rest(signal.begin(), signal.end());
     for (const auto& component : components_of(result)) {

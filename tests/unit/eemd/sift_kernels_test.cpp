@@ -19,15 +19,15 @@ std::vector<std::uint64_t> bits(std::span<const double> values) {
     return out;
 }
 
-/// All but the portable loops; says so where there are none.
+/// Returns all kernels except the portable loops; warns if there are no others.
 std::vector<const SiftKernels*> faster_kernels() {
     std::vector<const SiftKernels*> kernels = available_kernels();
     kernels.erase(kernels.begin());
-    if (kernels.empty()) WARN("the portable loops only: nothing to compare on this processor");
+    if (kernels.empty()) WARN("only the portable loops: nothing to compare on this processor");
     return kernels;
 }
 
-/// Bits of every mode and the residue.
+/// Returns the bits of every mode and of the residue.
 std::vector<std::vector<std::uint64_t>> decompose(std::span<const double> signal,
                                                   const SiftOptions& options,
                                                   const SiftKernels& kernels) {
@@ -41,7 +41,7 @@ std::vector<std::vector<std::uint64_t>> decompose(std::span<const double> signal
 
 }  // namespace
 
-TEST_CASE("every instruction set sifts out the same bits") {
+TEST_CASE("every instruction set gives the same modes, bit for bit") {
     const std::vector<const SiftKernels*> faster = faster_kernels();
     for (const EndRule ends : {EndRule::line, EndRule::mirror, EndRule::pinned}) {
         for (const SplineEnds spline : {SplineEnds::not_a_knot, SplineEnds::natural}) {
@@ -64,7 +64,7 @@ TEST_CASE("every instruction set sifts out the same bits") {
     }
 }
 
-TEST_CASE("every instruction set gives an ensemble the same bits") {
+TEST_CASE("every instruction set gives the same ensemble, bit for bit") {
     const std::vector<double> signal = mixed_series(1201);
     EnsemblePlan plan;
     plan.signal = signal;
@@ -82,8 +82,9 @@ TEST_CASE("every instruction set gives an ensemble the same bits") {
     }
 }
 
-TEST_CASE("results are the same bits in every build") {
-    // No sine of the platform's library: sums of exact steps and the generator's own noise.
+TEST_CASE("results are bit-identical in every build") {
+    // The signal uses no sine of the platform's library, only exact steps and the generator's own
+    // noise.
     std::vector<double> signal = white_noise(777, 5);
     for (std::size_t i = 0; i < signal.size(); ++i) {
         signal[i] += 0.01 * static_cast<double>(i) + 0.5 * static_cast<double>(i % 31);

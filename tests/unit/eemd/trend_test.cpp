@@ -1,5 +1,5 @@
 /// @file
-/// The trend alone has the bits that the whole decomposition gives it.
+/// The trend computed alone is bit-identical with that of the whole decomposition.
 
 #include "tests/support/catch.hpp"
 
@@ -9,7 +9,8 @@
 namespace a351::corrector {
 namespace {
 
-/// The first residue of the whole decomposition, with 0, 1, 2 ... modes, with few enough extrema.
+/// Returns the whole decomposition with the fewest modes that leaves a residue with few enough
+/// extrema.
 EemdResult by_trial(std::span<const double> signal, std::size_t most_extrema, EemdOptions options) {
     const int most_modes = options.mode_count.value_or(default_mode_count(signal.size()));
     for (options.mode_count = 0;; ++*options.mode_count) {
@@ -32,12 +33,12 @@ void check_against_trial(std::span<const double> signal, std::size_t most_extrem
     const EemdResult whole = by_trial(signal, most_extrema, options);
     CHECK(trend.values == whole.residue.values);
     CHECK(trend.noise_level == whole.noise_level);
-    CHECK(trend.modes_taken_off == static_cast<int>(whole.modes.size()));
+    CHECK(trend.removed_modes == static_cast<int>(whole.modes.size()));
 }
 
 }  // namespace
 
-TEST_CASE("the trend alone has the same bits as the residue of the whole decomposition") {
+TEST_CASE("the trend computed alone is bit-identical with the residue of the whole decomposition") {
     for (const std::size_t n : {0U, 1U, 2U, 5U, 16U, 77U, 450U, 1201U}) {
         const std::vector<double> signal = mixed_series(n);
         for (const std::size_t most_extrema : {0U, 3U, 7U, 30U}) {
@@ -47,7 +48,7 @@ TEST_CASE("the trend alone has the same bits as the residue of the whole decompo
     }
 }
 
-TEST_CASE("the trend alone has the same bits with every option") {
+TEST_CASE("the trend computed alone is bit-identical with every option") {
     const std::vector<double> signal = mixed_series(300);
     EemdOptions options = small_ensemble();
     options.ends = EndRule::mirror;
@@ -65,7 +66,7 @@ TEST_CASE("the trend alone has the same bits with every option") {
     check_against_trial(signal, 7, options);
 }
 
-TEST_CASE("the trend alone has the same bits on any number of threads") {
+TEST_CASE("the trend computed alone is bit-identical on any number of threads") {
     const std::vector<double> signal = mixed_series(450);
     EemdOptions options = small_ensemble();
     options.ensemble_size = 37;
@@ -76,7 +77,7 @@ TEST_CASE("the trend alone has the same bits on any number of threads") {
     }
 }
 
-TEST_CASE("the trend alone is cancelled and refused as the whole decomposition") {
+TEST_CASE("computing the trend alone is cancelled and refused like the whole decomposition") {
     const std::vector<double> signal = mixed_series(450);
     EemdOptions options = small_ensemble();
     options.progress = [](int, int) { return false; };

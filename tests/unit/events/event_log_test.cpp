@@ -24,7 +24,7 @@ Event start(const std::string& time_of_day, const std::string& site) {
 }
 Event stop(const std::string& time_of_day) { return event_of("stop", time_of_day); }
 
-/// "site#number hh:mm-hh:mm ..." of each occupation.
+/// Returns "site#number hh:mm-hh:mm ..." for each occupation.
 std::vector<std::string> shown(const std::vector<Event>& events) {
     std::vector<std::string> lines;
     for (const auto& occupation : occupations_of(events)) {
@@ -43,7 +43,7 @@ using Lines = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("an event comes back from its line", "[record][event_log]") {
+TEST_CASE("an event is read back from its line", "[record][event_log]") {
     Event event = start("09:30", "No.5");
     event.utc = at("2026-03-01T09:30:00.123456789Z");
     event.session = SessionId::from_hex("000102030405060708090a0b0c0d0e0f");
@@ -60,7 +60,7 @@ TEST_CASE("an event comes back from its line", "[record][event_log]") {
     CHECK(read->details == event.details);
 }
 
-TEST_CASE("the line of an event is as the format page shows it", "[record][event_log]") {
+TEST_CASE("the line of an event is written as the format page shows it", "[record][event_log]") {
     Event event = start("09:30", "No.5");
     event.index = 7;
     event.details["operator"] = "M";
@@ -68,7 +68,8 @@ TEST_CASE("the line of an event is as the format page shows it", "[record][event
                             R"("operator":"M","site":"No.5"})");
 }
 
-TEST_CASE("a line that lacks something or holds another type is no event", "[record][event_log]") {
+TEST_CASE("a line with a missing field or a field of another type is not an event",
+          "[record][event_log]") {
     const char* line = GENERATE(
         "", "null", "[]", "{", R"({"type":"start"})", R"({"utc":"2026-03-01T09:30:00Z"})",
         R"({"type":"","utc":"2026-03-01T09:30:00Z"})", R"({"type":1,"utc":"2026-03-01T09:30:00Z"})",
@@ -81,13 +82,14 @@ TEST_CASE("a line that lacks something or holds another type is no event", "[rec
     CHECK_FALSE(parse_event(line));
 }
 
-TEST_CASE("a detail cannot take the name of a field", "[record][event_log]") {
+TEST_CASE("a detail with the name of a field is refused", "[record][event_log]") {
     Event event = start("09:30", "No.5");
     event.details["utc"] = "now";
     CHECK_THROWS_AS(to_json(event), std::invalid_argument);
 }
 
-TEST_CASE("events go to the file of their month and come back in order", "[record][event_log]") {
+TEST_CASE("events are written to the file of their month and read back in order",
+          "[record][event_log]") {
     const test::TemporaryDirectory directory;
     const auto events = directory.path() / "events";
     for (const char* time :
@@ -106,7 +108,7 @@ TEST_CASE("events go to the file of their month and come back in order", "[recor
     CHECK(read_events(directory.path() / "absent").events.empty());
 }
 
-TEST_CASE("a line torn at any byte is reported and does not harm the next one",
+TEST_CASE("a line torn at any byte is reported and does not damage the next one",
           "[record][event_log]") {
     const test::TemporaryDirectory directory;
     const auto file = directory.path() / "2026-03.jsonl";
@@ -129,39 +131,41 @@ TEST_CASE("start and stop make an occupation", "[record][event_log]") {
     CHECK(shown({start("09:00", "A"), stop("09:10")}) == Lines{"A#1 09:00-09:10"});
 }
 
-TEST_CASE("stays are counted per site in the order of time", "[record][event_log]") {
+TEST_CASE("occupations are numbered per site in time order", "[record][event_log]") {
     CHECK(shown({start("10:00", "A"), stop("10:10"), start("11:00", "B"), stop("11:10"),
                  start("12:00", "A"), stop("12:10"),
-                 // Entered late, for an instant before all others.
+                 // Logged last, with a time before all others.
                  start("09:00", "A"), stop("09:10")}) ==
           Lines{"A#1 09:00-09:10", "A#2 10:00-10:10", "B#1 11:00-11:10", "A#3 12:00-12:10"});
 }
 
-TEST_CASE("a start while another runs ends that one", "[record][event_log]") {
+TEST_CASE("a start while another occupation is running ends that occupation",
+          "[record][event_log]") {
     CHECK(shown({start("09:00", "A"), start("09:30", "B"), stop("09:40")}) ==
           Lines{"A#1 09:00-09:30", "B#1 09:30-09:40"});
 }
 
-TEST_CASE("a set-up divides an occupation", "[record][event_log]") {
+TEST_CASE("a set-up event divides an occupation", "[record][event_log]") {
     CHECK(shown({start("09:00", "A"), event_of("setup", "09:05"), event_of("setup", "09:07"),
                  stop("09:10")}) == Lines{"A#1 09:00-09:05 09:05-09:07 09:07-09:10"});
     CHECK(shown({event_of("setup", "09:05"), start("09:10", "A"), event_of("setup", "09:10"),
                  stop("09:20")}) == Lines{"A#1 09:10-09:20"});
 }
 
-TEST_CASE("a running occupation and one of no length are left out", "[record][event_log]") {
+TEST_CASE("a running occupation and an occupation of no length are left out",
+          "[record][event_log]") {
     CHECK(shown({start("09:00", "A")}).empty());
     CHECK(shown({start("09:00", "A"), stop("09:00")}).empty());
     CHECK(shown({stop("09:00")}).empty());
 }
 
-TEST_CASE("one that ends before it starts stands as logged and keeps its number",
+TEST_CASE("an occupation that ends before it starts is kept as logged, with its number",
           "[record][event_log]") {
     CHECK(shown({start("09:10", "A"), stop("09:00"), start("10:00", "A"), stop("10:10")}) ==
           Lines{"A#1 09:10-09:00", "A#2 10:00-10:10"});
 }
 
-TEST_CASE("a discarded occupation does not count", "[record][event_log]") {
+TEST_CASE("a discarded occupation is neither listed nor counted", "[record][event_log]") {
     const auto discard = event_of("discard", "23:00");
     CHECK(shown({start("09:00", "A"), discard, stop("09:10"), start("10:00", "A"),
                  stop("10:10")}) == Lines{"A#1 10:00-10:10"});
@@ -175,7 +179,8 @@ TEST_CASE("a discarded occupation does not count", "[record][event_log]") {
     CHECK(shown(events).empty());
 }
 
-TEST_CASE("a rename speaks of the running occupation, or else of the last", "[record][event_log]") {
+TEST_CASE("a rename applies to the running occupation, or otherwise to the last one",
+          "[record][event_log]") {
     const auto rename = event_of("rename", "23:00", {{"site", "C"}});
     CHECK(shown({rename, start("09:00", "A"), stop("09:10"), start("10:00", "B"), rename,
                  stop("10:10")}) == Lines{"A#1 09:00-09:10", "C#1 10:00-10:10"});
@@ -183,7 +188,8 @@ TEST_CASE("a rename speaks of the running occupation, or else of the last", "[re
           Lines{"A#1 09:00-09:10", "C#1 10:00-10:10"});
 }
 
-TEST_CASE("notes of an occupation are joined, others stay in the log", "[record][event_log]") {
+TEST_CASE("notes during an occupation are joined, other notes stay only in the log",
+          "[record][event_log]") {
     const auto note = [](const char* time, const char* text) {
         return event_of("note", time, {{"note", text}});
     };
@@ -203,7 +209,7 @@ TEST_CASE("events of other kinds change no occupation", "[record][event_log]") {
                  stop("09:10")}) == Lines{"A#1 09:00-09:10"});
 }
 
-TEST_CASE("an occupation without a stop is known as running", "[record][event_log]") {
+TEST_CASE("an occupation without a stop is reported as running", "[record][event_log]") {
     CHECK(running_site({start("09:00", "A"), stop("09:10"), start("09:20", "B")}) == "B");
     CHECK_FALSE(running_site({start("09:00", "A"), stop("09:10")}).has_value());
     CHECK_FALSE(running_site({start("09:00", "A"), event_of("discard", "09:05")}).has_value());

@@ -10,9 +10,9 @@ namespace a351::corrector {
 namespace {
 
 const UtcTime kStart = *parse_rfc3339("2026-03-01T12:00:00.013Z");
-constexpr double kAmplitude = 1e8;  // counts: what rounding to counts adds is 1e-8 of it
+constexpr double kAmplitude = 1e8;  // counts; rounding to counts adds 1e-8 of it
 
-/// Two minutes of a sine, from a clock that is `ppm` fast, in records of 500 samples.
+/// Returns two minutes of a sine from a clock that is `ppm` fast, in records of 500 samples.
 record::Segment sine(double frequency_hz, double ppm, double offset = 0.0) {
     record::Segment segment;
     segment.rate_hz = 50.0;
@@ -28,7 +28,7 @@ record::Segment sine(double frequency_hz, double ppm, double offset = 0.0) {
     return segment;
 }
 
-/// Largest departure from the sine at the grid's instants, of the amplitude.
+/// Returns the largest deviation from the sine at the grid times, relative to the amplitude.
 double error(const GridRun& run, int rate_hz, double frequency_hz) {
     double largest = 0.0;
     for (std::size_t i = 0; i < run.values.size(); ++i) {
@@ -47,7 +47,7 @@ GridRun resampled(const record::Segment& segment, int rate_hz) {
 
 }  // namespace
 
-TEST_CASE("grid instants are whole multiples of the period, before 1970 too", "[export]") {
+TEST_CASE("grid times are whole multiples of the period, also before 1970", "[export]") {
     CHECK(to_rfc3339(grid_time(50 * 86400LL + 1, 50), 3) == "1970-01-02T00:00:00.020Z");
     CHECK(to_rfc3339(grid_time(-1, 50), 3) == "1969-12-31T23:59:59.980Z");
     CHECK(to_rfc3339(grid_time(4, 3), 9) == "1970-01-01T00:00:01.333333333Z");
@@ -59,7 +59,8 @@ TEST_CASE("grid instants are whole multiples of the period, before 1970 too", "[
     }
 }
 
-TEST_CASE("sines up to 0.4 of the rate come back within 1e-5, of a clock 100 ppm off", "[export]") {
+TEST_CASE("sines up to 0.4 of the grid rate are reproduced within 1e-5 from a clock 100 ppm off",
+          "[export]") {
     for (const int rate_hz : {50, 10, 1}) {
         for (const double share : {0.001, 0.1, 0.2, 0.3, 0.4}) {
             const double frequency_hz = share * rate_hz;
@@ -72,7 +73,7 @@ TEST_CASE("sines up to 0.4 of the rate come back within 1e-5, of a clock 100 ppm
     }
 }
 
-TEST_CASE("what the lower rate cannot hold is down to 1e-4", "[export]") {
+TEST_CASE("frequencies that the lower rate cannot represent are reduced to 1e-4", "[export]") {
     for (const double frequency_hz : {6.0, 8.0, 14.0}) {
         double largest = 0.0;
         for (const double value : resampled(sine(frequency_hz, 20.0), 10).values)
@@ -82,17 +83,20 @@ TEST_CASE("what the lower rate cannot hold is down to 1e-4", "[export]") {
     }
 }
 
-TEST_CASE("a constant comes back as it is", "[export]") {
+TEST_CASE("a constant is unchanged on the grid", "[export]") {
     record::Segment segment = sine(1.0, 20.0);
     for (auto& count : segment.counts) count = 16'777'215;
     for (const double value : resampled(segment, 50).values)
         CHECK(std::abs(value - 16'777'215.0) < 1e-9);
 }
 
-TEST_CASE("nothing is made where samples lie outside the segment, or the range", "[export]") {
+TEST_CASE(
+    "no value is computed if its filter reaches outside the segment, or outside the requested "
+    "range",
+    "[export]") {
     const record::Segment segment = sine(1.0, 0.0);
     const GridRun all = resampled(segment, 50);
-    CHECK(all.values.size() == 5999 - 64);  // The grid stands between the samples.
+    CHECK(all.values.size() == 5999 - 64);  // The grid lies between the samples.
     CHECK(seconds_between(kStart, grid_time(all.first, 50)) == Approx(0.64).margin(0.02));
     const UtcTime from = kStart + std::chrono::seconds(10);
     const GridRun part = UtcGrid(50.0, 50).resample(segment, from, from + std::chrono::seconds(2));

@@ -29,7 +29,7 @@ bool has_gnuplot() {
 
 }  // namespace
 
-TEST_CASE("a program runs where it is told, without a shell", "[report][program]") {
+TEST_CASE("a program runs in the given folder, without a shell", "[report][program]") {
     const test::TemporaryDirectory folder;
     const ProgramRun run =
         run_program("sh", {"-c", "pwd >&2; echo \"$1 $LC_ALL\" >&2; exit 3", "sh", "a`b` $c"},
@@ -40,7 +40,7 @@ TEST_CASE("a program runs where it is told, without a shell", "[report][program]
     CHECK(run.errors == folder.path().string() + "\na`b` $c C.UTF-8\n");
 }
 
-TEST_CASE("a program that is not there, is killed or takes too long is told apart",
+TEST_CASE("a program that is missing, is killed or takes too long is recognised as such",
           "[report][program]") {
     const test::TemporaryDirectory folder;
     CHECK_FALSE(run_program("a351-no-such-program", {}, folder.path(), 60s).is_found);
@@ -54,7 +54,7 @@ TEST_CASE("a program that is not there, is killed or takes too long is told apar
     CHECK_FALSE(run.is_good());
 }
 
-TEST_CASE("the same figures are the same bytes, in every format", "[report][drawing]") {
+TEST_CASE("drawing the same figures gives the same bytes in every format", "[report][drawing]") {
     if (!has_gnuplot()) return;
     const std::vector<Figure> figures{figure("one", "plot 'one.dat' with lines\n"),
                                       figure("two", "plot 'one.dat' with points\n")};
@@ -68,7 +68,7 @@ TEST_CASE("the same figures are the same bytes, in every format", "[report][draw
     CHECK(draw(figures, picture_formats()).pictures == drawing.pictures);
 }
 
-TEST_CASE("a bad figure costs no other, and its trouble is told", "[report][drawing]") {
+TEST_CASE("a bad figure is reported and does not affect the others", "[report][drawing]") {
     if (!has_gnuplot()) return;
     const Drawing drawing =
         draw({figure("one", "plot 'one.dat'\n"), figure("bad", "plot 'absent.dat'\n"),
@@ -82,7 +82,8 @@ TEST_CASE("a bad figure costs no other, and its trouble is told", "[report][draw
                    EndsWith("No data in plot"));
 }
 
-TEST_CASE("a name from outside is drawn as it is and runs nothing", "[report][drawing]") {
+TEST_CASE("a name from an input file is drawn literally and executes nothing",
+          "[report][drawing]") {
     if (!has_gnuplot()) return;
     const test::TemporaryDirectory folder;
     const std::string trap = (folder.path() / "trap").string();
@@ -99,7 +100,7 @@ TEST_CASE("a name from outside is drawn as it is and runs nothing", "[report][dr
     CHECK_FALSE(std::filesystem::exists(trap));
 }
 
-TEST_CASE("without gnuplot, or with one that fails, there is one reason", "[report][drawing]") {
+TEST_CASE("a missing or failing gnuplot gives exactly one reason", "[report][drawing]") {
     const std::vector<Figure> figures{figure("one", "plot 'one.dat'\n")};
     const test::TemporaryDirectory folder;
     const PathVariable path(folder.path());

@@ -4,7 +4,8 @@
 
 using namespace a351::corrector;
 
-TEST_CASE("UTF-8 stays, other bytes and control characters become U+FFFD", "[report][escaping]") {
+TEST_CASE("valid UTF-8 is kept, other bytes and control characters become U+FFFD",
+          "[report][escaping]") {
     CHECK(clean_utf8("No.5 \u7B51\u6CE2 \u00B0 \U0001F600") ==
           "No.5 \u7B51\u6CE2 \u00B0 \U0001F600");
     CHECK(clean_utf8("a\nb\x7F") == "a\uFFFDb\uFFFD");
@@ -18,7 +19,7 @@ TEST_CASE("UTF-8 stays, other bytes and control characters become U+FFFD", "[rep
     CHECK(clean_utf8("ab\xE7\xAD") == "ab\uFFFD\uFFFD");                  // cut off
 }
 
-TEST_CASE("a label is cut between characters", "[report][escaping]") {
+TEST_CASE("a long label is cut between characters", "[report][escaping]") {
     CHECK(short_label("12345678901234567890") == "12345678901234567890");
     CHECK(short_label("\u7B51345678901234567890AB") == "\u7B51345678901234567890\u2026");
     CHECK(short_label("\xFF") == "\uFFFD");

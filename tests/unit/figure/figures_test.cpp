@@ -20,7 +20,7 @@ SurveyCorrection corrected(const std::vector<SurveyRow>& rows, const std::string
     return correct_survey(rows, options);
 }
 
-/// A record of ten minutes with a knock, at 2 s, averaged from its third sample on.
+/// Returns a record of ten minutes at 2 s with a knock, averaged from its third sample on.
 RepresentativeValue record_at(UtcTime start) {
     std::vector<double> series, curve, temperature;
     for (int i = 0; i < 300; ++i) {
@@ -76,9 +76,10 @@ text::Site site(const std::string& name, double longitude, double latitude, bool
 
 }  // namespace
 
-TEST_CASE("the published figures 12 and 13 have the published lines", "[report][figures]") {
+TEST_CASE("figures 12 and 13 of the publication are reproduced with the lines printed there",
+          "[report][figures]") {
     const SurveyCorrection result = corrected(tsukuba::observations());
-    // Printed there: 0.97348 x + 27825, R2 0.9748; -29.27 x + 3085, R2 0.926.
+    // Lines in the publication: 0.97348 x + 27825, R2 0.9748; -29.27 x + 3085, R2 0.926.
     CHECK_THAT(acceleration_figure(result).value().script,
                ContainsSubstring("'y = 0.9735 x + 27825.7, R² = 0.9748'") &&
                    ContainsSubstring("left out of the fit"));
@@ -109,7 +110,7 @@ TEST_CASE("every row is in a block of its kind, and an empty block is not plotte
     CHECK_FALSE(residual_figure(unknown).has_value());
 }
 
-TEST_CASE("the axis of time names each stay once, and the date where the hour does not tell",
+TEST_CASE("the time axis names each stay once, and shows dates if the survey lasts several days",
           "[report][figures]") {
     auto rows = made_up::day();
     rows[1].site = "B";
@@ -125,7 +126,7 @@ TEST_CASE("the axis of time names each stay once, and the date where the hour do
                            ContainsSubstring("'UTC, 2020-05-01 to 2020-05-03'"));
 }
 
-TEST_CASE("a record belongs to the row whose interval it has", "[report][figures]") {
+TEST_CASE("a record belongs to the row with the same interval", "[report][figures]") {
     const UtcTime morning = made_up::kMorning;
     const std::vector<RepresentativeValue> values{record_at(morning),
                                                   record_at(morning + std::chrono::hours(1))};
@@ -140,7 +141,8 @@ TEST_CASE("a record belongs to the row whose interval it has", "[report][figures
     CHECK(records.front().value == &values[1]);
 }
 
-TEST_CASE("a record belongs to the row that averages more of it", "[report][figures]") {
+TEST_CASE("a row of the whole-day model gets the record of which it averages more",
+          "[report][figures]") {
     const std::vector<RepresentativeValue> values{
         record_at(made_up::kMorning), record_at(made_up::kMorning + std::chrono::hours(1))};
     SurveyCorrection result;
@@ -160,7 +162,7 @@ TEST_CASE("a record belongs to the row that averages more of it", "[report][figu
     CHECK_THAT(panel_figures(result, records).at(0).script, ContainsSubstring("mean 981702.1"));
 }
 
-TEST_CASE("labels of panels above each other do not touch", "[report][figures]") {
+TEST_CASE("labels of panels placed above each other do not touch", "[report][figures]") {
     std::vector<RepresentativeValue> values{record_at(made_up::kMorning)};
     SurveyCorrection result;
     result.rows.resize(1);
@@ -172,7 +174,8 @@ TEST_CASE("labels of panels above each other do not touch", "[report][figures]")
                            ContainsSubstring("set ytics -4.00000,2.00000,4.00000"));
 }
 
-TEST_CASE("a reading's figure has its series, trend, extrema and interval", "[report][figures]") {
+TEST_CASE("the figure of a reading has its series, trend, extrema and interval",
+          "[report][figures]") {
     const std::vector<RepresentativeValue> values{record_at(made_up::kMorning)};
     SurveyCorrection result;
     result.rows.resize(1);
@@ -199,7 +202,8 @@ TEST_CASE("a reading's figure has its series, trend, extrema and interval", "[re
     CHECK(panels[0].data.empty());
 }
 
-TEST_CASE("the day's temperature breaks where it was not recorded", "[report][figures]") {
+TEST_CASE("the curve of the day's temperature is interrupted where nothing was recorded",
+          "[report][figures]") {
     SurveyCorrection result;
     result.rows.resize(1);
     result.rows[0].row = row_behind(record_at(made_up::kMorning), "B");
@@ -212,8 +216,10 @@ TEST_CASE("the day's temperature breaks where it was not recorded", "[report][fi
     CHECK_THAT(temperature_figure(result, {}).data, StartsWith("# readings"));
 }
 
-TEST_CASE("a degree of latitude is as long as one of longitude over its cosine",
-          "[report][figures]") {
+TEST_CASE(
+    "on the map a degree of longitude is shorter than one of latitude by the cosine of the "
+    "latitude",
+    "[report][figures]") {
     SurveyCorrection result;
     for (const char* const name : {"A", "B", "C"}) {
         StationValue station;
@@ -239,7 +245,7 @@ TEST_CASE("a degree of latitude is as long as one of longitude over its cosine",
     CHECK_FALSE(map_figure(result, {}).has_value());
 }
 
-TEST_CASE("stations at one place still make a map", "[report][figures]") {
+TEST_CASE("stations that are all at one place still give a map", "[report][figures]") {
     SurveyCorrection result;
     for (const char* const name : {"A", "B"}) {
         StationValue station;
@@ -252,7 +258,7 @@ TEST_CASE("stations at one place still make a map", "[report][figures]") {
                                   ContainsSubstring("set label '20 m'"));
 }
 
-TEST_CASE("a station without coordinates is on no map", "[report][figures]") {
+TEST_CASE("a station without coordinates is not on the map", "[report][figures]") {
     SurveyCorrection result;
     for (const char* const name : {"A", "B"}) {
         StationValue station;
@@ -264,12 +270,12 @@ TEST_CASE("a station without coordinates is on no map", "[report][figures]") {
     const auto figure = map_figure(result, sites);
     CHECK_THAT(figure.value().script,
                ContainsSubstring("'A, 100 m'") && !ContainsSubstring("'B, 100 m'"));
-    CHECK_THAT(figure.value().caption, EndsWith("Without a position, and not on it: B."));
+    CHECK_THAT(figure.value().caption, EndsWith("Not shown, because they have no position: B."));
     sites[0].is_placed = false;
     CHECK_FALSE(map_figure(result, sites));
 }
 
-TEST_CASE("steps of an axis are round", "[report][figures]") {
+TEST_CASE("the steps of an axis are round numbers", "[report][figures]") {
     CHECK(round_step(0.73) == Approx(0.5));
     CHECK(round_step(2.0) == Approx(2.0));
     CHECK(round_step(4.9) == Approx(2.0));

@@ -4,7 +4,7 @@
 
 using namespace a351::corrector;
 
-TEST_CASE("an inlined picture has ids of its own and the width of its place",
+TEST_CASE("an inlined picture has unique ids and takes the available width",
           "[report][inline_svg]") {
     const auto html = inline_svg(
         "<?xml version=\"1.0\"?>\n<svg width=\"6\" height=\"4\" viewBox=\"0 0 6 4\" "
@@ -20,7 +20,7 @@ TEST_CASE("an inlined picture has ids of its own and the width of its place",
           "<text filter=\"url(#map-p)\">a &lt; #b</text></g></svg>");
 }
 
-TEST_CASE("what is no whole SVG is not inlined", "[report][inline_svg]") {
+TEST_CASE("an incomplete SVG is not inlined", "[report][inline_svg]") {
     CHECK_FALSE(inline_svg("", "a-").has_value());
     CHECK_FALSE(inline_svg("<svg viewBox=\"0 0 6 4\"><g>", "a-").has_value());
     CHECK_FALSE(inline_svg("<html/>", "a-").has_value());

@@ -10,29 +10,30 @@
 
 namespace a351::test {
 
-/// What goes wrong with the n-th operation of its kind.
+/// Fault of the n-th operation of a kind.
 struct Fault {
     enum class Kind {
-        any,          ///< EIO; of an append the first half is on disk.
-        full_disk,    ///< ENOSPC of what takes space; of an append nothing is on disk.
-        short_write,  ///< ENOSPC of an append; the first half is on disk.
-        sync,         ///< EIO of a sync; what was not synced before is zeros, as dropped pages are.
+        any,          ///< EIO; an append leaves its first half on disk.
+        full_disk,    ///< ENOSPC if the operation takes space; an append leaves nothing on disk.
+        short_write,  ///< ENOSPC for an append, which leaves its first half on disk.
+        sync,         ///< EIO for a sync; unsynced bytes become zeros, like dropped pages.
     };
-    int at = 0;  ///< Counted from 1; 0: never.
+    int at = 0;  ///< Number of the operation, from 1; 0: none.
     Kind kind = Kind::any;
-    bool lasts = false;  ///< All operations of the kind from there on.
+    bool lasts = false;  ///< All later operations of the kind fail too.
 };
 
-/// The real files, of which one or all from one on fail.  Nothing is synced to the medium: nobody
-/// looks there, and thousands of syncs take minutes.  For any number of threads.
+/// The real files, of which one operation, or all from one on, fail. Nothing is synced to the
+/// medium, because no test reads it there and thousands of syncs take minutes. Any number of
+/// threads may use an object.
 class FailingFiles : public ForwardingFiles {
 public:
     explicit FailingFiles(int fail_at = 0) { fault_.at = fail_at; }
 
-    /// Of the fault's kind, so far.
+    /// Returns the number of operations of the fault's kind so far.
     [[nodiscard]] int operations() const noexcept { return operations_; }
     void fail_at(int n) noexcept { fault_.at = n; }
-    /// Counts anew.  Before other threads use the files.
+    /// Sets the fault and counts from zero again. Call it before other threads use the files.
     void set(const Fault& fault) noexcept {
         fault_.kind = fault.kind;
         fault_.lasts = fault.lasts;
@@ -108,8 +109,8 @@ private:
         std::uint64_t synced_ = file_->size();
     };
 
-    /// Directories and files are made and synced by blocks that a full disk lacks; taking away needs
-    /// none.
+    /// Returns true if the fault applies to the operation. Making and syncing directories and files
+    /// takes blocks that a full disk lacks; removing takes none.
     [[nodiscard]] bool is_of_kind(Operation operation) const noexcept {
         switch (fault_.kind) {
             case Fault::Kind::any:

@@ -19,7 +19,7 @@ std::string text_in(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("appending goes on where the file ended", "[record][file_layer]") {
+TEST_CASE("appending continues at the end of the file", "[record][file_layer]") {
     const test::TemporaryDirectory directory;
     const auto path = directory.path() / "log";
     for (const char* text : {"one ", "two ", "three"}) {
@@ -31,7 +31,7 @@ TEST_CASE("appending goes on where the file ended", "[record][file_layer]") {
     CHECK(text_in(path) == "one two three");
 }
 
-TEST_CASE("directories are made with all that is missing above them", "[record][file_layer]") {
+TEST_CASE("directories are made together with all missing parents", "[record][file_layer]") {
     const test::TemporaryDirectory directory;
     const auto path = directory.path() / "a" / "b" / "c";
     posix_files().create_directories(path);
@@ -52,16 +52,16 @@ TEST_CASE("a failure names operation and path", "[record][file_layer]") {
     CHECK_THROWS_AS(files.sync_directory(absent), std::system_error);
 }
 
-TEST_CASE("a full disk is an error", "[record][file_layer]") {
+TEST_CASE("appending to a full disk is an error", "[record][file_layer]") {
     if (!std::filesystem::exists("/dev/full")) {
-        WARN("skipped: no /dev/full here");
+        WARN("skipped: this system has no /dev/full");
         return;
     }
     const auto file = posix_files().open_append("/dev/full");
     CHECK_THROWS_WITH(file->append(bytes_of("x")), ContainsSubstring("append to /dev/full"));
 }
 
-TEST_CASE("truncate keeps the front", "[record][file_layer]") {
+TEST_CASE("truncate keeps the beginning of the file", "[record][file_layer]") {
     const test::TemporaryDirectory directory;
     const auto path = directory.path() / "file";
     test::write_bytes(path, bytes_of("0123456789"));
@@ -86,7 +86,7 @@ TEST_CASE("a replaced file holds the old or the new content, whichever operation
             const auto text = text_in(path);
             CHECK((text == "old" || text == "new content"));
         }
-        // What a failure left behind does not disturb the next attempt.
+        // Remains of a failed attempt do not disturb the next one.
         replace_file(posix_files(), path, bytes_of("newer"));
         CHECK(text_in(path) == "newer");
     }

@@ -4,7 +4,7 @@
 
 namespace a351::test {
 
-/// The real files: what a test makes of them overrides the rest.
+/// The real files as a base class, whose operations a test may override.
 class ForwardingFiles : public record::FileLayer {
 public:
     std::unique_ptr<record::AppendFile> open_append(const std::filesystem::path& file) override {
@@ -35,7 +35,7 @@ protected:
     record::FileLayer& files_ = record::posix_files();
 };
 
-/// Likewise one of them.
+/// One real file, likewise.
 class ForwardingFile : public record::AppendFile {
 public:
     explicit ForwardingFile(std::unique_ptr<record::AppendFile> file) : file_(std::move(file)) {}

@@ -80,7 +80,7 @@ TEST_CASE("priors are read with mean and standard deviation", "[survey][survey_f
     CHECK(priors.reading_sd_mgal == 1.5);
 }
 
-TEST_CASE("the model paper has the publication's trend and curve whatever is asked for",
+TEST_CASE("the model paper uses the publication's trend and curve, whatever is configured",
           "[survey][survey_file]") {
     const Desk desk;
     CHECK(trend_curve_of(desk.read("[survey]\nmodel='paper'\ncurve='slow'\n")) ==
@@ -92,7 +92,7 @@ TEST_CASE("the model paper has the publication's trend and curve whatever is ask
           TrendMethod::smoother);
 }
 
-TEST_CASE("the tide may be a file beside the survey file", "[survey][survey_file]") {
+TEST_CASE("the tide can be a file beside the survey file", "[survey][survey_file]") {
     const Desk desk;
     desk.folder.write("tide.csv", "");
     const SurveyFile survey = desk.read("[survey]\ntide='tide.csv'\n");

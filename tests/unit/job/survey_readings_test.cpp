@@ -7,7 +7,7 @@
 using namespace a351;
 using namespace a351::corrector;
 
-TEST_CASE("a calibration of another unit is refused, an old one remarked upon",
+TEST_CASE("a calibration of another unit is refused, an old one gives a remark",
           "[survey][calibration]") {
     const UtcTime start = parse_rfc3339("2026-03-01T00:00:00Z").value();
     Calibration known;

@@ -22,7 +22,7 @@ std::uint32_t crc32c_of(std::span<const std::byte> nine_or_more) {
 
 }  // namespace
 
-TEST_CASE("a session identifier survives as 32 hexadecimal digits", "[record][journal]") {
+TEST_CASE("a session identifier is kept as 32 hexadecimal digits", "[record][journal]") {
     const std::string hex = "00112233445566778899aabbccddeeff";
     const auto id = SessionId::from_hex(hex);
     REQUIRE(id);
@@ -44,7 +44,8 @@ TEST_CASE("the checksum is CRC-32C with the check values of RFC 3720, B.4", "[re
     CHECK(crc32c_of(bytes) == 0x46DD794E);
 }
 
-TEST_CASE("each kind of chunk comes back as the same bytes", "[record][journal]") {
+TEST_CASE("each kind of chunk has the same bytes again after decoding and encoding",
+          "[record][journal]") {
     std::uint32_t sequence = 0;
     for (const auto& chunk : test::one_of_each()) {
         const auto bytes = encode_chunk(chunk, sequence++);
@@ -57,7 +58,7 @@ TEST_CASE("each kind of chunk comes back as the same bytes", "[record][journal]"
     }
 }
 
-TEST_CASE("a header comes back field by field", "[record][journal]") {
+TEST_CASE("a decoded header has all fields that were encoded", "[record][journal]") {
     auto header = test::journal_header();
     header.is_device_assumed = true;
     header.port = "/dev/serial/by-id/adapter";
@@ -82,7 +83,7 @@ TEST_CASE("a header comes back field by field", "[record][journal]") {
     uncommissioned.declared_rate_hz.reset();
     uncommissioned.oven_interval = std::chrono::seconds(10);
     CHECK(parse_header(header_to_json(uncommissioned))->oven_interval == std::chrono::seconds(10));
-    uncommissioned.oven_interval = std::chrono::seconds(0);  // No archive can be made of it.
+    uncommissioned.oven_interval = std::chrono::seconds(0);  // The archive needs more than 0.
     CHECK_FALSE(parse_header(header_to_json(uncommissioned)));
     uncommissioned.oven_interval = std::chrono::seconds(1);
     CHECK_FALSE(parse_header(header_to_json(uncommissioned))->declared_rate_hz);
@@ -91,7 +92,7 @@ TEST_CASE("a header comes back field by field", "[record][journal]") {
     CHECK(as_asked->port.empty());
 }
 
-TEST_CASE("a serial number that is no text does not stop the header", "[record][journal]") {
+TEST_CASE("a header is readable even if the serial number is not text", "[record][journal]") {
     auto header = test::journal_header();
     header.serial_number = "\xFF\x01\"\\";
     const auto read = parse_header(header_to_json(header));
@@ -99,7 +100,8 @@ TEST_CASE("a serial number that is no text does not stop the header", "[record][
     CHECK(read->serial_number == "\xEF\xBF\xBD\x01\"\\");
 }
 
-TEST_CASE("a header that lacks a field or holds another type is none", "[record][journal]") {
+TEST_CASE("a header with a missing field or a field of another type is refused",
+          "[record][journal]") {
     CHECK_FALSE(parse_header(""));
     CHECK_FALSE(parse_header("[]"));
     CHECK_FALSE(parse_header("{"));
@@ -114,8 +116,9 @@ TEST_CASE("a header that lacks a field or holds another type is none", "[record]
     CHECK_FALSE(parse_header(of_other_type));
 }
 
-TEST_CASE("codes that would name another directory than the archive's make no header",
-          "[record][journal]") {
+TEST_CASE(
+    "a header with station codes that would name another directory than the archive's is refused",
+    "[record][journal]") {
     CHECK(parse_header(header_to_json(JournalHeader())));
     for (const auto& spoil : std::vector<std::function<void(StationCodes&)>>{
              [](auto& codes) { codes.network = "."; }, [](auto& codes) { codes.network = ""; },
@@ -128,7 +131,7 @@ TEST_CASE("codes that would name another directory than the archive's make no he
     }
 }
 
-TEST_CASE("instants that nothing can be reckoned with make no chunk", "[record][journal]") {
+TEST_CASE("a chunk with a time outside the usable range is refused", "[record][journal]") {
     timing::ClockReading clock;
     const auto comes_back = [&] {
         return decode_payload(ChunkType::clock, payload_of(encode_chunk(clock, 1))).has_value();
@@ -150,11 +153,11 @@ TEST_CASE("instants that nothing can be reckoned with make no chunk", "[record][
     CHECK_FALSE(decode_payload(ChunkType::rx, payload_of(encode_chunk(rx, 1))));
 }
 
-TEST_CASE("stamps of reads keep their order and their nanoseconds", "[record][journal]") {
+TEST_CASE("the time stamps of reads keep their order and their nanoseconds", "[record][journal]") {
     RxChunk rx;
     rx.bytes.resize(300);
     rx.reads = {{1, RawTime(Nanoseconds(5'000'000'001))},
-                {200, RawTime(Nanoseconds(5'000'000'000))},  // A clock may disagree: kept as it is.
+                {200, RawTime(Nanoseconds(5'000'000'000))},  // Clock went back; kept as it is.
                 {300, RawTime(Nanoseconds(9'999'999'999))}};
     const auto bytes = encode_chunk(rx, 1);
     const auto decoded = decode_payload(ChunkType::rx, payload_of(bytes));
@@ -162,7 +165,7 @@ TEST_CASE("stamps of reads keep their order and their nanoseconds", "[record][jo
     CHECK(std::get<RxChunk>(*decoded).reads == rx.reads);
 }
 
-TEST_CASE("an announced leap second survives in readings and headers", "[record][journal]") {
+TEST_CASE("an announced leap second is kept in readings and headers", "[record][journal]") {
     using timing::LeapSecond;
     for (const LeapSecond leap : {LeapSecond::none, LeapSecond::inserted, LeapSecond::removed}) {
         auto header = test::journal_header();
@@ -175,7 +178,8 @@ TEST_CASE("an announced leap second survives in readings and headers", "[record]
     }
 }
 
-TEST_CASE("a payload cut or lengthened anywhere is refused or has its shape", "[record][journal]") {
+TEST_CASE("a payload that is cut anywhere is refused, unless it ends in a field of free length",
+          "[record][journal]") {
     for (const auto& chunk : test::one_of_each()) {
         const auto bytes = encode_chunk(chunk, 0);
         const auto type = static_cast<ChunkType>(bytes[4]);
@@ -190,7 +194,7 @@ TEST_CASE("a payload cut or lengthened anywhere is refused or has its shape", "[
     }
 }
 
-TEST_CASE("a read count larger than the payload is refused before memory is taken",
+TEST_CASE("a read count larger than the payload is refused before memory is allocated",
           "[record][journal]") {
     auto bytes = encode_chunk(test::rx_chunk("a", "b"), 1);
     auto payload = std::vector<std::byte>(bytes.begin() + kChunkHeaderSize, bytes.end());
@@ -198,7 +202,7 @@ TEST_CASE("a read count larger than the payload is refused before memory is take
     CHECK_FALSE(decode_payload(ChunkType::rx, payload));
 }
 
-TEST_CASE("a poll of the oven comes back field by field", "[record][journal]") {
+TEST_CASE("a decoded poll of the oven has all fields that were encoded", "[record][journal]") {
     for (const OvenOutcome outcome :
          {OvenOutcome::answered, OvenOutcome::timed_out, OvenOutcome::bad_crc,
           OvenOutcome::exception, OvenOutcome::other_unit, OvenOutcome::malformed,
@@ -216,14 +220,14 @@ TEST_CASE("a poll of the oven comes back field by field", "[record][journal]") {
     }
 }
 
-TEST_CASE("a poll of unknown outcome, or with registers nobody answered, is refused",
+TEST_CASE("a poll of unknown outcome, or with registers that do not fit its outcome, is refused",
           "[record][journal]") {
     const OvenChunk silent{RawTime(), OvenOutcome::timed_out, 1, {}};
     const auto bytes = encode_chunk(silent, 1);
     std::vector<std::byte> payload(bytes.begin() + kChunkHeaderSize, bytes.end());
     payload[8] = std::byte{7};  // One more than no_port.
     CHECK_FALSE(decode_payload(ChunkType::oven, payload));
-    payload[8] = std::byte{0};  // Answered, but with nothing.
+    payload[8] = std::byte{0};  // Answered, but without registers.
     CHECK_FALSE(decode_payload(ChunkType::oven, payload));
     CHECK_THROWS_AS(encode_chunk(OvenChunk{RawTime(), OvenOutcome::bad_crc, 1, {425}}, 1),
                     std::invalid_argument);
@@ -233,7 +237,7 @@ TEST_CASE("a poll of unknown outcome, or with registers nobody answered, is refu
         std::invalid_argument);
 }
 
-TEST_CASE("a chunk that breaks its promise is not written", "[record][journal]") {
+TEST_CASE("a chunk that violates the format is not encoded", "[record][journal]") {
     RxChunk rx = test::rx_chunk("ab", "c");
     rx.reads.back().end = 2;
     CHECK_THROWS_AS(encode_chunk(rx, 1), std::invalid_argument);

@@ -20,7 +20,7 @@ void append(Bytes& bytes, const Bytes& more) {
     bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
-/// A segment of the given chunks, numbered from 0.
+/// Returns a segment of the given chunks, numbered from 0.
 Bytes segment_of(const std::vector<JournalChunk>& chunks) {
     auto bytes = encode_preamble();
     std::uint32_t sequence = 0;
@@ -57,13 +57,13 @@ protected:
 
 }  // namespace
 
-TEST_CASE_METHOD(Fixture, "a whole segment is read without damage", "[record][journal]") {
+TEST_CASE_METHOD(Fixture, "an intact segment is read without damage", "[record][journal]") {
     const auto reading = read(whole_);
     CHECK(reading.chunk_count == 8);
     CHECK_FALSE(reading.damage);
 }
 
-TEST_CASE_METHOD(Fixture, "a tail torn at any byte costs the chunks from there and no more",
+TEST_CASE_METHOD(Fixture, "a tail torn at any byte costs only the chunks from there on",
                  "[record][journal]") {
     std::vector<std::size_t> ends{kPreambleSize};
     std::uint32_t sequence = 0;
@@ -78,13 +78,13 @@ TEST_CASE_METHOD(Fixture, "a tail torn at any byte costs the chunks from there a
         const bool is_clean = good > 0 && ends[good] == size;
         REQUIRE(reading.damage.has_value() == !is_clean);
         if (is_clean) continue;
-        // Without its header nothing of a segment is good.
+        // Without its header no part of a segment is valid.
         REQUIRE(reading.damage->offset == (good > 0 ? ends[good] : 0));
         REQUIRE(reading.damage->offset + reading.damage->byte_count == size);
     }
 }
 
-TEST_CASE_METHOD(Fixture, "any single flipped bit is found, and what came before is kept",
+TEST_CASE_METHOD(Fixture, "any single flipped bit is detected, and the chunks before it are kept",
                  "[record][journal]") {
     for (std::size_t at = 0; at < whole_.size(); ++at) {
         auto bytes = whole_;
@@ -96,7 +96,7 @@ TEST_CASE_METHOD(Fixture, "any single flipped bit is found, and what came before
     }
 }
 
-TEST_CASE_METHOD(Fixture, "random damage never harms the reader", "[record][journal]") {
+TEST_CASE_METHOD(Fixture, "random damage never crashes the reader", "[record][journal]") {
     std::mt19937_64 random(11);
     for (int round = 0; round < 2000; ++round) {
         auto bytes = whole_;
@@ -107,7 +107,7 @@ TEST_CASE_METHOD(Fixture, "random damage never harms the reader", "[record][jour
     }
 }
 
-TEST_CASE_METHOD(Fixture, "a length beyond 64 KiB ends the segment", "[record][journal]") {
+TEST_CASE_METHOD(Fixture, "a chunk length above 64 KiB ends the segment", "[record][journal]") {
     auto bytes = segment_of({test::journal_header()});
     const auto good = bytes.size();
     append(bytes, {std::byte{0xFF}, std::byte{0xFF}, std::byte{0xFF}, std::byte{0xFF}});
@@ -128,7 +128,7 @@ TEST_CASE_METHOD(Fixture, "a repeated sequence number ends the segment", "[recor
     CHECK(reading.damage->reason == "wrong sequence number");
 }
 
-TEST_CASE_METHOD(Fixture, "a segment that does not begin with a header is none",
+TEST_CASE_METHOD(Fixture, "a file that does not begin with a header is not a segment",
                  "[record][journal]") {
     auto reading = read(segment_of({test::rx_chunk("a", "b")}));
     CHECK(reading.chunk_count == 0);
@@ -144,7 +144,7 @@ TEST_CASE_METHOD(Fixture, "a second header ends the segment", "[record][journal]
     CHECK(reading.damage->reason == "header inside the segment");
 }
 
-TEST_CASE_METHOD(Fixture, "garbage after a good tail is reported with its size",
+TEST_CASE_METHOD(Fixture, "garbage after the last good chunk is reported with its size",
                  "[record][journal]") {
     auto bytes = whole_;
     bytes.resize(bytes.size() + 4096);  // Zeros, as a file system may leave after a power cut.
@@ -154,7 +154,7 @@ TEST_CASE_METHOD(Fixture, "garbage after a good tail is reported with its size",
     CHECK(reading.damage->byte_count == 4096);
 }
 
-TEST_CASE_METHOD(Fixture, "a chunk of an unknown type is passed over", "[record][journal]") {
+TEST_CASE_METHOD(Fixture, "a chunk of an unknown type is skipped", "[record][journal]") {
     auto bytes = segment_of({test::journal_header()});
     auto unknown = encode_chunk(EventChunk{"of a later version"}, 1);
     unknown[4] = std::byte{200};
@@ -170,7 +170,7 @@ TEST_CASE_METHOD(Fixture, "a chunk of an unknown type is passed over", "[record]
     CHECK_FALSE(reading.damage);
 }
 
-TEST_CASE_METHOD(Fixture, "another version or another kind of file is refused",
+TEST_CASE_METHOD(Fixture, "a file of another version or of another kind is refused",
                  "[record][journal]") {
     auto bytes = whole_;
     bytes[8] = std::byte{2};
@@ -178,11 +178,11 @@ TEST_CASE_METHOD(Fixture, "another version or another kind of file is refused",
     CHECK(read(Bytes(100, std::byte{'x'})).damage->reason == "not a journal of this version");
 }
 
-TEST_CASE("a segment that cannot be opened is a system error", "[record][journal]") {
+TEST_CASE("opening a segment that does not exist is a system error", "[record][journal]") {
     CHECK_THROWS_AS(JournalReader("/nonexistent/1.a351j"), std::system_error);
 }
 
-TEST_CASE_METHOD(Fixture, "a compressed segment reads as the original did", "[record][journal]") {
+TEST_CASE_METHOD(Fixture, "a compressed segment reads like the original", "[record][journal]") {
     test::write_bytes(file_, whole_);
     compress_segment(posix_files(), file_);
     CHECK_FALSE(std::filesystem::exists(file_));
@@ -199,7 +199,8 @@ TEST_CASE_METHOD(Fixture, "a compressed segment reads as the original did", "[re
     CHECK_FALSE(repair_newest_segment(posix_files(), directory_.path()));
 }
 
-TEST_CASE_METHOD(Fixture, "a damaged compressed segment is damage, never an exception",
+TEST_CASE_METHOD(Fixture,
+                 "damage in a compressed segment is reported and never thrown as an exception",
                  "[record][journal]") {
     test::write_bytes(file_, whole_);
     compress_segment(posix_files(), file_);
@@ -242,7 +243,8 @@ TEST_CASE_METHOD(Fixture, "whichever file operation fails, compressing leaves a 
     }
 }
 
-TEST_CASE("segments are listed by counter, whatever the host clock did", "[record][journal]") {
+TEST_CASE("segments are listed in the order of their counter, whatever the host clock showed",
+          "[record][journal]") {
     const test::TemporaryDirectory directory;
     for (const char* name :
          {"00000010_20260301T120000Z.a351j", "00000009_20270101T000000Z.a351j",
@@ -260,7 +262,9 @@ TEST_CASE("segments are listed by counter, whatever the host clock did", "[recor
     CHECK(journal_segments(directory.path() / "absent").empty());
 }
 
-TEST_CASE_METHOD(Fixture, "repair cuts a torn tail into a side file, once", "[record][journal]") {
+TEST_CASE_METHOD(Fixture,
+                 "repair moves a torn tail to a side file, and then has nothing left to do",
+                 "[record][journal]") {
     auto torn = whole_;
     const Bytes rest(17, std::byte{0xAA});
     append(torn, rest);
@@ -273,7 +277,8 @@ TEST_CASE_METHOD(Fixture, "repair cuts a torn tail into a side file, once", "[re
     CHECK_FALSE(repair_newest_segment(posix_files(), directory_.path()));
 }
 
-TEST_CASE_METHOD(Fixture, "repair sets a segment without a header aside", "[record][journal]") {
+TEST_CASE_METHOD(Fixture, "repair moves a segment without a header out of the way",
+                 "[record][journal]") {
     test::write_bytes(file_, Bytes(whole_.begin(), whole_.begin() + 20));
     REQUIRE(repair_newest_segment(posix_files(), directory_.path()));
     CHECK_FALSE(std::filesystem::exists(file_));
@@ -286,7 +291,7 @@ TEST_CASE_METHOD(Fixture, "repair sets a segment without a header aside", "[reco
     CHECK(segment_number(journal_segments(directory_.path()).back()) == 2U);
 }
 
-TEST_CASE("repair of nothing is nothing", "[record][journal]") {
+TEST_CASE("repair of an empty or absent directory does nothing", "[record][journal]") {
     const test::TemporaryDirectory directory;
     CHECK_FALSE(repair_newest_segment(posix_files(), directory.path()));
     CHECK_FALSE(repair_newest_segment(posix_files(), directory.path() / "absent"));

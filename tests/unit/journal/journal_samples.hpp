@@ -49,7 +49,7 @@ namespace a351::test {
     return rx;
 }
 
-/// A header, then one chunk of each other kind.
+/// Returns a header, then one chunk of each other kind.
 [[nodiscard]] inline std::vector<record::JournalChunk> one_of_each() {
     using namespace record;
     TxChunk tx{RawTime(std::chrono::milliseconds(1'000'050)), {}};

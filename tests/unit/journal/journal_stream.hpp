@@ -34,7 +34,7 @@ inline JournalHeader header_at(Nanoseconds since_start, std::uint8_t session = 1
     return header;
 }
 
-/// The values of sample k: noise with the spread of a quiet site, the same on every call.
+/// Returns the values of sample k: noise with the spread of a quiet site, the same on every call.
 inline wire::BurstValues values_of(std::int64_t k) {
     std::minstd_rand random(static_cast<unsigned>(k + 1));
     const auto noise = [&] { return static_cast<std::int32_t>(random() % 41) - 20; };
@@ -52,10 +52,10 @@ inline std::vector<std::byte> frame_of(const wire::BurstValues& values) {
     return bytes;
 }
 
-/// Instant (since kStart) the last byte of sample k's frame is there.
+/// Returns the time since kStart at which the last byte of sample k's frame has arrived.
 inline Nanoseconds due(std::int64_t k) { return std::chrono::milliseconds(20 * (k + 1)); }
 
-/// Collects chunks; frames wait in the current RX chunk until it is taken.
+/// Collector of chunks; frames are kept in a pending RX chunk until flush().
 class JournalStream {
 public:
     explicit JournalStream(std::uint8_t session = 1, Nanoseconds since_start = Nanoseconds(0)) {
@@ -64,7 +64,7 @@ public:
 
     void frame(std::int64_t k) { bytes(frame_of(values_of(k)), due(k)); }
 
-    /// One second per chunk, a clock reading after each.
+    /// Adds frames in chunks of one second, each followed by a clock reading.
     void frames(std::int64_t first, std::int64_t end) {
         for (std::int64_t k = first; k < end; ++k) {
             frame(k);
@@ -81,7 +81,8 @@ public:
         flush();
         chunks.emplace_back(clock_at(since_start));
     }
-    /// An answer of the controller: process value in 0.1 degC, set point 42.5 degC, heating 61.7 %.
+    /// Adds an answer of the controller: process value in 0.1 degC, set point 42.5 degC, heating
+    /// 61.7 %.
     void oven(Nanoseconds since_start, std::uint16_t process_value, std::uint16_t status = 0x0100) {
         flush();
         chunks.emplace_back(OvenChunk{kRawStart + since_start,

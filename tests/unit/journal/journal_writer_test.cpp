@@ -18,7 +18,7 @@ std::string text_of(const RxChunk& rx) {
     return {reinterpret_cast<const char*>(rx.bytes.data()), rx.bytes.size()};
 }
 
-/// All received bytes of a directory, as a reader of the whole journal meets them.
+/// Returns all received bytes of a journal directory, in the order of reading.
 std::string received_in(const std::filesystem::path& directory) {
     std::string text;
     JournalSequence chunks(journal_segments(directory));
@@ -30,7 +30,7 @@ std::string received_in(const std::filesystem::path& directory) {
 
 }  // namespace
 
-TEST_CASE("what is appended is read back in order", "[record][journal]") {
+TEST_CASE("appended chunks are read back in order", "[record][journal]") {
     const test::TemporaryDirectory directory;
     JournalWriter writer(posix_files(), directory.path() / "journal");
     writer.begin_segment(test::journal_header());
@@ -85,8 +85,9 @@ TEST_CASE("a segment ends when it exceeds 64 MiB", "[record][journal]") {
     CHECK(std::filesystem::file_size(segments[0]) < (64U << 20) + 70'000);
 }
 
-TEST_CASE("the counter goes on over restarts and compressed segments, even when time goes back",
-          "[record][journal]") {
+TEST_CASE(
+    "the segment counter continues over restarts and compressed segments, even if time goes back",
+    "[record][journal]") {
     const test::TemporaryDirectory directory;
     test::write_bytes(directory.path() / "00000416_20270301T120000Z.a351j.zst", {});
     JournalWriter writer(posix_files(), directory.path());
@@ -100,8 +101,9 @@ TEST_CASE("the counter goes on over restarts and compressed segments, even when 
     CHECK(segment_number(segments[3]) == 419U);
 }
 
-TEST_CASE("whichever file operation fails, once or again, every chunk is read once and in order",
-          "[record][journal]") {
+TEST_CASE(
+    "whichever file operation fails, once or twice, every chunk is read back once and in order",
+    "[record][journal]") {
     int operations = 0;
     for (int again = 0; again < 6; ++again) {
         for (int fail_at = 1; fail_at == 1 || fail_at <= operations; ++fail_at) {
@@ -127,7 +129,8 @@ TEST_CASE("whichever file operation fails, once or again, every chunk is read on
             for (int i = 0; i < 6; ++i) {
                 const std::string text = {char('a' + 2 * i), char('b' + 2 * i)};
                 const auto rx = test::rx_chunk(text.substr(0, 1), text.substr(1));
-                // The second half comes an hour later: a rotation in between.
+                // The second half comes over an hour later, so that a new segment begins in
+                // between.
                 const auto clock = clock_reading(i < 3 ? 1001 : 9000, "2026-03-01T15:00:00Z");
                 while (!try_to([&] { writer.append(rx, clock); })) {
                 }
@@ -147,8 +150,10 @@ TEST_CASE("whichever file operation fails, once or again, every chunk is read on
     CHECK(operations >= 10);
 }
 
-TEST_CASE("what a failed sync lost is written again, and told from what it kept",
-          "[record][journal]") {
+TEST_CASE(
+    "chunks lost by a failed sync are written again, and the new segment says which may be "
+    "repeated",
+    "[record][journal]") {
     const auto clock = clock_reading(1001, "2026-03-01T13:00:01Z");
     const auto rx = [](char c) { return test::rx_chunk({&c, 1}, "."); };
     for (const int kept : {0, 1, 2, 3}) {

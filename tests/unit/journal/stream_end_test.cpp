@@ -19,7 +19,7 @@ std::optional<StreamEnd> end_of(const std::vector<JournalChunk>& chunks) {
 
 }  // namespace
 
-TEST_CASE("the journal tells where the counter of its newest session stood", "[record][journal]") {
+TEST_CASE("the journal gives the last counter value of its newest session", "[record][journal]") {
     JournalStream stream(1);
     stream.frames(0, 1'000);
     const auto end = end_of(stream.chunks);
@@ -28,25 +28,27 @@ TEST_CASE("the journal tells where the counter of its newest session stood", "[r
     CHECK(end->count == values_of(999).count);
     CHECK(end->arrival == kRawStart + due(999));
 
-    SECTION("in a segment before the newest of that session") {
+    SECTION("also from an earlier segment of that session") {
         auto chunks = stream.chunks;
         chunks.emplace_back(header_at(due(1'000), 1));
         CHECK(end_of(chunks)->count == values_of(999).count);
     }
-    SECTION("but not when it has no frame yet") {
+    SECTION("but not if the session has no frame yet") {
         auto chunks = stream.chunks;
         chunks.emplace_back(header_at(due(1'000), 2));
         CHECK_FALSE(end_of(chunks));
     }
     auto& header = std::get<JournalHeader>(stream.chunks.front());
-    SECTION("nor when frames have no counter") {
+    SECTION("nor if its frames have no counter") {
         header.burst_ctrl &= static_cast<std::uint16_t>(~wire::kCountOut);
         CHECK_FALSE(end_of(stream.chunks));
     }
-    SECTION("nor when the rate is none of the profile's") {
+    SECTION("nor if the profile does not have its rate") {
         header.output_rate_hz = 7;
         CHECK_FALSE(end_of(stream.chunks));
     }
 }
 
-TEST_CASE("an empty journal knows no stream", "[record][journal]") { CHECK_FALSE(stream_end({})); }
+TEST_CASE("an empty journal has no last counter value", "[record][journal]") {
+    CHECK_FALSE(stream_end({}));
+}

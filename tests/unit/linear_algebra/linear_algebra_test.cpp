@@ -21,7 +21,7 @@ Eigen::MatrixXd symmetric() {
     return matrix;
 }
 
-/// Columns of unequal size, so that pivoting changes their order.
+/// Returns a matrix with columns of unequal size, so that pivoting changes their order.
 Eigen::MatrixXd design() {
     Eigen::MatrixXd matrix(4, 2);
     matrix << 1.0, 10.0, 1.0, 20.0, 1.0, 40.0, 1.0, 80.0;
@@ -30,7 +30,7 @@ Eigen::MatrixXd design() {
 
 }  // namespace
 
-TEST_CASE("a Cholesky decomposition gives back its matrix, solutions and determinant",
+TEST_CASE("a Cholesky decomposition reproduces the matrix, its solutions and its determinant",
           "[linear_algebra]") {
     const Cholesky factor(symmetric());
     REQUIRE(factor.is_positive_definite());
@@ -43,7 +43,7 @@ TEST_CASE("a Cholesky decomposition gives back its matrix, solutions and determi
     CHECK(factor.log_determinant() == Approx(std::log(44.8)).epsilon(1e-14));
 }
 
-TEST_CASE("a matrix that is not positive definite, or holds a NaN, is refused",
+TEST_CASE("a matrix that is not positive definite, or contains a NaN, is refused",
           "[linear_algebra]") {
     for (const auto& [row, column, value] :
          {std::tuple{1, 1, -5.0}, std::tuple{2, 2, kNan}, std::tuple{2, 0, kNan}}) {
@@ -56,8 +56,9 @@ TEST_CASE("a matrix that is not positive definite, or holds a NaN, is refused",
     }
 }
 
-TEST_CASE("a pivoted QR decomposition solves least squares and gives the cofactor's root",
-          "[linear_algebra]") {
+TEST_CASE(
+    "a pivoted QR decomposition solves least squares and gives the square root of the cofactor",
+    "[linear_algebra]") {
     const PivotedQr qr(design());
     CHECK(qr.rank() == 2);
     CHECK(qr.pivots()(0) >= qr.pivots()(1));
@@ -72,7 +73,7 @@ TEST_CASE("a pivoted QR decomposition solves least squares and gives the cofacto
     CHECK(PivotedQr(alike).rank() == 1);
 }
 
-TEST_CASE("eigenvalues ascend and belong to their vectors", "[linear_algebra]") {
+TEST_CASE("eigenvalues are in ascending order and match their eigenvectors", "[linear_algebra]") {
     const SymmetricEigen axes = symmetric_eigen(symmetric());
     for (Eigen::Index k = 0; k < 3; ++k) {
         CHECK((symmetric() * axes.vectors.col(k) - axes.values(k) * axes.vectors.col(k)).norm() <
@@ -81,7 +82,8 @@ TEST_CASE("eigenvalues ascend and belong to their vectors", "[linear_algebra]") 
     }
 }
 
-TEST_CASE("a normal matrix has unit priors on its diagonal", "[linear_algebra]") {
+TEST_CASE("a normal matrix includes a unit prior for each unknown on its diagonal",
+          "[linear_algebra]") {
     const Eigen::MatrixXd excess = normal_matrix(design()) - design().transpose() * design();
     CHECK((excess - Eigen::MatrixXd::Identity(2, 2)).norm() < 1e-11);
 }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSecondsPerRecord = 2;
 
-/// 60 s of four channels; `missing` seconds of z are not there.
+/// Writes 60 s of four channels, without z from `missing_from_s` to `missing_to_s`.
 void write_archive(const std::filesystem::path& archive, const record::StationCodes& codes,
                    int missing_from_s, int missing_to_s) {
     record::ArchiveWriter writer(record::posix_files(), archive, codes);
@@ -38,7 +38,7 @@ void write_archive(const std::filesystem::path& archive, const record::StationCo
     static_cast<void>(writer.sync());
 }
 
-TEST_CASE("the archive's past is taken sample by sample, gaps stay gaps", "[live][past]") {
+TEST_CASE("archived samples are loaded one by one, and gaps stay gaps", "[live][past]") {
     const test::TemporaryDirectory directory;
     const record::StationCodes codes;
     write_archive(directory.path(), codes, 20, 24);
@@ -60,7 +60,8 @@ TEST_CASE("the archive's past is taken sample by sample, gaps stay gaps", "[live
     }
 }
 
-TEST_CASE("only a day is recalled, and no archive is no past", "[live][past]") {
+TEST_CASE("only the last day of the archive is loaded, and a missing archive gives no samples",
+          "[live][past]") {
     const test::TemporaryDirectory directory;
     const record::StationCodes codes;
     write_archive(directory.path(), codes, 0, 0);

@@ -8,7 +8,7 @@
 namespace a351::daemon {
 namespace {
 
-/// 40 min at 50 Hz from minute 0 of the fake recorder on.
+/// A fake recorder with 40 min of samples at 50 Hz, from its minute 0 on.
 struct Field {
     Field() {
         for (std::int64_t i = 0; i < 40 * 60 * 50; ++i) {
@@ -22,7 +22,7 @@ struct Field {
     LiveRecord live{kProfile, 50, {}};
 };
 
-TEST_CASE("half time proposes a further set-up, once", "[field]") {
+TEST_CASE("a further set-up is proposed at half time, once only", "[field]") {
     Field field;
     CHECK_FALSE(field_status(field.occupations, field.live, minute(5)).reading);
     (void)field.occupations.start("No.0", {}, minute(20));
@@ -40,21 +40,21 @@ TEST_CASE("half time proposes a further set-up, once", "[field]") {
     CHECK(now.whole.standard_error->value() < now.reading->standard_error->value());
 }
 
-TEST_CASE("a forgotten stop and a site that comes again are told", "[field]") {
+TEST_CASE("a forgotten stop and a repeated site give a warning", "[field]") {
     Field field;
     (void)field.occupations.start("No.0", {}, minute(1));
     CHECK(field_status(field.occupations, field.live, minute(30)).warnings.empty());
     const auto forgotten = field_status(field.occupations, field.live, minute(32)).warnings;
     REQUIRE(forgotten.size() == 1);
-    CHECK(forgotten[0] == "running for 31 min, planned are 10: was stop forgotten?");
+    CHECK(forgotten[0] == "running for 31 min, planned 10 min: stop it if the reading is finished");
     const auto stopped = field.occupations.stop({}, minute(3));
-    CHECK(stopped.message.ends_with("; short: 2.0 min of the 10 planned"));
+    CHECK(stopped.message.ends_with("; shorter than planned: 2.0 of 10 min"));
     const auto again = field.occupations.start("No.0", {}, minute(4));
     CHECK(again.message.ends_with("; the site was occupied before: stay 2"));
     CHECK(field_status(field.occupations, field.live, minute(5)).warnings.size() == 1);
 }
 
-TEST_CASE("tilt is against the first set-up of the day", "[field][level]") {
+TEST_CASE("tilt is relative to the first set-up of the day", "[field][level]") {
     Field field;
     CHECK(field_status(field.occupations, field.live, minute(39)).level_site.empty());
     (void)field.occupations.start("No.1", {}, minute(2));
@@ -77,7 +77,7 @@ record::Event event(const char* type, UtcTime utc) {
     return event;
 }
 
-TEST_CASE("a survey day begins behind the night", "[field]") {
+TEST_CASE("a survey day begins after the pause of the night", "[field]") {
     FakeRecorder recorder;
     std::vector<record::Event> events;
     for (const int hour : {0, 3, 6, 14, 16}) {
@@ -91,7 +91,7 @@ TEST_CASE("a survey day begins behind the night", "[field]") {
     CHECK(survey_day(occupations, minute(60 * 23)).empty());
 }
 
-TEST_CASE("a stop forgotten in the evening does not make one day of two", "[field]") {
+TEST_CASE("a stop forgotten in the evening does not join two days", "[field]") {
     FakeRecorder recorder;
     const std::vector<record::Event> events{
         event("start", minute(0)), event("stop", minute(10)), event("start", minute(60)),
@@ -102,7 +102,7 @@ TEST_CASE("a stop forgotten in the evening does not make one day of two", "[fiel
     CHECK(day[0].set_ups.front().start == minute(60 * 20));
 }
 
-TEST_CASE("a site of the day before does not come again", "[field]") {
+TEST_CASE("a site of the day before does not count as repeated", "[field]") {
     FakeRecorder recorder;
     recorder.last = minute(60 * 20);
     Occupations occupations(recorder, two_sites(),
@@ -114,12 +114,12 @@ TEST_CASE("a site of the day before does not come again", "[field]") {
     CHECK(field_status(occupations, live, minute(60 * 20 + 1)).warnings.empty());
 }
 
-TEST_CASE("the target is an event, and stays after a restart", "[field]") {
+TEST_CASE("the target is stored as an event and kept over a restart", "[field]") {
     FakeRecorder recorder;
     Occupations occupations(recorder, {}, {}, {.target = MilliGal(0.7)});
     CHECK(occupations.target() == MilliGal(0.7));
     CHECK(occupations.set_target(MilliGal(0.35)).message ==
-          "good enough is a standard error of 0.35 mGal");
+          "target set: good enough at a standard error of 0.35 mGal");
     for (const double wrong : {0.0, -1.0, 1e9, std::nan("")})
         CHECK(occupations.set_target(MilliGal(wrong)).kind == Outcome::Kind::refused);
     const Occupations again(recorder, {}, recorder.log);
@@ -127,7 +127,7 @@ TEST_CASE("the target is an event, and stays after a restart", "[field]") {
     CHECK(recorder.log.size() == 1);
 }
 
-TEST_CASE("sites come nearest first, those without a position last", "[field]") {
+TEST_CASE("sites are listed with the nearest first, and those without a position last", "[field]") {
     std::vector<text::Site> sites(3);
     sites[0].name = "nowhere";
     sites[0].is_placed = false;

@@ -11,7 +11,7 @@ void take(History& history, double at_s, float value) {
     history.take(after(at_s), {value, 2.0F * value, 0.0F, -value});
 }
 
-TEST_CASE("envelopes hold least and largest of two seconds", "[live][history]") {
+TEST_CASE("an envelope has the least and the largest value of two seconds", "[live][history]") {
     History history;
     for (const float value : {3.0F, 1.0F, 2.0F})
         take(history, 0.5 * static_cast<double>(value), value);
@@ -25,7 +25,8 @@ TEST_CASE("envelopes hold least and largest of two seconds", "[live][history]") 
     CHECK(history.envelopes(LiveChannel::temperature, kZero, after(2.0), 100).at(0).low == -3.0F);
 }
 
-TEST_CASE("neighbours are joined to the points asked for, gaps stay gaps", "[live][history]") {
+TEST_CASE("neighbours are merged to at most the requested number of points, and gaps stay gaps",
+          "[live][history]") {
     History history;
     for (int i = 0; i < 3000; ++i) {
         if (i >= 1000 && i < 2000) continue;
@@ -41,11 +42,12 @@ TEST_CASE("neighbours are joined to the points asked for, gaps stay gaps", "[liv
             CHECK(found[i].time >= found[i - 1].time + from_seconds(found[i].interval_s));
     }
     const auto found = history.envelopes(LiveChannel::x, after(1990.0), after(4010.0), 2000);
-    REQUIRE(found.size() == 10);  // Five before the gap, five behind.
+    REQUIRE(found.size() == 10);  // Five before the gap, five after it.
     CHECK(seconds_between(found[4].time, found[5].time) == 2002.0);
 }
 
-TEST_CASE("history is a day long, and begins anew where time is set back", "[live][history]") {
+TEST_CASE("the history is a day long, and starts again from where the clock is set back",
+          "[live][history]") {
     History history;
     for (int i = 0; i < 50000; ++i) take(history, 2.0 * i, 1.0F);
     const auto day = history.envelopes(LiveChannel::x, after(-10.0), after(1e6), 100000);

@@ -12,7 +12,7 @@ namespace {
 
 double wave(std::int64_t i) { return 500.0 * std::sin(0.01 * static_cast<double>(i)); }
 
-TEST_CASE("until the filters are full there is no data, since the first sample", "[live]") {
+TEST_CASE("until the filters are full the verdict is no data, since the first sample", "[live]") {
     LiveRecord record(kProfile, 50, {});
     for (std::int64_t i = 0; i < 500; ++i) record.take(placed(i, 0.0, 0.0, 980000.0));
     const Verdict verdict = record.verdict(after(10.0));
@@ -41,17 +41,18 @@ TEST_CASE("a viewer reads every sample once, in blocks without a gap", "[live]")
     CHECK(record.end() == 990);
 }
 
-TEST_CASE("a viewer that stayed away goes on with the oldest that is kept", "[live]") {
+TEST_CASE("a viewer that returns late continues with the oldest sample that is kept", "[live]") {
     LiveRecord record(kProfile, 50, {});
     for (std::int64_t i = 0; i < 20000; ++i) record.take(placed(i, 0.0, 0.0, 980000.0));
     std::uint64_t cursor = 17;
     const auto block = record.block_from(cursor, 100000);
     REQUIRE(block);
-    CHECK(block->first_index == 20000 - 12500);  // The least that is kept.
+    CHECK(block->first_index == 20000 - 12500);  // The least number of samples that is kept.
     CHECK(cursor == 20000);
 }
 
-TEST_CASE("a look every tenth of a second misses nothing at 50 000 samples/s", "[live]") {
+TEST_CASE("a viewer that reads every tenth of a second misses nothing at 50 000 samples/s",
+          "[live]") {
     LiveRecord record(kProfile, 50, {});
     std::uint64_t cursor = 0;
     std::int64_t next = 0;
@@ -66,10 +67,12 @@ TEST_CASE("a look every tenth of a second misses nothing at 50 000 samples/s", "
     CHECK(next == 25000);
 }
 
-TEST_CASE("what a replay tells again is passed over, though the archive rounds times", "[live]") {
+TEST_CASE(
+    "samples that a replay delivers again are skipped, although the archive rounds their times",
+    "[live]") {
     LiveRecord record(kProfile, 50, {});
     for (std::int64_t i = 0; i < 100; ++i) record.take(placed(i, 0.0, 0.0, 980000.0));
-    record.past_is_told();
+    record.end_of_history();
     for (std::int64_t i = 50; i < 120; ++i) {
         PlacedSample again = placed(i, 0.0, 0.0, 980000.0);
         again.time += std::chrono::microseconds(1);
@@ -78,7 +81,7 @@ TEST_CASE("what a replay tells again is passed over, though the archive rounds t
     CHECK(record.end() == 120);
 }
 
-/// Alive in temperature and acceleration, as a judge demands.
+/// Returns a sample with varying temperature and acceleration, as the verdict requires.
 PlacedSample steady(std::int64_t i) {
     PlacedSample sample = placed(i, 0.0, 0.0, 980000.0);
     sample.counts[3] += static_cast<std::int32_t>(i % 7) - 3;
@@ -86,7 +89,7 @@ PlacedSample steady(std::int64_t i) {
     return sample;
 }
 
-TEST_CASE("a clock that is set back begins anew from there", "[live]") {
+TEST_CASE("a clock that is set back starts the history again from there", "[live]") {
     constexpr std::int64_t kBefore = 40 * 60 * 50, kBehind = 60 * 50;
     constexpr Nanoseconds kBack = std::chrono::minutes(30);
     LiveRecord record(kProfile, 50, {});
@@ -108,7 +111,8 @@ TEST_CASE("a clock that is set back begins anew from there", "[live]") {
     CHECK(reading.used_s == Approx(60.0 - 20.0).margin(4.0));
 }
 
-TEST_CASE("the live series is the decimation of the evening", "[live][thinning]") {
+TEST_CASE("the live series is identical to the decimation in the evening's correction",
+          "[live][thinning]") {
     LiveThinning thinning(kProfile, 50);
     std::vector<LiveSample> live;
     std::vector<double> z;
@@ -138,7 +142,8 @@ TEST_CASE("the live series is the decimation of the evening", "[live][thinning]"
     CHECK(live[10].shake.value() == Approx(0.5 * (wave(1414) - wave(1499))).margin(0.1));
 }
 
-TEST_CASE("all rates of the profile are thinned to 2 s with the same reach", "[live][thinning]") {
+TEST_CASE("all rates of the profile are decimated to 2 s with filters of the same length in time",
+          "[live][thinning]") {
     for (const auto& rate : kProfile.output_rates_hz) {
         LiveThinning thinning(kProfile, rate.value);
         std::vector<LiveSample> live;
@@ -155,7 +160,10 @@ TEST_CASE("all rates of the profile are thinned to 2 s with the same reach", "[l
     }
 }
 
-TEST_CASE("a missing sample costs what it touches, a long gap begins anew", "[live][thinning]") {
+TEST_CASE(
+    "a missing sample affects only the values whose filter includes it, a long gap restarts the "
+    "filter",
+    "[live][thinning]") {
     LiveThinning thinning(kProfile, 50);
     std::vector<LiveSample> live;
     for (std::int64_t i = 0; i < 6000; ++i)
@@ -172,7 +180,7 @@ TEST_CASE("a missing sample costs what it touches, a long gap begins anew", "[li
     CHECK_FALSE(std::isnan(live[5].axes[2].value()));
 }
 
-TEST_CASE("the record tells verdict and reading of what it was given", "[live]") {
+TEST_CASE("the live record gives its samples to the verdict and to the reading", "[live]") {
     LiveRecord record(kProfile, 50, {});
     CHECK(record.verdict(kZero).state == VerdictState::no_data);
     for (std::int64_t i = 0; i < 40 * 60 * 50; ++i) record.take(steady(i));
@@ -192,7 +200,7 @@ TEST_CASE("the record tells verdict and reading of what it was given", "[live]")
     CHECK(record.verdict(after(2400.0)).state == VerdictState::stable);
 }
 
-TEST_CASE("tilt is told against a set-up, and which side to turn", "[live][level]") {
+TEST_CASE("tilt is given relative to a set-up, with the side to turn", "[live][level]") {
     const auto mgal_of = [](double arcmin) {
         return kMilliGalPerStandardGravity * std::sin(arcmin / 60.0 * std::numbers::pi / 180.0);
     };
@@ -213,13 +221,14 @@ TEST_CASE("tilt is told against a set-up, and which side to turn", "[live][level
     CHECK_FALSE(record.level_against(after(500.0), after(600.0)));
 }
 
-TEST_CASE("how the box was lifted at the end of a set-up is not how it stood", "[live][level]") {
-    constexpr double kStands = 8000.0, kLifted = 80'000.0;  // 28' and 4.7 deg.
+TEST_CASE("lifting the box at the end of a set-up does not change the level of that set-up",
+          "[live][level]") {
+    constexpr double kLevel = 8000.0, kLifted = 80'000.0;  // 28' and 4.7 deg.
     LiveRecord record(kProfile, 50, {});
     for (std::int64_t i = 0; i < 600 * 50; ++i)
-        record.take(placed(i, i < 540 * 50 ? kStands : kLifted, 0.0, 980000.0));
+        record.take(placed(i, i < 540 * 50 ? kLevel : kLifted, 0.0, 980000.0));
     for (std::int64_t i = 600 * 50; i < 630 * 50; ++i)
-        record.take(placed(i, kStands, 0.0, 980000.0));
+        record.take(placed(i, kLevel, 0.0, 980000.0));
     const auto level = record.level_against(kZero, after(600.0));
     REQUIRE(level);
     CHECK(level->tilt_arcmin[0] == Approx(0.0).margin(0.01));
@@ -238,7 +247,7 @@ TEST_CASE("nothing from before or after a set-up enters its reading", "[live]") 
     CHECK(reading.used_s == Approx(300.0 - 18.0).margin(2.0));
 }
 
-TEST_CASE("oven values are kept for a day, every second one of a fast poll", "[live]") {
+TEST_CASE("oven values are kept for a day, at most one every 2 s", "[live]") {
     LiveRecord record(kProfile, 50, {});
     for (int i = 0; i < 100; ++i) record.take(OvenPoint{after(i), DegC(42.0 + i), DegC(42.5)});
     CHECK(record.oven_history(kZero, after(1000.0), 1000).size() == 50);

@@ -17,7 +17,7 @@ inline std::int32_t counts_of(double milligal) {
         std::lround(milligal / to_milligal(kProfile.acceleration(1)).value()));
 }
 
-/// Sample i of a series at 50 Hz: axes in mGal.
+/// Returns sample i of a series at 50 Hz, axes in mGal.
 inline PlacedSample placed(std::int64_t i, double x, double y, double z) {
     constexpr std::int32_t kTemperatureCounts = -1981;  // 42.5 degC
     return {i,

@@ -10,7 +10,7 @@ using namespace a351::corrector;
 
 namespace {
 
-/// Of the scenarios' plant, known well.
+/// Returns the true response of the scenarios' plant, with small errors.
 ThermalResponse true_response() {
     ThermalResponse truth;
     truth.values << -12.0, -20.0, 950.0 * 43.0 / 3600.0, std::log(43.0), std::log(2700.0);
@@ -28,8 +28,7 @@ constexpr double kAveraged_s = 1500.0;
 
 }  // namespace
 
-TEST_CASE("the unit's own response takes the oven's cycle out of a record",
-          "[long_record][apply]") {
+TEST_CASE("the unit's own response reduces the oven's cycle in a record", "[long_record][apply]") {
     for (const std::uint64_t seed : {731U, 732U}) {
         const RecordSegment segment = simulated_segment("indoor", seed);
         const AppliedCalibration applied =
@@ -47,7 +46,8 @@ TEST_CASE("the unit's own response takes the oven's cycle out of a record",
     }
 }
 
-TEST_CASE("what a calibration leaves open is not applied, and said", "[long_record][apply]") {
+TEST_CASE("a part that the calibration leaves open is not applied, with a remark",
+          "[long_record][apply]") {
     const RecordSegment segment = simulated_segment("indoor", 733);
     ThermalResponse open = true_response();
     open.values.head<3>() << 500.0, 500.0, 300.0;
@@ -58,12 +58,13 @@ TEST_CASE("what a calibration leaves open is not applied, and said", "[long_reco
     CHECK(applied.parametric_mgal == segment.acceleration_mgal);
 }
 
-TEST_CASE("a sine that only the rate explains is taken out by two paths", "[long_record][apply]") {
+TEST_CASE("a sine that only the temperature rate explains is removed by the two-path response",
+          "[long_record][apply]") {
     RecordSegment segment;
     for (int i = 0; i < 2160; ++i) {
         const double angle = 2.0 * M_PI * 20.0 * i / 1800.0;
         const double turn = 2.0 * M_PI / 1800.0 * 43.0;
-        // 10 mGal/(degC/h) behind a lag of 43 s.
+        // 10 mGal/(degC/h) with a lag of 43 s.
         segment.temperature_degc.push_back(42.5 + 0.02 * std::sin(angle));
         segment.acceleration_mgal.push_back(0.02 * 10.0 * 3600.0 * 2.0 * M_PI / 1800.0 /
                                             (1.0 + turn * turn) *
@@ -80,7 +81,7 @@ TEST_CASE("a sine that only the rate explains is taken out by two paths", "[long
     CHECK(rms.by_modes < 0.25 * rms.before);
 }
 
-TEST_CASE("the Allan deviation of a ramp and of alternating samples is known",
+TEST_CASE("the Allan deviations of a ramp and of alternating samples have their theoretical values",
           "[long_record][apply]") {
     std::vector<double> ramp, alternating;
     for (int i = 0; i < 64; ++i) {

@@ -17,14 +17,15 @@ namespace {
 
 const UtcTime kStart = *parse_rfc3339("2026-03-01T12:00:00Z");
 constexpr double kHalf_s = 600.0;
-const std::string kValue = "<Value>1710799.9163832706</Value>";  // of an axis, counts per m/s2
+/// Sensitivity of an axis, counts per m/s2.
+const std::string kValue = "<Value>1710799.9163832706</Value>";
 
-/// A data root with a sensor that lies still at 1 g and 42.476 degC.
+/// A data root of a sensor at rest at 1 g and 42.476 degC.
 class Root {
 public:
     Root() { folder_.write("metadata/station.xml", record::to_station_xml(record::description())); }
 
-    /// Samples from a number of seconds on, for ten minutes.
+    /// Adds ten minutes of samples, beginning `from_s` after the start.
     void add(double from_s, double rate_hz) {
         const std::pair<const char*, std::int32_t> channels[] = {
             {"BN1", 0}, {"BN2", 0}, {"BNZ", 16'777'216}, {"BK1", -1975}};
@@ -47,7 +48,7 @@ public:
         writer_.sync();
     }
 
-    /// Another epoch after ten minutes.
+    /// Begins another epoch ten minutes after the start.
     void change(const std::string& serial_number, std::uint16_t firmware) {
         auto station = record::description();
         station.start = kStart + from_seconds(kHalf_s);
@@ -57,9 +58,9 @@ public:
         folder_.write("metadata/station.xml", text_);
     }
 
-    /// The last epoch's vertical axis has twice the counts per m/s2.
+    /// Gives the last epoch's vertical axis twice the counts per m/s2.
     void halve_scale() {
-        for (int once = 0; once < 2; ++once)  // the sensitivity, and its one stage's
+        for (int once = 0; once < 2; ++once)  // the sensitivity of the channel and of its one stage
             text_.replace(text_.rfind(kValue), kValue.size(), "<Value>3421599.8327665412</Value>");
         folder_.write("metadata/station.xml", text_);
     }
@@ -79,12 +80,13 @@ private:
                               record::StationCodes{}};
 };
 
-/// In the middle of ten minutes, where the filters are filled.
+/// Returns the value in the middle of ten minutes, where the filters are filled.
 double middle_mgal(const RecordStretch& stretch) { return stretch.acceleration_mgal.at(15); }
 
 }  // namespace
 
-TEST_CASE("a new epoch of the same sensor and scales divides nothing", "[long_record][archive]") {
+TEST_CASE("a new epoch with the same sensor and scales does not divide the record",
+          "[long_record][archive]") {
     Root root;
     root.add(0.0, 50.0);
     root.add(kHalf_s, 50.0);
@@ -123,7 +125,7 @@ TEST_CASE("another sensor begins a new stretch, with a warning", "[long_record][
     CHECK(parts.segments[1].begins_with == record.stretches[1].begins_with);
 }
 
-TEST_CASE("each epoch's samples have its own scale", "[long_record][archive]") {
+TEST_CASE("samples are scaled by the epoch they belong to", "[long_record][archive]") {
     Root root;
     root.add(0.0, 50.0);
     root.add(kHalf_s, 50.0);

@@ -1,5 +1,5 @@
-/// Simulated nights indoors analysed by the product: the publication's statistics (Matsuda et al.,
-/// tests/golden/tsukuba/README.md), as means over seeds.
+/// Simulated nights indoors, analysed by the product: means over seeds of the statistics that the
+/// publication gives (Matsuda et al., tests/golden/tsukuba/README.md).
 #include <cmath>
 #include <map>
 #include "tests/support/catch.hpp"
@@ -11,7 +11,7 @@
 using namespace a351;
 using namespace a351::corrector;
 
-TEST_CASE("the publication's statistics of a night come out of simulated ones", "[long_record]") {
+TEST_CASE("simulated nights have the statistics of the night in the publication", "[long_record]") {
     constexpr int kSeeds = 10;
     std::map<std::string, double> means;
     for (int seed = 1; seed <= kSeeds; ++seed) {
@@ -31,7 +31,8 @@ TEST_CASE("the publication's statistics of a night come out of simulated ones", 
     }
 }
 
-TEST_CASE("two peaks of one narrow band are read as one response", "[long_record]") {
+TEST_CASE("two correlation peaks of one narrow band are interpreted as one response",
+          "[long_record]") {
     // 257 mGal/degC, negative and 260 s late at 900 s, with nothing else: 9.9 mGal per degC/h.
     std::vector<double> temperature, acceleration;
     for (int i = 0; i < 2160; ++i) {
@@ -55,7 +56,7 @@ TEST_CASE("a record shorter than eight cycles is not analysed", "[long_record]")
     CHECK_THROWS_AS(analyse_record(segment, kRecordStep_s, {}), std::invalid_argument);
 }
 
-TEST_CASE("a record without a cycle is not read as if it had one", "[long_record]") {
+TEST_CASE("a record without a cycle is not interpreted as if it had one", "[long_record]") {
     RecordSegment segment;
     for (int i = 0; i < 1200; ++i) {
         segment.temperature_degc.push_back(42.5 + 1e-4 * i);

@@ -13,7 +13,7 @@ using namespace a351::corrector;
 
 namespace {
 
-/// Rows from one instant to another as a CSV, read.
+/// Returns a record read from a CSV with rows from `from_s` to `to_s`.
 LongRecord part(double step_s, double from_s, double to_s, bool has_axes = false) {
     const test::TemporaryDirectory folder;
     std::string text = has_axes ? "time_s,x_g,y_g,z_g,temperature_degc\n"
@@ -41,7 +41,7 @@ LongRecord joined(LongRecord first, LongRecord second) {
 }  // namespace
 
 TEST_CASE("a night cut into two files is one segment", "[long_record][joining]") {
-    // In any order, and with single samples missing at the cut.
+    // The files may be in any order, and some samples may be missing at the cut.
     for (const double missing_s : {0.0, 300.0}) {
         const LongRecord record =
             joined(part(20.0, 21600.0 + missing_s, 43200.0), part(20.0, 0.0, 21600.0));
@@ -57,15 +57,14 @@ TEST_CASE("a night cut into two files is one segment", "[long_record][joining]")
     }
 }
 
-TEST_CASE("two files farther apart are two segments", "[long_record][joining]") {
+TEST_CASE("two files with a longer gap between them are two segments", "[long_record][joining]") {
     const RecordSegments parts =
         divide_record(joined(part(20.0, 0.0, 21600.0), part(20.0, 21920.0, 43200.0)));
     REQUIRE(parts.segments.size() == 2);
     CHECK(parts.segments[1].begins_with == "gap of 340 s");
 }
 
-TEST_CASE("files that are decimated join across the ends of their filters",
-          "[long_record][joining]") {
+TEST_CASE("decimated files are joined across the ends of their filters", "[long_record][joining]") {
     const LongRecord record =
         joined(part(2.0, 0.0, 21600.0, true), part(2.0, 21600.0, 43200.0, true));
     REQUIRE(record.stretches.size() == 1);
@@ -77,7 +76,8 @@ TEST_CASE("files that are decimated join across the ends of their filters",
     CHECK(parts.segments[0].bridged > 0);
 }
 
-TEST_CASE("what has another step, or overlaps, is refused", "[long_record][joining]") {
+TEST_CASE("files with different steps, and files that overlap, are refused",
+          "[long_record][joining]") {
     CHECK_THROWS_WITH(joined(part(20.0, 0.0, 4000.0), part(21.0, 4000.0, 8200.0)),
                       ContainsSubstring("from-4000.csv: a sample every 21 s, ") &&
                           ContainsSubstring("from-0.csv has one every 20 s; "));

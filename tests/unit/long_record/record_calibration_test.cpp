@@ -14,7 +14,7 @@ using namespace a351::corrector;
 
 namespace {
 
-/// In the order of kThermalNames.
+/// Returns the true parameters in the order of kThermalNames.
 Eigen::Matrix<double, 5, 1> true_values(const sim::TwoPathTruth& truth) {
     Eigen::Matrix<double, 5, 1> values;
     values << truth[TwoPathTerm::level], truth[TwoPathTerm::slow], truth[TwoPathTerm::fast],
@@ -34,7 +34,7 @@ TwoPathFit fitted(const std::string& scenario, std::uint64_t seed) {
 constexpr std::array kTerms{TwoPathTerm::level, TwoPathTerm::slow, TwoPathTerm::fast,
                             TwoPathTerm::fast_lag, TwoPathTerm::slow_lag};
 
-/// Of the direction known best, by the priors' deviations.
+/// Returns the variance of the best-known direction, in units of the priors' variances.
 double best_variance(const ThermalResponse& response) {
     Eigen::Matrix<double, 5, 5> scaled = response.covariance;
     for (Eigen::Index k = 0; k < 5; ++k) {
@@ -50,7 +50,7 @@ TwoPathFit shifted(TwoPathFit fit, TwoPathTerm term, double by) {
     return fit;
 }
 
-/// A fit of which only warm-up and its time matter.
+/// Returns a fit of which only the size and time of the warm-up are used.
 TwoPathFit warm_up_fit(double size_mgal, double size_error, double time_h, double log_error) {
     TwoPathFit fit = fitted("indoor", 701);
     const auto set = [&fit](TwoPathTerm term, double value, double error, double deviation) {
@@ -70,7 +70,8 @@ TwoPathFit warm_up_fit(double size_mgal, double size_error, double time_h, doubl
 
 }  // namespace
 
-TEST_CASE("a night calibrates the fast path and leaves the rest open", "[long_record][calibrate]") {
+TEST_CASE("a night calibrates the fast path and leaves the rest undetermined",
+          "[long_record][calibrate]") {
     const sim::Scenario scenario = of_drawn_units("indoor");
     const PooledThermal pooled = pool_thermal({fitted(scenario, 702)});
     REQUIRE(pooled.response);
@@ -79,16 +80,18 @@ TEST_CASE("a night calibrates the fast path and leaves the rest open", "[long_re
     CHECK_FALSE(pooled.parameters[4].needed.empty());
     const auto& [values, covariance] = *pooled.response;
     CHECK(covariance.llt().info() == Eigen::Success);
-    // The slow lag's prior, a factor of 2, must not come through.
+    // The slow lag's prior, a factor of 2, must not appear in the result.
     CHECK(std::sqrt(covariance(4, 4)) > 10.0 * std::log(2.0));
     const Eigen::VectorXd off = values - true_values(sim::two_path_truth(scenario, 702));
     CAPTURE(values.transpose(), off.dot(covariance.llt().solve(off)));
     CHECK(off.dot(covariance.llt().solve(off)) <
-          4.0 * 15.1);  // 1 % of chi-square 5, widened twofold
+          4.0 * 15.1);  // 99 % quantile of chi-square with 5 degrees of freedom, errors doubled
 }
 
-TEST_CASE("what calibrations state holds the units in nine of ten", "[long_record][calibrate]") {
-    // Twice their errors, as a survey takes them: 95 % of chi-square 5 is 11.07.
+TEST_CASE("the errors stated by calibrations cover the true unit in nine of ten cases",
+          "[long_record][calibrate]") {
+    // A survey doubles the errors. The 95 % quantile of chi-square with 5 degrees of freedom is
+    // 11.07.
     constexpr double kMost = kThermalErrorFactor * kThermalErrorFactor * 11.07;
     constexpr int kUnits = 20;
     const sim::Scenario scenario = of_drawn_units("indoor");
@@ -105,8 +108,9 @@ TEST_CASE("what calibrations state holds the units in nine of ten", "[long_recor
     CHECK(held >= 18);
 }
 
-TEST_CASE("nothing of the prior comes through", "[long_record][calibrate]") {
-    // As an estimate beside the fit's priors it gives the fit again, in the directions passed on.
+TEST_CASE("a calibration does not contain the priors of the fit", "[long_record][calibrate]") {
+    // Combined with the fit's priors, the calibration gives the fit again in the directions it
+    // contains.
     const TwoPathFit week = fitted("week", 703);
     const PooledThermal pooled = pool_thermal({week});
     REQUIRE(pooled.response);
@@ -117,10 +121,10 @@ TEST_CASE("nothing of the prior comes through", "[long_record][calibrate]") {
     const double error = std::sqrt(information.inverse()(2, 2));
     const double of_fit = week[TwoPathTerm::fast].standard_error;
     CHECK(error > 0.999 * of_fit);
-    CHECK(error < 1.15 * of_fit);  // what was not passed on
+    CHECK(error < 1.15 * of_fit);  // the calibration does not contain all directions
 }
 
-TEST_CASE("two equal records halve the variance, contradicting ones are told",
+TEST_CASE("two equal records halve the variance, and contradicting records are detected",
           "[long_record][calibrate]") {
     const TwoPathFit night = fitted("indoor", 704);
     const PooledThermal one = pool_thermal({night}), two = pool_thermal({night, night});
@@ -133,19 +137,20 @@ TEST_CASE("two equal records halve the variance, contradicting ones are told",
     CHECK(pool_thermal({night, shifted(night, TwoPathTerm::fast, far)}).agreement_p < 0.01);
 }
 
-TEST_CASE("a record at constant temperature calibrates nothing, and says what would",
+TEST_CASE("a record at constant temperature calibrates nothing, and the reason says what is needed",
           "[long_record][calibrate]") {
     RecordSegment segment = simulated_segment("indoor", 705);
     for (std::size_t i = 0; i < segment.size(); ++i)
         segment.temperature_degc[i] = 42.5 + 0.0015 * std::sin(0.7 * static_cast<double>(i * i));
-    const std::string lack =
-        lacks_response(segment.temperature_degc, segment.acceleration_mgal, kRecordStep_s);
+    const std::string lack = reason_against_two_paths(segment.temperature_degc,
+                                                      segment.acceleration_mgal, kRecordStep_s);
     CHECK_THAT(lack, ContainsSubstring("no response") && ContainsSubstring("needed: "));
     segment = simulated_segment("indoor", 705);
-    CHECK(lacks_response(segment.temperature_degc, segment.acceleration_mgal, kRecordStep_s) == "");
+    CHECK(reason_against_two_paths(segment.temperature_degc, segment.acceleration_mgal,
+                                   kRecordStep_s) == "");
 }
 
-TEST_CASE("a fit that leaves rate and static slope open calibrates nothing",
+TEST_CASE("a fit that does not determine rate and static slope calibrates nothing",
           "[long_record][calibrate]") {
     TwoPathFit fit = fitted("indoor", 706);
     fit.covariance.setZero();
@@ -159,7 +164,8 @@ TEST_CASE("a fit that leaves rate and static slope open calibrates nothing",
         CHECK_FALSE(parameter.needed.empty());
 }
 
-TEST_CASE("the warm-up's end is that of its exponential", "[long_record][calibrate]") {
+TEST_CASE("the warm-up ends when its exponential has fallen to the tolerance",
+          "[long_record][calibrate]") {
     const TwoPathFit fit = warm_up_fit(-36.0, 1e-6, 2.5, 1e-6);
     const WarmUpReading at_once = warm_up_guidance(fit, 0.0, 12.0, 1.0);
     REQUIRE(at_once.guidance);
@@ -174,7 +180,7 @@ TEST_CASE("the warm-up's end is that of its exponential", "[long_record][calibra
     CHECK(unsure.guidance->after_power_on_h == Approx(8.959 + 1.645 * 0.8986).margin(1e-3));
 }
 
-TEST_CASE("a warm-up that the record does not show is refused in words",
+TEST_CASE("a warm-up that the record does not show is refused with the reason",
           "[long_record][calibrate]") {
     const WarmUpReading small = warm_up_guidance(warm_up_fit(5.0, 4.0, 2.5, 0.1), 0, 12, 1.0);
     CHECK_FALSE(small.guidance);

@@ -25,7 +25,7 @@ std::string rows(double step_s, int first, int behind) {
     return text;
 }
 
-/// `time_s` without a header.
+/// Returns rows with `time_s`, without a header.
 std::string seconds(double step_s, double first_s, int count) {
     std::string text;
     for (int i = 0; i < count; ++i) text += std::to_string(first_s + step_s * i) + ",979763,42.5\n";
@@ -36,7 +36,8 @@ const std::string kHeader = "time_utc,acceleration_mgal,temperature_degc\n";
 
 }  // namespace
 
-TEST_CASE("blocks of any size make the same stretch", "[long_record][reading]") {
+TEST_CASE("the stretch does not depend on the size of the blocks in which samples arrive",
+          "[long_record][reading]") {
     const auto build = [](std::size_t block) {
         StretchBuilder builder(2, 3);
         builder.set_time(0, kStart);
@@ -64,14 +65,15 @@ TEST_CASE("blocks of any size make the same stretch", "[long_record][reading]") 
         if (k < 5 || k > 45) continue;
         CHECK(whole.acceleration_mgal[k] == cut.acceleration_mgal[k]);
         CHECK(whole.temperature_degc[k] == cut.temperature_degc[k]);
-        // Axes first: vibration of 1 mGal across does not show.
+        // The axes are decimated first, so that vibration of 1 mGal across the vertical has no
+        // effect.
         CHECK(whole.acceleration_mgal[k] == Approx(979763.0).epsilon(0.0).margin(1e-6));
         CHECK(whole.raw[k].acceleration_high_mgal == cut.raw[k].acceleration_high_mgal);
         CHECK(whole.raw[k].temperature_low_degc <= whole.temperature_degc[k]);
     }
 }
 
-TEST_CASE("a CSV at 2 s is decimated once, missing rows are a gap", "[long_record][reading]") {
+TEST_CASE("a CSV at 2 s is decimated once, and missing rows are a gap", "[long_record][reading]") {
     const test::TemporaryDirectory folder;
     const auto file = folder.write("r.csv", kHeader + rows(2.0, 0, 1000) + rows(2.0, 1030, 3000));
     const LongRecord record = read_csv_record(file, {}, kSilent);
@@ -99,7 +101,7 @@ TEST_CASE("a CSV at 20 s is taken as it is, and a long gap begins a new stretch"
     CHECK(read_csv_record(file, window, kSilent).stretches[0].size() == 10);
 }
 
-TEST_CASE("rows missing here and there are no other step", "[long_record][reading]") {
+TEST_CASE("rows missing here and there are not taken for another step", "[long_record][reading]") {
     const test::TemporaryDirectory folder;
     std::string text = kHeader;
     for (int i = 0; i < 500; ++i)
@@ -109,7 +111,7 @@ TEST_CASE("rows missing here and there are no other step", "[long_record][readin
     CHECK(record.stretches[0].size() == 499);
 }
 
-TEST_CASE("what no record can be is named with its line", "[long_record][reading]") {
+TEST_CASE("a file that cannot be a record is refused with its line", "[long_record][reading]") {
     const test::TemporaryDirectory folder;
     const auto refused = [&](const std::string& text, const std::string& message) {
         const auto file = folder.write("r.csv", text);
@@ -130,5 +132,6 @@ TEST_CASE("what no record can be is named with its line", "[long_record][reading
             "a row every 10 s");
     const auto fifo = folder.path() / "fifo";
     REQUIRE(::mkfifo(fifo.c_str(), S_IRUSR | S_IWUSR) == 0);
-    CHECK_THROWS_WITH(read_csv_record(fifo, {}, kSilent), ContainsSubstring("is no regular file"));
+    CHECK_THROWS_WITH(read_csv_record(fifo, {}, kSilent),
+                      ContainsSubstring("is not a regular file"));
 }

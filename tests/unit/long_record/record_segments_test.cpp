@@ -11,7 +11,7 @@ namespace {
 
 const UtcTime kStart = *parse_rfc3339("2026-03-01T00:00:00Z");
 
-/// A simulated night as one stretch.
+/// Returns a simulated night as one stretch.
 LongRecord night() {
     const RecordSegment segment = simulated_segment("indoor", 1);
     RecordStretch stretch;
@@ -39,7 +39,8 @@ TEST_CASE("a quiet night is one segment", "[long_record][segments]") {
     CHECK(parts.refused.empty());
 }
 
-TEST_CASE("short gaps and knocks are bridged, long gaps divide", "[long_record][segments]") {
+TEST_CASE("short gaps and knocks are bridged, long gaps divide the record",
+          "[long_record][segments]") {
     LongRecord record = night();
     erase(record, 200, 215);
     erase(record, 1000, 1016);
@@ -55,7 +56,7 @@ TEST_CASE("short gaps and knocks are bridged, long gaps divide", "[long_record][
     CHECK_FALSE(parts.segments[1].is_restart);
 }
 
-TEST_CASE("a step of the acceleration divides where it is", "[long_record][segments]") {
+TEST_CASE("a step of the acceleration divides the record at the step", "[long_record][segments]") {
     LongRecord record = night();
     for (std::size_t i = 900; i < 2160; ++i) record.stretches[0].acceleration_mgal[i] += 60.0;
     const RecordSegments parts = divide_record(record);
@@ -64,7 +65,7 @@ TEST_CASE("a step of the acceleration divides where it is", "[long_record][segme
     CHECK_THAT(parts.segments[1].begins_with, StartsWith("step of ") && EndsWith(" mGal"));
 }
 
-TEST_CASE("a power cycle is a restart, told by the temperature across the gap",
+TEST_CASE("a power cycle is recognised as a restart by the temperature change across the gap",
           "[long_record][segments]") {
     LongRecord record = night();
     erase(record, 1000, 1090);
@@ -77,7 +78,7 @@ TEST_CASE("a power cycle is a restart, told by the temperature across the gap",
     CHECK_THAT(parts.segments[1].begins_with, EndsWith("a restart"));
 }
 
-TEST_CASE("a stuck temperature is refused with its value, and a rest too short too",
+TEST_CASE("a stuck temperature is refused with its value, and so is a remainder that is too short",
           "[long_record][segments]") {
     LongRecord record = night();
     for (std::size_t i = 1000; i < 2000; ++i) record.stretches[0].temperature_degc[i] = 42.5;
@@ -87,10 +88,10 @@ TEST_CASE("a stuck temperature is refused with its value, and a rest too short t
     REQUIRE(parts.refused.size() == 2);
     CHECK(parts.refused[0].reason == "the temperature is stuck at 42.5000 degC");
     CHECK_THAT(parts.refused[1].reason,
-               StartsWith("too short: 0.89 h") && ContainsSubstring("the sensor goes on"));
+               StartsWith("too short: 0.89 h") && ContainsSubstring("end of the stuck values"));
 }
 
-TEST_CASE("a record without a single sample is no segment", "[long_record][segments]") {
+TEST_CASE("a record without samples has no segments", "[long_record][segments]") {
     LongRecord record = night();
     erase(record, 0, 2160);
     CHECK(divide_record(record).segments.empty());
@@ -105,7 +106,7 @@ TEST_CASE("a stuck acceleration is refused", "[long_record][segments]") {
     CHECK(parts.refused[0].reason == "the acceleration is stuck at 979763.0000 mGal");
 }
 
-TEST_CASE("an axis that is stuck is refused, whatever tide was taken from the norm",
+TEST_CASE("a stuck axis is refused, even if a changing tide was taken off the norm",
           "[long_record][segments]") {
     LongRecord record = night();
     RecordStretch& stretch = record.stretches[0];

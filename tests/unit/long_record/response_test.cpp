@@ -43,7 +43,8 @@ struct Count {
 
 }  // namespace
 
-TEST_CASE("both ways' limits hold the plant's response", "[long_record][response]") {
+TEST_CASE("the limits by spectrum and by modes cover the plant's response",
+          "[long_record][response]") {
     Count by_spectrum, by_modes;
     int at_cycle = 0;
     constexpr int kSeeds = 10;
@@ -64,12 +65,12 @@ TEST_CASE("both ways' limits hold the plant's response", "[long_record][response
     }
     CHECK(at_cycle == kSeeds);
     CHECK(by_modes.claimed >= kSeeds);
-    // 95 % each of gain and phase.
+    // The limits hold with 95 % for gain and for phase.
     CHECK(by_spectrum.covered >= 0.85 * by_spectrum.claimed);
     CHECK(by_modes.covered >= 0.85 * by_modes.claimed);
 }
 
-TEST_CASE("noise without a response is refused, and so is a record too short",
+TEST_CASE("noise without a response is refused, and so are periods with too few cycles",
           "[long_record][response]") {
     std::mt19937_64 random(1);
     std::normal_distribution<double> normal;
@@ -91,11 +92,11 @@ TEST_CASE("noise without a response is refused, and so is a record too short",
     CHECK(silent >= 3);
 }
 
-TEST_CASE("an acceleration that is the temperature in other units has limits, not NaN",
+TEST_CASE("an acceleration proportional to the temperature has finite limits, not NaN",
           "[long_record][response]") {
     const std::vector<double> temperature = simulated_segment("indoor", 1).temperature_degc;
     ResponseOptions options;
-    // The coherence is 1 but for rounding, to either side.
+    // The coherence is 1 except for rounding in either direction.
     for (const double factor : {-1.0, 1.1, 3.3, 7.7, 13.7, 1e3, 1.7e5}) {
         std::vector<double> acceleration;
         for (const double value : temperature) acceleration.push_back(factor * value);
@@ -109,12 +110,12 @@ TEST_CASE("an acceleration that is the temperature in other units has limits, no
     }
 }
 
-TEST_CASE("a response that is no number is refused", "[long_record][response]") {
+TEST_CASE("a response that is not a finite number is refused", "[long_record][response]") {
     std::vector<double> temperature = simulated_segment("indoor", 1).temperature_degc;
     const std::vector<double> acceleration = temperature, still(temperature.size(), 0.0);
     ResponseOptions options;
     const auto is_refused = [](const ResponsePoint& point) { return !point.refusal.empty(); };
-    // The least numbers there are: their squares vanish, quotients by them overflow.
+    // The values are so small that their squares vanish and quotients by them overflow.
     for (double& value : temperature) value *= 1e-158;
     for (const auto& x : {temperature, still}) {
         const auto points = response_by_spectrum(x, acceleration, kRecordStep_s, options);

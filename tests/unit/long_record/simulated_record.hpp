@@ -5,14 +5,15 @@
 
 namespace a351::corrector {
 
-/// Units are drawn by seed within +-25 %: their numbers are not those in the middle of the fit's priors.
+/// Returns the scenario with units drawn by seed within +-25 %, so that their parameters are not in
+/// the middle of the fit's priors.
 inline sim::Scenario of_drawn_units(const std::string& name) {
     sim::Scenario scenario = sim::load_scenario(name);
     scenario.unit_scatter = 0.25;
     return scenario;
 }
 
-/// A record without a break, from the scenario's 20 s means.
+/// Returns a record without a break, made of the scenario's 20 s means.
 inline RecordSegment simulated_segment(const sim::Scenario& scenario, std::uint64_t seed) {
     const sim::IndoorRecord record = sim::indoor_record(scenario, seed);
     RecordSegment segment;

@@ -1,4 +1,4 @@
-/// The two-path fit against the parameters of units drawn about the scenarios'.
+/// The two-path fit, compared with the true parameters of units drawn around the scenarios' values.
 #include <cmath>
 #include <map>
 #include <random>
@@ -28,7 +28,7 @@ std::string words(const TwoPathFit& fit, const sim::TwoPathTruth& truth, TwoPath
 
 }  // namespace
 
-TEST_CASE("95 % limits of a night's fit hold the true parameters", "[long_record][two_paths]") {
+TEST_CASE("95 % limits of a night's fit contain the true parameters", "[long_record][two_paths]") {
     constexpr int kSeeds = 20;
     const sim::Scenario scenario = of_drawn_units("indoor");
     int fast_determined = 0, static_held = 0, adequate = 0;
@@ -47,7 +47,7 @@ TEST_CASE("95 % limits of a night's fit hold the true parameters", "[long_record
         static_square += off * off / kSeeds;
         fast_determined += fit[TwoPathTerm::fast].is_determined ? 1 : 0;
         adequate += fit.unexplained.empty() ? 1 : 0;
-        // A night cannot part the slopes, nor tell their sum, and says so.
+        // A night determines neither the two slopes nor their sum, and the fit says so.
         CHECK_FALSE(fit[TwoPathTerm::slow_lag].is_determined);
         CHECK_FALSE(fit[TwoPathTerm::slow_lag].needed.empty());
         CHECK_FALSE(fit.is_static_slope_determined);
@@ -62,7 +62,8 @@ TEST_CASE("95 % limits of a night's fit hold the true parameters", "[long_record
     }
 }
 
-TEST_CASE("a week narrows what a night leaves open", "[long_record][two_paths]") {
+TEST_CASE("a week has smaller errors than a night and determines the static slope",
+          "[long_record][two_paths]") {
     const sim::Scenario scenario = of_drawn_units("week");
     const TwoPathFit night = fitted(of_drawn_units("indoor"), 1), week = fitted(scenario, 1);
     const sim::TwoPathTruth truth = sim::two_path_truth(scenario, 1);
@@ -74,13 +75,14 @@ TEST_CASE("a week narrows what a night leaves open", "[long_record][two_paths]")
     }
     CHECK(week.is_static_slope_determined);
     CHECK(std::abs(sim::static_slope_deviation(week, truth)) < 3.0);
-    // Fourteen times as long: the fast path by its root.
+    // A week is fourteen times as long; the error of the fast path falls with the square root.
     CHECK(week[TwoPathTerm::fast].standard_error < 0.6 * night[TwoPathTerm::fast].standard_error);
 }
 
-TEST_CASE("the thermometer's noise says nothing of the static slope", "[long_record][two_paths]") {
-    // The same night read without that noise leaves the slope as open: what a trend leaks into the
-    // frequencies of the noise is not to be weighted like it.
+TEST_CASE("the thermometer's noise gives no information on the static slope",
+          "[long_record][two_paths]") {
+    // The same night without that noise must leave the slope as uncertain: a trend that leaks into
+    // the frequencies of the noise must not get the weight of those frequencies.
     sim::Scenario quiet = of_drawn_units("indoor");
     const TwoPathFit noisy = fitted(quiet, 101);
     quiet.slow_noise.temperature_degc = 0.0001;
@@ -108,10 +110,10 @@ TEST_CASE("a thermometer that shows its noise alone determines no path",
     }
 }
 
-TEST_CASE("a response that the model does not have is found in the residual",
+TEST_CASE("a response that the model does not contain is found in the residual",
           "[long_record][two_paths]") {
     RecordSegment segment = simulated_segment("indoor", 1);
-    // A delay of 700 s: no first-order lag does that at 900 s.
+    // A delay of 700 s, which no first-order lag can give at 900 s.
     for (std::size_t i = segment.size() - 1; i >= 35; --i)
         segment.acceleration_mgal[i] +=
             400.0 * (segment.temperature_degc[i - 35] - segment.temperature_degc[i]);

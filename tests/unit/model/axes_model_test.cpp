@@ -14,7 +14,7 @@ namespace {
 constexpr double kX_mgal_per_g = 1500.0;
 constexpr double kY_mgal_per_g = -800.0;
 
-/// The made-up day with a box that stands differently each time.
+/// Returns the made-up day with a different tilt of the box in each row.
 std::vector<SurveyRow> tilted_day() {
     auto rows = made_up::day();
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -37,7 +37,7 @@ SurveyOptions with_axes() {
 
 }  // namespace
 
-TEST_CASE("biases of the horizontal axes come back with temperature, rate and drift",
+TEST_CASE("the fit finds the biases of the horizontal axes with temperature, rate and drift",
           "[survey][axes_model]") {
     const auto result = correct_survey(tilted_day(), with_axes());
     const std::vector<std::pair<std::string, double>> expected{
@@ -57,7 +57,8 @@ TEST_CASE("biases of the horizontal axes come back with temperature, rate and dr
     for (const CorrectedRow& row : result.rows) {
         CHECK(row.residual->value() == Approx(0.0).margin(1e-8));
         const MilliGal sum = row.row.acceleration - row.row.tide + row.temperature_correction +
-                             row.rate_correction + row.drift_correction + row.tilt_correction.value();
+                             row.rate_correction + row.drift_correction +
+                             row.tilt_correction.value();
         CHECK(sum.value() == Approx(row.corrected.value()).epsilon(0).margin(1e-8));
     }
     for (const ScoredRowSet& set : result.row_sets) {
@@ -67,11 +68,11 @@ TEST_CASE("biases of the horizontal axes come back with temperature, rate and dr
     }
 }
 
-TEST_CASE("a model with axes is not chosen by itself, and refused without their means",
+TEST_CASE("a model with axes is not chosen automatically, and is refused without their means",
           "[survey][axes_model]") {
     const auto by_itself = correct_survey(tilted_day(), {});
     CHECK(by_itself.model != "t-rate-drift-axes");
-    CHECK(by_itself.row_sets[0].scores.size() == 5);  // paper and the four
+    CHECK(by_itself.row_sets[0].scores.size() == 5);  // paper and the four linear models
     auto rows = tilted_day();
     rows[3].record.reset();
     CHECK_THROWS_WITH(

@@ -7,7 +7,7 @@
 
 using namespace a351::corrector;
 
-TEST_CASE("the interval of many equal stations is that of a mean of squares",
+TEST_CASE("the interval of many equal stations agrees with the error of a mean of squares",
           "[survey][bootstrap]") {
     // Squares 0 and 4 on 400 stations, in halves: their mean is 2 +- 2 / sqrt(400) = 0.1, so the
     // root is 1.414 +- 1.96 x 0.1 / (2 x 1.414).
@@ -21,7 +21,7 @@ TEST_CASE("the interval of many equal stations is that of a mean of squares",
     CHECK(interval.low == Approx(1.414 - 0.0693).margin(0.01));
     CHECK(interval.high == Approx(1.414 + 0.0693).margin(0.01));
 
-    // Rows of one station go together: four in each widen it twofold.
+    // Rows of one station are drawn together; four rows per station double the width.
     for (int i = 0; i < 400; ++i) {
         stations[static_cast<std::size_t>(i)] = std::to_string(i % 100);
         errors[static_cast<std::size_t>(i)] = i % 100 < 50 ? 0.0 : 2.0;
@@ -31,7 +31,8 @@ TEST_CASE("the interval of many equal stations is that of a mean of squares",
     CHECK(wide.high == Approx(1.414 + 2 * 0.0693).margin(0.02));
 }
 
-TEST_CASE("a seed gives the same interval each time, another one another", "[survey][bootstrap]") {
+TEST_CASE("the same seed gives the same interval, another seed gives another one",
+          "[survey][bootstrap]") {
     std::vector<double> errors;
     std::vector<std::string> stations;
     for (int i = 0; i < 20; ++i) {

@@ -68,7 +68,7 @@ bool has_remark(const SurveyCorrection& result, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("a thermal response counts with twice its errors, axis biases with theirs",
+TEST_CASE("a thermal response is used with twice its errors, axis biases with their own errors",
           "[survey][calibration]") {
     Calibration known = calibration();
     known.thermal = thermal(kDay);
@@ -77,7 +77,7 @@ TEST_CASE("a thermal response counts with twice its errors, axis biases with the
     const auto variance = [&](DayTerm term) {
         return covariance(DayPriors::place_of(term), DayPriors::place_of(term));
     };
-    // Beside the usual prior, whose variance is 144: 1 / (1 / 16 + 1 / 144).
+    // Combined with the usual prior, whose variance is 144: 1 / (1 / 16 + 1 / 144).
     CHECK(variance(DayTerm::level) == Approx(14.4));
     CHECK(covariance(0, 0) == Approx(1.0 / (1.0 / 0.012 + 1.0 / std::pow(std::log(1.5), 2))));
     CHECK(variance(DayTerm::x) == Approx(400.0).epsilon(1e-3));
@@ -85,7 +85,7 @@ TEST_CASE("a thermal response counts with twice its errors, axis biases with the
     CHECK(variance(DayTerm::drift) == Approx(1.0));
 }
 
-TEST_CASE("a day agrees with its unit's calibration and contradicts another's",
+TEST_CASE("a day agrees with the calibration of its unit and contradicts that of another unit",
           "[survey][calibration]") {
     const DayRecord day = kDay.record();
     const auto rows = rows_of(day);
@@ -121,7 +121,7 @@ TEST_CASE("a day agrees with its unit's calibration and contradicts another's",
     CHECK(has_remark(other, "contradict the calibration's thermal response"));
 }
 
-TEST_CASE("the better a wrong calibration seems to be known, the more it is contradicted",
+TEST_CASE("a wrong calibration is contradicted however small its stated errors are",
           "[survey][calibration]") {
     const DayRecord day = kDay.record();
     const auto rows = rows_of(day);
@@ -136,7 +136,8 @@ TEST_CASE("the better a wrong calibration seems to be known, the more it is cont
     }
 }
 
-TEST_CASE("a calibration about which the day says nothing is not tested", "[survey][calibration]") {
+TEST_CASE("a calibration is not tested if the day has no information about it",
+          "[survey][calibration]") {
     DayRecord day = kDay.record();
     for (DayBin& bin : day.bins) bin.x = StandardGravity(0.0);
     Calibration known = calibration();
@@ -149,7 +150,8 @@ TEST_CASE("a calibration about which the day says nothing is not tested", "[surv
     CHECK_FALSE(has_remark(result, "thermal response not tested"));
 }
 
-TEST_CASE("with a calibration one datum will do for the whole-day model", "[survey][calibration]") {
+TEST_CASE("with a calibration one datum is enough for the whole-day model",
+          "[survey][calibration]") {
     const DayRecord day = kDay.record();
     auto rows = rows_of(day);
     for (SurveyRow& row : rows)
@@ -163,7 +165,7 @@ TEST_CASE("with a calibration one datum will do for the whole-day model", "[surv
     }
     options.model = "day";
     options.calibration->axis_bias.reset();
-    options.calibration->warm_up.emplace();  // which says nothing of the day
+    options.calibration->warm_up.emplace();  // it has no information on the day
     CHECK_THROWS_WITH(correct_with_calibration(rows, options, &day),
                       ContainsSubstring("needs at least 6 rows"));
     options.calibration.reset();
@@ -171,7 +173,7 @@ TEST_CASE("with a calibration one datum will do for the whole-day model", "[surv
                       ContainsSubstring("needs at least 6 rows"));
 }
 
-TEST_CASE("other models read what tilt has not changed", "[survey][calibration]") {
+TEST_CASE("other models use readings that are corrected for tilt", "[survey][calibration]") {
     const auto rows = rows_of(kDay.record());
     const auto result = correct_with_calibration(rows, with(calibration(), "t"), nullptr);
     CHECK(result.score.rms_mgal.value() < 1e-6);
@@ -194,7 +196,7 @@ TEST_CASE("other models read what tilt has not changed", "[survey][calibration]"
     CHECK(calibration_json(correct_survey(rows, without)).is_null());
 }
 
-TEST_CASE("a row without a mean of an axis is refused where a bias is to be taken off it",
+TEST_CASE("a row without the mean of an axis is refused if a bias must be subtracted",
           "[survey][calibration]") {
     auto rows = rows_of(kDay.record());
     rows[3].record.reset();
@@ -206,7 +208,7 @@ TEST_CASE("a row without a mean of an axis is refused where a bias is to be take
     CHECK_NOTHROW(correct_with_calibration(rows, with(known, "t"), nullptr));
 }
 
-TEST_CASE("models.csv says which scores are of readings freed from tilt", "[survey][calibration]") {
+TEST_CASE("models.csv shows how each score uses the calibration", "[survey][calibration]") {
     const DayRecord day = kDay.record();
     const auto rows = rows_of(day);
     const auto uses = [&](const SurveyCorrection& result) {
@@ -228,7 +230,8 @@ TEST_CASE("models.csv says which scores are of readings freed from tilt", "[surv
     CHECK(has_remark(fixed, "the scores of all models too"));
 }
 
-TEST_CASE("fitted axes and calibrated ones are one correction of tilt", "[survey][calibration]") {
+TEST_CASE("fitted and calibrated axis biases together give one tilt correction",
+          "[survey][calibration]") {
     auto rows = rows_of(kDay.record());
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const double y_g = 0.001 * static_cast<double>(i * i % 5);

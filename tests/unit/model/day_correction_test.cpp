@@ -9,7 +9,7 @@ using namespace a351::corrector;
 
 namespace {
 
-/// Rows of the made-up day: set-ups 0 to 4 are at the stations of 11 to 15.
+/// Returns the rows of the made-up day. Set-ups 11 to 15 are at the stations of 0 to 4.
 std::vector<SurveyRow> rows_of(const DayRecord& day) {
     std::vector<SurveyRow> rows;
     for (std::size_t s = 0; s < MadeUpDay::kSetUps; ++s) {
@@ -35,7 +35,7 @@ const MadeUpDay kScattered{.placement_mgal = 1.2, .white_mgal = 0.2};
 
 }  // namespace
 
-TEST_CASE("auto takes the whole-day model where the records allow it", "[survey][day]") {
+TEST_CASE("auto chooses the whole-day model if the records allow it", "[survey][day]") {
     const DayRecord day = kScattered.record();
     const auto rows = rows_of(day);
     const auto result = correct_survey(rows, with_model("auto"), &day);
@@ -46,7 +46,8 @@ TEST_CASE("auto takes the whole-day model where the records allow it", "[survey]
     CHECK(correct_survey(rows, with_model("auto"), nullptr).model != "day");
 }
 
-TEST_CASE("corrections of the whole-day model add up, row by row", "[survey][day]") {
+TEST_CASE("corrections of the whole-day model add up to the corrected value of each row",
+          "[survey][day]") {
     const DayRecord day = kScattered.record();
     const auto result = correct_survey(rows_of(day), with_model("day"), &day);
     for (const CorrectedRow& row : result.rows) {
@@ -58,7 +59,7 @@ TEST_CASE("corrections of the whole-day model add up, row by row", "[survey][day
     }
 }
 
-TEST_CASE("what a row would be without its station is what comes out when its reference is hidden",
+TEST_CASE("the value predicted without a station is the value found when its reference is hidden",
           "[survey][day]") {
     const DayRecord day = kScattered.record();
     const auto rows = rows_of(day);
@@ -84,7 +85,7 @@ TEST_CASE("what a row would be without its station is what comes out when its re
     }
 }
 
-TEST_CASE("a flagged row has a value and no influence", "[survey][day]") {
+TEST_CASE("a flagged row has a value and no influence on the others", "[survey][day]") {
     const DayRecord day = kScattered.record();
     auto rows = rows_of(day);
     rows[6].is_flagged = true;
@@ -99,7 +100,8 @@ TEST_CASE("a flagged row has a value and no influence", "[survey][day]") {
     CHECK(result.row_sets.back().scores.back().row_count == rows.size());
 }
 
-TEST_CASE("a blunder is doubted, a clean day is not", "[survey][day]") {
+TEST_CASE("a blunder is marked as doubtful, and a clean day has no doubtful rows",
+          "[survey][day]") {
     DayRecord day = kScattered.record();
     const auto doubted = [&] {
         const auto result = correct_survey(rows_of(day), with_model("day"), &day);
@@ -114,8 +116,8 @@ TEST_CASE("a blunder is doubted, a clean day is not", "[survey][day]") {
     CHECK(doubted() == std::vector<std::size_t>{8});
 }
 
-TEST_CASE("rows that have no say do not tell of each other", "[survey][day]") {
-    // Two rows of one station, excluded: their difference would tell of the drift.
+TEST_CASE("excluded rows do not influence each other", "[survey][day]") {
+    // Two rows of one station are excluded; their difference contains information on the drift.
     const DayRecord day = kScattered.record();
     auto rows = rows_of(day);
     for (const std::size_t i : {1U, 12U}) rows[i].is_excluded = true;
@@ -144,7 +146,8 @@ TEST_CASE("rows that have no say do not tell of each other", "[survey][day]") {
           Approx(result.rows[12].corrected.value() + 500.0).epsilon(0.0).margin(0.01));
 }
 
-TEST_CASE("all rows flagged: those that are used are scored alone", "[survey][day]") {
+TEST_CASE("if all rows are flagged, the whole-day model is scored only with the flags ignored",
+          "[survey][day]") {
     const DayRecord day = kScattered.record();
     auto rows = rows_of(day);
     for (SurveyRow& row : rows) row.is_flagged = true;
@@ -155,7 +158,7 @@ TEST_CASE("all rows flagged: those that are used are scored alone", "[survey][da
     CHECK(result.row_sets.back().scores.back().model == "day");
 }
 
-TEST_CASE("a row of a station that stood twice is less certain than the station", "[survey][day]") {
+TEST_CASE("a row of a station occupied twice is less certain than the station", "[survey][day]") {
     const DayRecord day = kScattered.record();
     const auto result = correct_survey(rows_of(day), with_model("day"), &day);
     for (const StationValue& station : result.stations)
@@ -168,7 +171,7 @@ TEST_CASE("a row of a station that stood twice is less certain than the station"
         }
 }
 
-TEST_CASE("a flagged blunder is doubted by the fit that it has no part in", "[survey][day]") {
+TEST_CASE("a flagged blunder is marked as doubtful by the fit without it", "[survey][day]") {
     DayRecord day = kScattered.record();
     for (DayBin& bin : day.bins)
         if (bin.set_up == 5) bin.reading = bin.reading + MilliGal(15.0);
@@ -179,12 +182,12 @@ TEST_CASE("a flagged blunder is doubted by the fit that it has no part in", "[su
     CHECK_FALSE(result.rows[5].doubt_statistical.empty());
 }
 
-TEST_CASE("what keeps auto from the whole-day model is told", "[survey][day]") {
+TEST_CASE("the reason why auto does not use the whole-day model is reported", "[survey][day]") {
     DayRecord day = kScattered.record();
     const auto rows = rows_of(day);
     SurveyOptions options = with_model("day");
     options.priors.values.front() = Prior{-30.0, 1.0};
-    CHECK_THROWS_WITH(correct_survey(rows, options, &day), ContainsSubstring("priors of its own"));
+    CHECK_THROWS_WITH(correct_survey(rows, options, &day), ContainsSubstring("its own priors"));
     day.temperature.longest_gap_s = 3600.0;
     const auto result = correct_survey(rows, with_model("auto"), &day);
     CHECK(result.model != "day");
@@ -193,7 +196,8 @@ TEST_CASE("what keeps auto from the whole-day model is told", "[survey][day]") {
                ContainsSubstring("not the whole-day model: the temperature"));
 }
 
-TEST_CASE("a day that determines nothing is refused with its reason", "[survey][day]") {
+TEST_CASE("a day that does not determine the whole-day model is refused with its reason",
+          "[survey][day]") {
     DayRecord day = kScattered.record();
     auto rows = rows_of(day);
     CHECK_THROWS_WITH(correct_survey(rows, with_model("day"), nullptr),
@@ -204,14 +208,14 @@ TEST_CASE("a day that determines nothing is refused with its reason", "[survey][
     rows = rows_of(day);
     day.temperature.longest_gap_s = 3600.0;
     CHECK_THROWS_WITH(correct_survey(rows, with_model("day"), &day),
-                      ContainsSubstring("missing for 60 min at a time, allowed are 30"));
+                      ContainsSubstring("has a gap of 60 min, more than the allowed 30"));
     day.temperature.longest_gap_s = 0.0;
     std::erase_if(day.bins, [](const DayBin& bin) { return bin.set_up == 4; });
     CHECK_THROWS_WITH(correct_survey(rows, with_model("day"), &day),
                       ContainsSubstring("S4 (1) has"));
 }
 
-TEST_CASE("a temperature that begins late is remarked", "[survey][day]") {
+TEST_CASE("a temperature that begins late gives a remark", "[survey][day]") {
     DayRecord day = kScattered.record();
     CHECK(correct_survey(rows_of(day), with_model("day"), &day).remarks.empty());
     const auto& whole = day.temperature.series;
@@ -220,5 +224,5 @@ TEST_CASE("a temperature that begins late is remarked", "[survey][day]") {
         std::vector<double>(whole.values().begin() + 2000, whole.values().end())};
     const auto remarks = correct_survey(rows_of(day), with_model("day"), &day).remarks;
     REQUIRE(remarks.size() == 1);
-    CHECK_THAT(remarks.front(), ContainsSubstring("from 54 min before the first occupation"));
+    CHECK_THAT(remarks.front(), ContainsSubstring("begins 54 min before the first occupation"));
 }

@@ -12,7 +12,7 @@ const Eigen::VectorXd kY = (Eigen::VectorXd(6) << 1.0, 1.9, 1.7, 4.2, 4.8, 5.9).
 
 }  // namespace
 
-TEST_CASE("exact data give back their coefficients and no residual", "[survey][linear_fit]") {
+TEST_CASE("exact data give their coefficients and residuals of zero", "[survey][linear_fit]") {
     Eigen::MatrixXd columns(6, 2);
     columns << kX, kX.array().square().matrix();
     const Eigen::VectorXd y = (3.0 - 2.0 * columns.col(0).array() + 0.5 * columns.col(1).array());
@@ -45,7 +45,7 @@ TEST_CASE("leverages add up to the number of coefficients", "[survey][linear_fit
     CHECK(fit_linear(columns, kY).value().leverages.sum() == Approx(3.0));
 }
 
-TEST_CASE("a residual over 1 - leverage is the error of predicting the row without it",
+TEST_CASE("a residual divided by 1 - leverage is the error of predicting the row without it",
           "[survey][linear_fit]") {
     const auto fit = fit_linear(kX, kY).value();
     for (Eigen::Index out = 0; out < 6; ++out) {
@@ -60,14 +60,14 @@ TEST_CASE("a residual over 1 - leverage is the error of predicting the row witho
     }
 }
 
-TEST_CASE("a large constant in y costs no digits", "[survey][linear_fit]") {
+TEST_CASE("a large constant in y costs no accuracy", "[survey][linear_fit]") {
     const auto small = fit_linear(kX, kY).value();
     const auto large = fit_linear(kX, (kY.array() + 980000.0).matrix()).value();
     CHECK(large.coefficients(1) == Approx(small.coefficients(1)).epsilon(1e-9));
     CHECK(large.rss == Approx(small.rss).epsilon(1e-8));
 }
 
-TEST_CASE("what the rows do not determine is not fitted", "[survey][linear_fit]") {
+TEST_CASE("a coefficient that the rows do not determine is not fitted", "[survey][linear_fit]") {
     Eigen::MatrixXd twice(6, 2);
     twice << kX, 3.0 * kX;
     CHECK_FALSE(fit_linear(twice, kY).has_value());
@@ -77,8 +77,8 @@ TEST_CASE("what the rows do not determine is not fitted", "[survey][linear_fit]"
     CHECK_FALSE(fit_linear(kX.head(2), kY.head(2)).value().residual_scale().has_value());
 }
 
-TEST_CASE("a prior on a slope is one more row of the system", "[survey][linear_fit]") {
-    // By hand for a line: b = (Sxy + w^2 m) / (Sxx + w^2), and the mean stays free.
+TEST_CASE("a prior on a slope acts as one more row of the system", "[survey][linear_fit]") {
+    // By hand for a line: b = (Sxy + w^2 m) / (Sxx + w^2); the mean stays free.
     const double sxx = (kX.array() - kX.mean()).square().sum();
     const double sxy = ((kX.array() - kX.mean()) * (kY.array() - kY.mean())).sum();
     const double w = 0.7;
@@ -96,7 +96,8 @@ TEST_CASE("a prior on a slope is one more row of the system", "[survey][linear_f
           Approx(kY(0) - without_first.at(kX.head(1))));
 }
 
-TEST_CASE("a prior determines what the rows do not", "[survey][linear_fit]") {
+TEST_CASE("a prior determines a coefficient that the rows do not determine",
+          "[survey][linear_fit]") {
     const Eigen::VectorXd constant = Eigen::VectorXd::Constant(6, 42.5);
     const SlopePriors prior{Eigen::VectorXd::Constant(1, -30.0), Eigen::VectorXd::Constant(1, 0.4)};
     CHECK_FALSE(fit_linear(constant, kY).has_value());

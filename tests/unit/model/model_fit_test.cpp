@@ -19,14 +19,16 @@ TEST_CASE("a day made of temperature, rate and drift is explained by that model 
         CHECK((score.loso_mgal.value() < 1e-6) == is_complete);
     }
     CHECK(choose_model(rows, made_up::kMorning, "B").value().model == "t-rate-drift");
-    // Without the base fewer than twelve rows are left: that fold must do with a smaller model.
+    // Without the base fewer than twelve rows are left, so that this fold must use a smaller model.
     const double choosing = choice_loso_mgal(rows, made_up::kMorning, "B").value();
     CHECK(choosing > 0.01);
     CHECK(choosing < 1.0);
 }
 
-TEST_CASE("leaving stations out costs more than leaving rows out, and that more than nothing",
-          "[survey][model_fit]") {
+TEST_CASE(
+    "leaving out stations gives larger errors than leaving out rows, which gives larger ones than "
+    "the fit",
+    "[survey][model_fit]") {
     auto rows = made_up::day();
     for (std::size_t i = 0; i < rows.size(); ++i) {  // an error of the station, the same each time
         rows[i].acceleration = rows[i].acceleration + MilliGal(rows[i].site == "S2" ? 5.0 : 0.0);
@@ -37,7 +39,7 @@ TEST_CASE("leaving stations out costs more than leaving rows out, and that more 
     CHECK(score.loo_mgal.value() < score.loso_mgal.value());
 }
 
-TEST_CASE("scores that too few rows do not define are absent", "[survey][model_fit]") {
+TEST_CASE("scores that too few rows cannot define are absent", "[survey][model_fit]") {
     auto rows = made_up::day();
     rows.resize(3);
     const ModelScore line = score_linear_model(kLinearModels[0], rows, made_up::kMorning);
@@ -49,14 +51,15 @@ TEST_CASE("scores that too few rows do not define are absent", "[survey][model_f
     CHECK_FALSE(full.loso_mgal.has_value());
 }
 
-TEST_CASE("rate and drift together are not chosen from few rows with few visits to the base",
+TEST_CASE("rate and drift together are not chosen for few rows with few readings of the base",
           "[survey][model_fit]") {
     auto rows = made_up::day();
     rows.erase(rows.begin() + 4);  // eleven rows, the base twice
     CHECK(choose_model(rows, made_up::kMorning, "B").value().model != "t-rate-drift");
 }
 
-TEST_CASE("a prior weighs as its standard deviation to that of a reading", "[survey][model_fit]") {
+TEST_CASE("the weight of a prior is its standard deviation relative to that of a reading",
+          "[survey][model_fit]") {
     const auto rows = made_up::day();
     const auto rate = [&](double sd, double reading_sd_mgal) {
         ModelPriors priors;

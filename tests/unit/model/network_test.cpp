@@ -14,7 +14,7 @@ namespace {
 
 double hours(const SurveyRow& row) { return seconds_between(made_up::kMorning, row.time) / 3600.0; }
 
-/// The made-up day without its rate term, with a quadratic drift, and only B known.
+/// Returns the made-up day without its rate term, with a quadratic drift, and with only B known.
 std::vector<SurveyRow> day_with_quadratic_drift(double quadratic_mgal_per_h2) {
     auto rows = made_up::day();
     for (SurveyRow& row : rows) {
@@ -51,7 +51,7 @@ NetworkOptions quadratic() {
 
 }  // namespace
 
-TEST_CASE("a known quadratic drift and the unknown stations come back", "[survey][network]") {
+TEST_CASE("a network finds a known quadratic drift and the unknown stations", "[survey][network]") {
     const auto network = adjust(day_with_quadratic_drift(0.08), quadratic()).adjustment.value();
     // Full values are rounded to 1.2e-10 mGal.
     const auto exactly = [](double value) { return Approx(value).epsilon(0).margin(1e-9); };
@@ -78,7 +78,7 @@ TEST_CASE("redundancies of readings, datum and priors add up to the degrees of f
     CHECK(sum == Approx(static_cast<double>(network.dof)));
 }
 
-TEST_CASE("readings of stations seen once are named as uncontrolled", "[survey][network]") {
+TEST_CASE("readings of stations occupied once are reported as uncontrolled", "[survey][network]") {
     const auto network = adjust(day_with_quadratic_drift(0.0)).adjustment.value();
     REQUIRE(network.remarks.size() == 1);
     CHECK_THAT(network.remarks.front(),
@@ -95,7 +95,7 @@ TEST_CASE("the global test fails on a blunder and on weights that are too small"
     }
     const auto network = adjust(rows).adjustment.value();
     CHECK(network.passes_global_test().value());
-    // By tables: chi-square with 2 degrees of freedom, 2.5 % and 97.5 %.
+    // From tables: chi-square with 2 degrees of freedom, 2.5 % and 97.5 %.
     REQUIRE(network.dof == 2);
     CHECK(network.chi_square_low == Approx(0.0506).margin(0.0001));
     CHECK(network.chi_square_high == Approx(7.3778).margin(0.0001));
@@ -106,13 +106,13 @@ TEST_CASE("the global test fails on a blunder and on weights that are too small"
     CHECK_FALSE(adjust(rows).adjustment->passes_global_test().value());
 }
 
-TEST_CASE("a network without datum is refused in words", "[survey][network]") {
+TEST_CASE("a network without a datum is refused with the reason", "[survey][network]") {
     auto rows = day_with_quadratic_drift(0.0);
     for (SurveyRow& row : rows) row.reference.reset();
     CHECK_THAT(adjust(rows).refusal, StartsWith("no datum") && ContainsSubstring("B, S1"));
 }
 
-TEST_CASE("a station to be held that has no reference is refused by name", "[survey][network]") {
+TEST_CASE("a datum station without reference gravity is refused by name", "[survey][network]") {
     const auto rows = day_with_quadratic_drift(0.0);
     const std::vector<bool> in_use(rows.size(), true);
     CHECK_THAT(adjust_network(rows, in_use, {"B", "S2"}, {}, {}).refusal,
@@ -120,7 +120,7 @@ TEST_CASE("a station to be held that has no reference is refused by name", "[sur
     CHECK(adjust_network(rows, in_use, {"B"}, {}, {}).adjustment.has_value());
 }
 
-TEST_CASE("two groups of stations that nothing joins are refused by name", "[survey][network]") {
+TEST_CASE("two groups of stations without a connection are refused by name", "[survey][network]") {
     auto rows = day_with_quadratic_drift(0.0);
     auto next_day = rows;
     for (SurveyRow& row : next_day) {
@@ -132,7 +132,7 @@ TEST_CASE("two groups of stations that nothing joins are refused by name", "[sur
     CHECK_THAT(adjust(rows).refusal,
                StartsWith("unconnected") && ContainsSubstring("datum to TB, TS1, TS2"));
 
-    SECTION("a station of both joins them") {
+    SECTION("a station in both groups connects them") {
         rows.back().site = "B";
         const auto network = adjust(rows).adjustment.value();
         CHECK(value_of(network, "time_mgal_per_h_loop2") ==
@@ -141,7 +141,8 @@ TEST_CASE("two groups of stations that nothing joins are refused by name", "[sur
     }
 }
 
-TEST_CASE("groups of one day that only constant and drift join are named", "[survey][network]") {
+TEST_CASE("groups of one day that only constant and drift connect are reported",
+          "[survey][network]") {
     auto rows = day_with_quadratic_drift(0.0);
     const std::vector<std::string> sites{"B",  "S1", "B",  "S1", "B",  "S1",
                                          "S5", "S6", "S5", "S6", "S7", "S5"};
@@ -151,18 +152,19 @@ TEST_CASE("groups of one day that only constant and drift join are named", "[sur
         if (sites[i] == "B") rows[i].reference = MilliGal(979800.0);
     }
     CHECK_THAT(adjust(rows).adjustment->remarks.front(),
-               StartsWith("not connected") && ContainsSubstring(": S5, S6, S7"));
+               StartsWith("connected with a datum only") && ContainsSubstring(": S5, S6, S7"));
 }
 
-TEST_CASE("drift with one occupation of every station is refused in words", "[survey][network]") {
+TEST_CASE("drift with one occupation of every station is refused with the reason",
+          "[survey][network]") {
     auto rows = day_with_quadratic_drift(0.0);
     rows.erase(rows.begin() + 9, rows.end());
     rows.erase(rows.begin() + 4);
-    CHECK_THAT(adjust(rows).refusal, ContainsSubstring("leave open S1, S2") &&
+    CHECK_THAT(adjust(rows).refusal, ContainsSubstring("do not determine S1, S2") &&
                                          ContainsSubstring("time_mgal_per_h") &&
                                          ContainsSubstring("occupied only once") &&
                                          ContainsSubstring("a prior on time_mgal_per_h"));
-    SECTION("priors on drift and temperature help") {
+    SECTION("priors on drift and temperature make it solvable") {
         ModelPriors priors;
         set_prior(priors, "test", "time_mgal_per_h", {made_up::kDrift_mgal_per_h, 0.1});
         set_prior(priors, "test", "temperature_mgal_per_degc", {-30.0, 1.0});
@@ -173,7 +175,7 @@ TEST_CASE("drift with one occupation of every station is refused in words", "[su
     }
 }
 
-TEST_CASE("a constant temperature is left out and said so", "[survey][network]") {
+TEST_CASE("a constant temperature is left out of the model with a remark", "[survey][network]") {
     auto rows = day_with_quadratic_drift(0.0);
     for (SurveyRow& row : rows) {
         row.acceleration = row.acceleration + MilliGal(30.0 * (row.temperature.value() - 42.6));
@@ -185,7 +187,7 @@ TEST_CASE("a constant temperature is left out and said so", "[survey][network]")
           Approx(true_gravity_mgal("S1")).epsilon(0).margin(1e-6));
 }
 
-TEST_CASE("the survey's model network gives unknown stations values with uncertainty",
+TEST_CASE("the network model of a survey gives unknown stations values with uncertainty",
           "[survey][network]") {
     auto rows = day_with_quadratic_drift(0.0);
     rows[5].is_flagged = true;
@@ -221,7 +223,7 @@ TEST_CASE("the survey's model network gives unknown stations values with uncerta
     CHECK_THROWS_WITH(correct_survey(rows, options), StartsWith("model = network: no datum"));
 }
 
-TEST_CASE("hiding a datum's reference gives the error that the network's LOSO says",
+TEST_CASE("leave-one-station-out of a network is the error found by hiding a datum's reference",
           "[survey][network]") {
     auto rows = made_up::day();
     for (SurveyRow& row : rows) {
@@ -247,7 +249,7 @@ TEST_CASE("hiding a datum's reference gives the error that the network's LOSO sa
           Approx(std::sqrt(squares / 3.0)).epsilon(1e-5));
 }
 
-TEST_CASE("a loop without a reading in use is left out by name, the rest is computed",
+TEST_CASE("a loop without a usable reading is left out by name, and the rest is computed",
           "[survey][network]") {
     auto rows = day_with_quadratic_drift(0.0);
     const auto first_day = rows;
@@ -259,7 +261,7 @@ TEST_CASE("a loop without a reading in use is left out by name, the rest is comp
             rows.push_back(row);
         }
     }
-    rows[13].site = "S9";  // seen on the flagged day only
+    rows[13].site = "S9";  // occupied on the flagged day only
     SurveyOptions options;
     options.model = "network";
     const SurveyCorrection result = correct_survey(rows, options);

@@ -11,7 +11,7 @@ using namespace a351::corrector;
 
 namespace {
 
-/// The made-up day with a scatter of 1 mGal.
+/// Returns the made-up day with a scatter of 1 mGal.
 std::vector<SurveyRow> scattered_day() {
     auto rows = made_up::day();
     const double alternating[] = {1, -1, 1, 1, -1, -1, 1, -1, 1, 1, -1, -1};
@@ -35,7 +35,7 @@ std::vector<std::string> statistical_doubts(const std::vector<SurveyRow>& rows,
 
 }  // namespace
 
-TEST_CASE("rate, shape with range, fallback and pulse are physical doubts, with the number",
+TEST_CASE("rate, shape with range, fallback and pulse give physical doubts that state their value",
           "[survey][outlier_tests]") {
     SurveyRow row;
     row.rate_degc_per_h = -0.2;
@@ -58,14 +58,15 @@ TEST_CASE("rate, shape with range, fallback and pulse are physical doubts, with 
     CHECK(physical_doubt(shaped).empty());
 }
 
-TEST_CASE("the limit divides the risk by the number of rows", "[survey][outlier_tests]") {
+TEST_CASE("the limit of the test divides the risk by the number of rows",
+          "[survey][outlier_tests]") {
     // Table of Student-t: 0.025 / 1 at 10 degrees of freedom, and 0.0025 (n = 10) at 20.
     CHECK(studentised_limit(1, 10.0) == Approx(2.228).margin(0.001));
     CHECK(studentised_limit(10, 20.0) == Approx(3.153).margin(0.001));
 }
 
-// Two of equal size may mask each other: the robust fit is for that.
-TEST_CASE("two blunders are found one after the other, and clean rows are not blamed",
+// Two blunders of equal size may mask each other; the robust fit is made for that case.
+TEST_CASE("two blunders are found one after the other, and clean rows are not doubted",
           "[survey][outlier_tests]") {
     auto rows = scattered_day();
     CHECK(statistical_doubts(rows).empty());
@@ -74,7 +75,7 @@ TEST_CASE("two blunders are found one after the other, and clean rows are not bl
     CHECK(statistical_doubts(rows) == std::vector<std::string>{"S2 (1)", "S7 (1)"});
 }
 
-TEST_CASE("a row outside the fit is tested against it", "[survey][outlier_tests]") {
+TEST_CASE("a row that is not in the fit is tested against it", "[survey][outlier_tests]") {
     auto rows = scattered_day();
     rows[2].acceleration = rows[2].acceleration + MilliGal(60.0);
     rows[2].is_flagged = true;
@@ -82,7 +83,8 @@ TEST_CASE("a row outside the fit is tested against it", "[survey][outlier_tests]
     CHECK(statistical_doubts(rows) == std::vector<std::string>{"S2 (1)"});
 }
 
-TEST_CASE("a network finds a blunder at a station read twice or more", "[survey][outlier_tests]") {
+TEST_CASE("a network finds a blunder at a station that was read twice or more",
+          "[survey][outlier_tests]") {
     auto rows = scattered_day();
     std::vector<SurveyRow> twice;  // every station again, so that the network is controlled
     for (const SurveyRow& row : rows) {
@@ -97,7 +99,7 @@ TEST_CASE("a network finds a blunder at a station read twice or more", "[survey]
     CHECK(statistical_doubts(twice, "network") == std::vector<std::string>{"S3 (1)"});
 }
 
-TEST_CASE("doubts take no row out of the fit", "[survey][outlier_tests]") {
+TEST_CASE("doubtful rows stay in the fit", "[survey][outlier_tests]") {
     auto rows = scattered_day();
     rows[2].acceleration = rows[2].acceleration + MilliGal(60.0);
     SurveyOptions options;

@@ -18,7 +18,8 @@ std::vector<double> corrected1(const std::vector<SurveyRow>& rows) {
 
 }  // namespace
 
-TEST_CASE("after the drift step both ends of the base stand on the reference", "[survey][paper]") {
+TEST_CASE("after the drift step the first and last base readings equal the reference",
+          "[survey][paper]") {
     const auto rows = made_up::day();
     const auto first = corrected1(rows);
     const auto step = find_end_point_drift(rows, kAll, first, "B");
@@ -42,7 +43,8 @@ TEST_CASE("the drift step is refused with one occupation of the base", "[survey]
     CHECK(step.refusal == "base S1 has fewer than two occupations, two are needed");
 }
 
-TEST_CASE("two set-ups of one stay are no two occupations of the base", "[survey][paper]") {
+TEST_CASE("two set-ups of one stay do not count as two occupations of the base",
+          "[survey][paper]") {
     auto rows = made_up::day();
     for (SurveyRow& row : rows) {
         if (row.site == "S2") row.occupation = 1;
@@ -50,7 +52,8 @@ TEST_CASE("two set-ups of one stay are no two occupations of the base", "[survey
     CHECK_FALSE(find_end_point_drift(rows, kAll, corrected1(rows), "S2").drift.has_value());
 }
 
-TEST_CASE("the drift step is refused with both ends of the base flagged", "[survey][paper]") {
+TEST_CASE("the drift step is refused if the first and last base readings are flagged",
+          "[survey][paper]") {
     const auto rows = made_up::day();
     auto in_use = kAll;
     in_use.front() = false;
@@ -61,7 +64,7 @@ TEST_CASE("the drift step is refused with both ends of the base flagged", "[surv
     CHECK(step.refusal == "base B is not in use in its first and last occupation");
 }
 
-TEST_CASE("an unknown station is corrected and has no error", "[survey][paper]") {
+TEST_CASE("a station without a reference is corrected and has no error", "[survey][paper]") {
     auto rows = made_up::day();
     const auto known = corrected1(rows);
     auto in_use = kAll;

@@ -11,7 +11,7 @@ using namespace a351::corrector;
 
 namespace {
 
-/// A line 3 - 2 x with normal-like errors of 0.5 (quantiles, in scrambled order).
+/// A line 3 - 2 x with nearly normal errors of 0.5 (quantiles in scrambled order).
 struct Line {
     Eigen::VectorXd x, y;
 
@@ -19,7 +19,7 @@ struct Line {
         for (Eigen::Index i = 0; i < n; ++i) {
             x(i) = static_cast<double>(i) / static_cast<double>(n);
             const double share = (static_cast<double>((i * 7) % n) + 0.5) / static_cast<double>(n);
-            // Logistic in place of normal quantiles, scaled to the same spread.
+            // Logistic quantiles in place of normal ones, scaled to the same spread.
             y(i) = 3.0 - 2.0 * x(i) + 0.5 / 1.702 * std::log(share / (1.0 - share));
         }
     }
@@ -38,7 +38,8 @@ TEST_CASE("without bad rows the robust line is close to least squares", "[survey
     CHECK(robust.weights.maxCoeff() <= 1.0);
 }
 
-TEST_CASE("a third of the rows, alike and far off, have no influence at all", "[survey][robust]") {
+TEST_CASE("a third of the rows with the same large error has no influence at all",
+          "[survey][robust]") {
     Line line(GENERATE(21, 42));
     const Eigen::Index third = line.y.size() / 3;
     const auto clean = fit_robust(line.x.tail(2 * third), line.y.tail(2 * third)).value();
@@ -46,11 +47,11 @@ TEST_CASE("a third of the rows, alike and far off, have no influence at all", "[
     const auto robust = fit_robust(line.x, line.y).value();
     CHECK(robust.weights.head(third).maxCoeff() == 0.0);
     CHECK(robust.fit.coefficients(1) == Approx(clean.fit.coefficients(1)).margin(0.3));
-    // Least squares and its residuals are led astray.
+    // Least squares is far off.
     CHECK(std::abs(fit_linear(line.x, line.y)->coefficients(1) + 2.0) > 10.0);
 }
 
-TEST_CASE("rows that agree exactly leave the bad ones nothing", "[survey][robust]") {
+TEST_CASE("good rows that agree exactly leave bad rows without influence", "[survey][robust]") {
     auto rows = made_up::day();
     rows[2].acceleration = rows[2].acceleration + MilliGal(60.0);
     rows[8].acceleration = rows[8].acceleration - MilliGal(40.0);
@@ -73,7 +74,7 @@ TEST_CASE("rows that agree exactly leave the bad ones nothing", "[survey][robust
     CHECK_FALSE(result.loo_interval_mgal.has_value());
 }
 
-TEST_CASE("a prior holds a slope of the robust line too", "[survey][robust]") {
+TEST_CASE("a prior also constrains the slope of a robust line", "[survey][robust]") {
     const Line line(20);
     const SlopePriors prior{Eigen::VectorXd::Constant(1, -1.0), Eigen::VectorXd::Constant(1, 1e4)};
     CHECK(fit_robust(line.x, line.y, prior)->fit.coefficients(1) == Approx(-1.0).margin(1e-5));

@@ -19,7 +19,7 @@ SurveyOptions with_model(const std::string& model) {
 
 }  // namespace
 
-TEST_CASE("corrections add up to the corrected value", "[survey]") {
+TEST_CASE("corrections of each linear model add up to the corrected value", "[survey]") {
     auto rows = made_up::day();
     rows[2].acceleration = rows[2].acceleration + MilliGal(1.5);
     const std::string model = GENERATE("paper", "t", "t-rate", "t-drift", "t-rate-drift", "auto");
@@ -33,7 +33,7 @@ TEST_CASE("corrections add up to the corrected value", "[survey]") {
     }
 }
 
-TEST_CASE("an unknown station comes out at its true value", "[survey]") {
+TEST_CASE("a station without a reference gets its true value", "[survey]") {
     auto rows = made_up::day();
     const MilliGal truth = *rows[6].reference;
     rows[6].reference.reset();
@@ -43,7 +43,7 @@ TEST_CASE("an unknown station comes out at its true value", "[survey]") {
     CHECK(result.rows[6].corrected.value() == Approx(truth.value()).epsilon(0).margin(1e-6));
 }
 
-TEST_CASE("stations outside the datum stay out of the fit and keep their residual", "[survey]") {
+TEST_CASE("stations outside the datum are not in the fit but have a residual", "[survey]") {
     auto options = with_model("t");
     options.datum = {"B", "S2", "S3"};
     const auto result = correct_survey(made_up::day(), options);
@@ -55,7 +55,7 @@ TEST_CASE("stations outside the datum stay out of the fit and keep their residua
     CHECK(result.score.row_count == 7);
 }
 
-TEST_CASE("a flagged row is out of the fit unless flags are ignored", "[survey]") {
+TEST_CASE("a flagged row is not in the fit unless flags are ignored", "[survey]") {
     auto rows = made_up::day();
     rows[3].is_flagged = true;
     rows[3].acceleration = rows[3].acceleration + MilliGal(50.0);
@@ -68,7 +68,7 @@ TEST_CASE("a flagged row is out of the fit unless flags are ignored", "[survey]"
     const auto all = correct_survey(rows, options);
     CHECK(all.score.row_count == 12);
     CHECK(all.score.rms_mgal.value() > 1.0);
-    // Both row sets are listed whatever the setting.
+    // Both row sets are listed with either setting.
     for (const auto& result : {used, all}) {
         REQUIRE(result.row_sets.size() == 2);
         CHECK(result.row_sets[0].scores[4].row_count == 11);
@@ -76,7 +76,7 @@ TEST_CASE("a flagged row is out of the fit unless flags are ignored", "[survey]"
     }
 }
 
-TEST_CASE("an excluded row is in no fit and no mean, even where flags are ignored", "[survey]") {
+TEST_CASE("an excluded row is in no fit and no mean, even if flags are ignored", "[survey]") {
     auto rows = made_up::day();
     rows[3].is_excluded = true;
     rows[3].acceleration = rows[3].acceleration + MilliGal(50.0);
@@ -90,7 +90,7 @@ TEST_CASE("an excluded row is in no fit and no mean, even where flags are ignore
     }
 }
 
-TEST_CASE("a station seen only in flagged rows has their mean, and says so", "[survey]") {
+TEST_CASE("a station with flagged rows only gets their mean and is marked", "[survey]") {
     auto rows = made_up::day();
     rows[1].is_flagged = true;
     const auto result = correct_survey(rows, with_model("t-rate-drift"));
@@ -148,11 +148,11 @@ TEST_CASE("a survey that cannot be corrected is refused with a reason", "[survey
         CHECK_THROWS_WITH(correct_survey(rows, options),
                           ContainsSubstring("3 rows") && ContainsSubstring("at least 4"));
     }
-    SECTION("paper with a base seen once") {
+    SECTION("paper with a base occupied once") {
         options.model = "paper";
         options.base = "S1";
         CHECK_THROWS_WITH(correct_survey(rows, options),
                           ContainsSubstring("drift step is refused"));
     }
-    SECTION("nothing at all") { CHECK_THROWS_AS(correct_survey({}, options), InputError); }
+    SECTION("no rows at all") { CHECK_THROWS_AS(correct_survey({}, options), InputError); }
 }

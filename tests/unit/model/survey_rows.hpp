@@ -16,7 +16,7 @@ inline constexpr double kDrift_mgal_per_h = 0.5;
 
 inline const UtcTime kMorning = parse_rfc3339("2020-05-01T00:00:00Z").value();
 
-/// Rows whose differences follow the model exactly.
+/// Returns rows whose differences follow the model exactly.
 inline std::vector<SurveyRow> day() {
     const std::vector<std::string> sites{"B",  "S1", "S2", "S3", "B",  "S4",
                                          "S5", "S6", "S7", "S2", "S3", "B"};

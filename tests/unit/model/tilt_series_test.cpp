@@ -16,7 +16,7 @@ const Eigen::Vector3d kBiases_mgal(-1200.0, 700.0, 1838.0);
 constexpr double kGravity_mgal = 979763.0;
 constexpr std::size_t kBins = 10;
 
-/// Angles of a set-up, degrees.
+/// Tilt angles of a set-up, degrees.
 struct Tilt {
     double x, y;
 };
@@ -24,7 +24,7 @@ struct Tilt {
 const std::vector<Tilt> kThereAndBack{{0, 0}, {2, 0},  {-2, 0}, {0, 2},  {0, -2}, {0, 0},
                                       {0, 0}, {0, -2}, {0, 2},  {-2, 0}, {2, 0},  {0, 0}};
 
-/// Set-ups of ten minutes one after another.
+/// Returns set-ups of ten minutes, one after another.
 OccupationRows series(const std::vector<Tilt>& tilts, double placement_mgal = 0.0,
                       double degc_per_set_up = 0.0) {
     const UtcTime start = *parse_rfc3339("2026-05-01T00:00:00Z");
@@ -79,7 +79,7 @@ std::string refusal_of(const OccupationRows& read) {
 TEST_CASE("a tilt series gives the biases it was made with", "[survey][tilt_series]") {
     const TiltSeries found = measure_axis_bias(series(kThereAndBack), "tilt");
     CHECK(found.set_ups == 12);
-    // 0.01 mGal of noise and what the bias of z leaves by its own small error.
+    // The margin covers 0.01 mGal of noise and the small error of the bias of z.
     CHECK(found.bias.values(0) == Approx(kBiases_mgal(0)).margin(0.5));
     CHECK(found.bias.values(1) == Approx(kBiases_mgal(1)).margin(0.5));
     CHECK(found.greatest_tilt_deg[0] == Approx(2.0).margin(0.1));
@@ -106,7 +106,7 @@ TEST_CASE("the scatter of set-ups becomes the error of the biases", "[survey][ti
     CHECK(twice.covariance == twice.covariance.transpose());
 }
 
-TEST_CASE("a set-up not to be used stays out", "[survey][tilt_series]") {
+TEST_CASE("a flagged set-up is not used", "[survey][tilt_series]") {
     OccupationRows read = series(kThereAndBack);
     read.rows[3].is_flagged = true;
     for (DayBin& bin : read.day->bins)
@@ -116,7 +116,8 @@ TEST_CASE("a set-up not to be used stays out", "[survey][tilt_series]") {
     CHECK(found.bias.values(1) == Approx(kBiases_mgal(1)).margin(2.0));
 }
 
-TEST_CASE("a series that cannot tell the biases is refused in words", "[survey][tilt_series]") {
+TEST_CASE("a tilt series that does not determine the biases is refused with the reason",
+          "[survey][tilt_series]") {
     CHECK_THAT(refusal_of(series({{0, 0}, {2, 0}, {-2, 0}, {0, 2}, {0, -2}})),
                ContainsSubstring("tilt: tilt series: 5 set-ups; allowed: 6 or more"));
     CHECK_THAT(refusal_of(series({{0, 0}, {2, 0}, {-2, 0}, {2, 0}, {-2, 0}, {0, 0}})),

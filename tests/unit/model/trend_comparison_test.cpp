@@ -21,7 +21,7 @@ CorrectedRow row(const std::string& site, int occupation, std::optional<double> 
 
 }  // namespace
 
-TEST_CASE("the trends' difference is summed up with the place of the largest", "[survey]") {
+TEST_CASE("the difference of the trends is summarised with the site of the largest", "[survey]") {
     SurveyCorrection result;
     CHECK(trend_comparison_text(result).empty());
     result.rows = {row("No.0", 1, 0.3), row("No.5", 2, -0.4), row("No.7", 1, std::nullopt)};

@@ -12,7 +12,7 @@ constexpr std::array<std::uint16_t, kMonitorCount> kWarm{0x01A9, 0x0100, 0x01A9,
 
 }  // namespace
 
-TEST_CASE("five registers are the display's numbers", "[oven]") {
+TEST_CASE("the five monitor registers give the numbers of the display", "[oven]") {
     const auto values = controller_values(kWarm, 1);
     REQUIRE(values);
     CHECK(values->process_value == DegC(42.5));
@@ -21,7 +21,7 @@ TEST_CASE("five registers are the display's numbers", "[oven]") {
     CHECK(values->status == kHeatingOutput);
 }
 
-TEST_CASE("decimals move the point of temperatures, not of the drive", "[oven]") {
+TEST_CASE("the number of decimals applies to temperatures, not to the heating output", "[oven]") {
     for (const auto& [decimals, expected] : {std::pair{0, 425.0}, {1, 42.5}, {2, 4.25}}) {
         const auto values = controller_values(kWarm, decimals);
         CHECK(values->process_value == DegC(expected));
@@ -30,7 +30,7 @@ TEST_CASE("decimals move the point of temperatures, not of the drive", "[oven]")
     }
 }
 
-TEST_CASE("numbers below zero are in two's complement", "[oven]") {
+TEST_CASE("negative numbers are in two's complement", "[oven]") {
     const auto values =
         controller_values(std::array<std::uint16_t, 5>{0xFF9C, 0, 0xFFFF, 0, 0xFFCE}, 1);
     CHECK(values->process_value == DegC(-10.0));
@@ -38,7 +38,7 @@ TEST_CASE("numbers below zero are in two's complement", "[oven]") {
     CHECK(values->heating == Percent(-5.0));
 }
 
-TEST_CASE("a process value with an error of the input is not believed", "[oven]") {
+TEST_CASE("a process value with an input error is not used", "[oven]") {
     for (unsigned bit = 0; bit < 16; ++bit) {
         auto registers = kWarm;
         registers[1] = static_cast<std::uint16_t>(1U << bit);
@@ -51,7 +51,7 @@ TEST_CASE("a process value with an error of the input is not believed", "[oven]"
     }
 }
 
-TEST_CASE("more or fewer registers mean nothing", "[oven]") {
+TEST_CASE("an answer with more or fewer registers is refused", "[oven]") {
     CHECK_FALSE(controller_values({}, 1));
     CHECK_FALSE(controller_values(std::span(kWarm).first(4), 1));
     CHECK_FALSE(controller_values(std::array<std::uint16_t, 6>{}, 1));

@@ -17,7 +17,7 @@ const std::vector<text::Site> kSites{
 
 UtcTime at(const std::string& clock) { return parse_rfc3339("2020-01-01T" + clock + "Z").value(); }
 
-/// A (1) with two set-ups, B (1), A (2), and one at a site that nobody knows.
+/// Returns A (1) with two set-ups, B (1), A (2), and an occupation at an unknown site.
 std::vector<OccupationWindow> list() {
     return {{"A", 1, at("00:00:00"), at("00:06:00"), false},
             {"A", 1, at("00:07:00"), at("00:13:00"), false},
@@ -33,7 +33,7 @@ std::vector<Amendment> amended(std::vector<OccupationWindow>& windows, const std
 
 }  // namespace
 
-TEST_CASE("amendments change the list of occupations, note it, and are told with their reason",
+TEST_CASE("amendments change occupations, add notes, and are reported with their reason",
           "[survey][amendments]") {
     auto windows = list();
     const auto amendments =
@@ -61,7 +61,7 @@ TEST_CASE("amendments change the list of occupations, note it, and are told with
         R"({"kind":"exclude","site":"A","occupation":1,"set_up":2,"change":"","reason":"knock"})");
 }
 
-TEST_CASE("an amendment without a set-up means the whole stay", "[survey][amendments]") {
+TEST_CASE("an amendment without a set-up applies to the whole stay", "[survey][amendments]") {
     auto windows = list();
     amended(windows,
             "[[exclude]]\nsite='A'\noccupation=1\nreason='r'\n"
@@ -74,7 +74,7 @@ TEST_CASE("an amendment without a set-up means the whole stay", "[survey][amendm
     }
 }
 
-TEST_CASE("amendments speak of the list as it was, so that two names can change places",
+TEST_CASE("amendments refer to the original list, so that two names can be exchanged",
           "[survey][amendments]") {
     auto windows = list();
     amended(windows,
@@ -92,10 +92,10 @@ TEST_CASE("a bad amendment is refused with line, key and value", "[survey][amend
         {"[[exclude]]\n" + one + "why='r'\n", "amendments.toml:5: exclude.why = 'r': unknown key"},
         {"[[remove]]\n" + one, "unknown key; allowed: exclude, include, rename, retime"},
         {"[[exclude]]\nsite='A'\noccupation=2\n",
-         "exclude.reason: missing; allowed: why, in words"},
+         "exclude.reason: missing; allowed: the reason, in words"},
         {"[[exclude]]\nsite='A'\nreason='r'\n", "exclude.occupation: missing"},
         {"[[exclude]]\nsite='C'\noccupation=1\nreason='r'\n",
-         ":2: exclude.site = 'C': no occupation of it; allowed: A, B, BB"},
+         ":2: exclude.site = 'C': no occupation there; allowed: A, B, BB"},
         {"[[exclude]]\nsite='A'\noccupation=3\nreason='r'\n",
          ":3: exclude.occupation = 3: no such occupation of A; allowed: 1, 2"},
         {"[[exclude]]\nsite='A'\noccupation=1\nset_up=3\nreason='r'\n",
@@ -103,7 +103,7 @@ TEST_CASE("a bad amendment is refused with line, key and value", "[survey][amend
         {"[[exclude]]\n" + one + "[[include]]\n" + one,
          ":7: include.occupation = 2: contradicts another amendment of its use"},
         {"[[rename]]\n" + one + "to='C'\n", "rename.to = 'C': no such site; allowed: A, B"},
-        {"[[rename]]\n" + one + "to='A'\n", "rename.to = 'A': the name it has"},
+        {"[[rename]]\n" + one + "to='A'\n", "rename.to = 'A': already its name"},
         {"[[retime]]\n" + one, "retime.start_utc: missing"},
         {"[[retime]]\n" + one + "start_utc='noon'\n", "retime.start_utc = 'noon': not an instant"},
         {"[[retime]]\n" + one + "end_utc='2020-01-01T02:00:00Z'\n",

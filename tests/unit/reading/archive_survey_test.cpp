@@ -1,4 +1,4 @@
-// A made-up morning written as miniSEED, StationXML and occupations, and corrected from there.
+// A made-up morning written as miniSEED, StationXML and occupations, and averaged from there.
 #include "tests/unit/reading/morning.hpp"
 
 #include "tests/support/catch.hpp"
@@ -24,7 +24,7 @@ OccupationRows average(const Morning& morning,
 
 }  // namespace
 
-TEST_CASE("occupations come out of the archive at the values that were put in",
+TEST_CASE("occupations read from the archive have the values that were written",
           "[survey][archive]") {
     Morning morning;
     const OccupationRows result = average(morning);
@@ -39,8 +39,8 @@ TEST_CASE("occupations come out of the archive at the values that were put in",
         CHECK(row.reference == MilliGal(Morning::kGravity_mgal[i]));
         CHECK(row.start.value() >= Morning::start_of(i));
         CHECK(row.end.value() <= Morning::start_of(i) + kStay);
-        // The middle of the interval stands for its mean to the curvature of the temperature,
-        // 0.4 degC (75 s / 900 s)^2 / 6; the trend's ends and the quantisation make the rest.
+        // The value at the middle differs from the mean by the curvature of the temperature, 0.4
+        // degC (75 s / 900 s)^2 / 6; the trend's ends and the quantisation give the rest.
         const double middle = seconds_between(Morning::kBegin, row.time);
         CHECK(row.temperature.value() ==
               Approx(Morning::temperature_degc(middle)).epsilon(0).margin(0.001));
@@ -51,7 +51,7 @@ TEST_CASE("occupations come out of the archive at the values that were put in",
     }
 }
 
-TEST_CASE("the records behind the rows and the temperature of the day come with them",
+TEST_CASE("the result contains the record of each row and the temperature of the day",
           "[survey][archive]") {
     Morning morning;
     const OccupationRows result = average(morning);
@@ -66,7 +66,8 @@ TEST_CASE("the records behind the rows and the temperature of the day come with 
         CHECK(record.temperature_series.values()[37] ==
               Approx(Morning::temperature_degc(middle)).epsilon(0).margin(kHalfCount_degc));
     }
-    // From the first start to the last stop and a minute on both sides, as far as there is record.
+    // From a minute before the first start to a minute after the last stop, as far as there is a
+    // record.
     REQUIRE(result.temperature_course.size() == 16);
     for (const MinuteTemperature& minute : result.temperature_course) {
         const double seconds = seconds_between(Morning::kBegin, minute.middle);
@@ -75,7 +76,7 @@ TEST_CASE("the records behind the rows and the temperature of the day come with 
     }
 }
 
-TEST_CASE("two runs over the same archive give the same bits", "[survey][archive]") {
+TEST_CASE("two runs over the same archive are bit-identical", "[survey][archive]") {
     Morning morning;
     const auto a = average(morning);
     const auto b = average(morning);
@@ -88,7 +89,7 @@ TEST_CASE("two runs over the same archive give the same bits", "[survey][archive
     CHECK(a.inputs.size() == 4 + 8);  // survey, sites, metadata, occupations; 4 channels, 2 days
 }
 
-TEST_CASE("occupations are taken from the event log where no table is named", "[survey][archive]") {
+TEST_CASE("occupations are read from the event log if no table is given", "[survey][archive]") {
     Morning morning;
     for (std::size_t i = 0; i < kSites.size(); ++i) {
         record::Event start{"start", Morning::start_of(i), {}, {}, {{"site", kSites[i]}}};
@@ -105,7 +106,7 @@ TEST_CASE("occupations are taken from the event log where no table is named", "[
     }
 }
 
-TEST_CASE("an occupation outside the archive is left out and named", "[survey][archive]") {
+TEST_CASE("an occupation outside the archive is left out and reported", "[survey][archive]") {
     Morning morning;
     morning.folder().write("late.csv",
                            "site,occupation,start_utc,end_utc,used,note\n"
@@ -125,7 +126,7 @@ TEST_CASE("a survey without any sample is refused", "[survey][archive]") {
     CHECK_THROWS_AS(average(morning, "occupations='other.csv'\n"), InputError);
 }
 
-TEST_CASE("the tide is that of the middle of the interval", "[survey][archive]") {
+TEST_CASE("the tide of a row is that of the middle of its interval", "[survey][archive]") {
     Morning morning;
     const auto file = morning.folder().write(
         "day.toml", "[survey]\noccupations='occupations.csv'\ndelta2=1.2\ndelta3=1.2\n");

@@ -8,7 +8,7 @@
 namespace a351::corrector {
 namespace {
 
-/// Mean of the valid outputs less gravity, for axes that vibrate sideways.
+/// Returns the mean of the valid outputs minus gravity, for axes that vibrate sideways.
 double bias_mgal(NormOrder order, double rms_gal) {
     const OccupationRecord record{
         vibrating_axis(60'000, 0.0, rms_gal, 7.3), vibrating_axis(60'000, 0.0, rms_gal, 11.9),

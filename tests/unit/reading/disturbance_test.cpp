@@ -27,7 +27,7 @@ std::vector<std::size_t> indices(const Disturbances& found) {
 
 }  // namespace
 
-TEST_CASE("noise on a drift of any slope is no disturbance, at the ends neither") {
+TEST_CASE("noise on a drift of any slope is not a disturbance, not even at the ends") {
     for (const double slope : {0.0, 0.05, -1.0, 20.0}) {
         CHECK(indices(find_disturbances(noisy_ramp(450, slope), 8.0)).empty());
     }
@@ -41,8 +41,8 @@ TEST_CASE("a ramp without any noise has no disturbance") {
     CHECK(indices(find_disturbances(std::vector<double>(300, 5.0), 8.0)).empty());
 }
 
-TEST_CASE("a sample is disturbed beyond the threshold and not below it") {
-    // The deviation of unit noise and the scale estimated from it leave 10 well between 8 and 14.
+TEST_CASE("a sample is disturbed above the threshold and not below it") {
+    // With unit noise and the scale estimated from it, 10 is well between 8 and 14.
     for (const std::size_t at : {0U, 7U, 40U, 200U, 449U}) {
         auto series = noisy_ramp(450, 0.02);
         series[at] = 980'000.0 + 0.02 * static_cast<double>(at) + 10.0;
@@ -53,7 +53,7 @@ TEST_CASE("a sample is disturbed beyond the threshold and not below it") {
     }
 }
 
-TEST_CASE("a decaying transient in the first samples is found and does not hide itself") {
+TEST_CASE("a decaying transient in the first samples is detected completely") {
     auto series = noisy_ramp(450, 0.02);
     for (std::size_t i = 0; i < 12; ++i) series[i] += 40.0 - 2.5 * static_cast<double>(i);
     const auto found = indices(find_disturbances(series, 8.0));
@@ -62,24 +62,24 @@ TEST_CASE("a decaying transient in the first samples is found and does not hide 
     CHECK(found.back() == 11);
 }
 
-TEST_CASE("the baseline is the undisturbed level, under a transient at the start too") {
+TEST_CASE("the baseline is the undisturbed level, also under a transient at the start") {
     auto series = noisy_ramp(450, 0.02);
     for (std::size_t i = 0; i < 12; ++i) series[i] += 40.0 - 2.5 * static_cast<double>(i);
     const auto baseline = find_disturbances(series, 8.0).baseline;
     for (std::size_t i = 0; i < series.size(); ++i) {
-        // Next to the end the slope of 31 pairs, 12 of them spoilt, is continued by 30 samples: 1.2
-        // of bias and 0.6 of scatter are expected there, against 40 of transient.
+        // Near the end the slope of 31 pairs, 12 of them disturbed, is extrapolated by 30 samples.
+        // A bias of 1.2 and a scatter of 0.6 are expected there; the transient is 40.
         REQUIRE(baseline[i] - 980'000.0 - 0.02 * static_cast<double>(i) == Approx(0.0).margin(3.0));
     }
 }
 
-TEST_CASE("series of 0 to 70 samples are safe") {
+TEST_CASE("series of 0 to 70 samples are accepted") {
     for (std::size_t n = 0; n <= 70; ++n) {
         CHECK(find_disturbances(std::vector<double>(n, 1.0), 8.0).disturbed.size() == n);
     }
 }
 
-TEST_CASE("despiking brings the noise back and leaves the other samples alone") {
+TEST_CASE("despiking replaces the disturbed samples by the baseline and no others") {
     const std::vector<double> quiet = noisy_ramp(400, 0.05);
     std::vector<double> struck = quiet;
     for (std::size_t i = 5; i < 15; ++i) struck[i] += 1000.0;
@@ -92,7 +92,7 @@ TEST_CASE("despiking brings the noise back and leaves the other samples alone") 
         if (found.disturbed[i]) {
             CHECK(samples[i] == found.baseline[i]);
             CHECK(std::abs(samples[i] - 980'000.0 - 0.05 * static_cast<double>(i)) <
-                  3.0);  // of the noise
+                  3.0);  // standard deviations of the noise
         } else {
             CHECK(samples[i] == quiet[i]);
         }

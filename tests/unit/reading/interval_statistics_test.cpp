@@ -14,21 +14,21 @@ TimeSeries<DegC> temperature_at_half_hertz(std::vector<double> values) {
 
 }  // namespace
 
-TEST_CASE("the block standard error is that of the block means") {
+TEST_CASE("the block standard error is the standard error of the block means") {
     const std::vector<double> values = {1, 3, 4, 6, 8, 8, 100};  // block means 2, 5, 8
     CHECK(*block_standard_error(values, 2) == Approx(std::sqrt(9.0 / 3.0)));
     CHECK_FALSE(block_standard_error(values, 4));
     CHECK_FALSE(block_standard_error({}, 4));
 }
 
-TEST_CASE("the block standard error of white noise is sigma over root n") {
+TEST_CASE("the block standard error of white noise is sigma divided by the square root of n") {
     std::vector<double> noise(300'000);
     fill_white_noise(2, 0, noise);
     // 10 000 blocks determine it to 0.7 %.
     CHECK(*block_standard_error(noise, 30) == Approx(1.0 / std::sqrt(300'000.0)).epsilon(0.03));
 }
 
-TEST_CASE("a temperature ramp has its slope, range and shape, and gaps do not matter") {
+TEST_CASE("slope, range and shape of a temperature ramp are found, even with gaps") {
     std::vector<double> values(450);
     for (std::size_t i = 0; i < values.size(); ++i) {
         values[i] = 42.5 + 0.3 * static_cast<double>(i) * 2.0 / 3600.0;
@@ -42,10 +42,10 @@ TEST_CASE("a temperature ramp has its slope, range and shape, and gaps do not ma
     CHECK(summary->shape == TemperatureShape::monotone);
 }
 
-TEST_CASE("a temperature that comes back is half a wave once, and turning after that") {
+TEST_CASE("a temperature that comes back once is half a wave, and one that moves on is turning") {
     std::vector<double> values(900);
     for (std::size_t i = 0; i < values.size(); ++i) {
-        // The jitter is no turn.
+        // The jitter does not count as a turn.
         values[i] = 42.5 + 0.1 * std::sin(3.14 * static_cast<double>(i) / 450.0) +
                     0.01 * std::cos(0.2 * static_cast<double>(i));
     }
@@ -55,13 +55,13 @@ TEST_CASE("a temperature that comes back is half a wave once, and turning after 
     CHECK(summarise_temperature(series, 0, 200)->shape == TemperatureShape::monotone);
 }
 
-TEST_CASE("fewer than two temperatures are no summary") {
+TEST_CASE("fewer than two temperatures give no summary") {
     const double nan = std::nan("");
     CHECK_FALSE(summarise_temperature(temperature_at_half_hertz({nan, 1.0, nan}), 0, 2));
     CHECK(summarise_temperature(temperature_at_half_hertz({2.0, 1.0, nan}), 0, 2));
 }
 
-TEST_CASE("an axis has its mean, and its rms about a sloping trend") {
+TEST_CASE("an axis has its mean, and its rms about the trend") {
     std::vector<double> raw(1000);
     std::vector<double> trend(10);
     for (std::size_t k = 0; k < trend.size(); ++k) trend[k] = 0.1 * static_cast<double>(k);

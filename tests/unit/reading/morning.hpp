@@ -17,13 +17,13 @@
 
 namespace a351 {
 
-/// A made-up morning on disk: four stays at three sites, over midnight, as miniSEED, StationXML,
-/// sites.csv and occupations.csv; the third stay is flagged.
+/// A made-up morning on disk: four stays at three sites, across midnight, as miniSEED, StationXML,
+/// sites.csv and occupations.csv. The third stay is flagged.
 class Morning {
 public:
-    static constexpr double kTrueRate_hz = 50.002;  ///< 40 ppm off.
+    static constexpr double kTrueRate_hz = 50.002;  ///< True rate, 40 ppm off the nominal 50 Hz.
     static constexpr std::chrono::seconds kStay{150};
-    static constexpr std::chrono::seconds kCycle{240};  ///< Stay and way.
+    static constexpr std::chrono::seconds kCycle{240};  ///< Stay and way to the next site.
     static constexpr double kConstant_mgal = 1850.0;
     static constexpr double kSlope_mgal_per_degc = -30.0;
     static constexpr double kTilt_g = 0.01;
@@ -58,7 +58,7 @@ public:
         return 42.3 + 0.4 * std::sin(seconds / 900.0);
     }
 
-    /// What the sensor reads, in mGal, at its place of that instant, tide aside.
+    /// Returns the reading without the tide, in mGal, at the sensor's site of that time.
     static double reading_mgal(double seconds) {
         const auto cycle = static_cast<std::size_t>(seconds / 240.0);
         return kGravity_mgal[std::min(cycle, kSites.size() - 1)] + kConstant_mgal +
@@ -108,7 +108,7 @@ private:
         writer.sync();
     }
 
-    /// No record crosses midnight, 600 s after kBegin.
+    /// Returns the number of samples before midnight, 600 s after kBegin; no record crosses it.
     static std::size_t samples_before_midnight(std::size_t at, std::size_t count) {
         const auto first_after = static_cast<std::size_t>(std::ceil(600.0 * kTrueRate_hz));
         return at < first_after ? std::min(first_after, count) - at : count - at;

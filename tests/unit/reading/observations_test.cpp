@@ -32,8 +32,7 @@ const std::string kHeader =
 
 }  // namespace
 
-TEST_CASE("rows are read with all their columns and put in the order of time",
-          "[survey][observations]") {
+TEST_CASE("rows are read with all their columns and sorted by time", "[survey][observations]") {
     const auto rows = TableFile(kHeader +
                                 "B,1,1,2020-01-01T02:00:00Z,-0.02,981700.5,42.7\n"
                                 "A,1,0,2020-01-01T00:00:00,0.01,981700.25,42.5\n")
@@ -49,7 +48,7 @@ TEST_CASE("rows are read with all their columns and put in the order of time",
     CHECK(rows[1].rate_degc_per_h == Approx(0.1));
 }
 
-TEST_CASE("a local time column, a zone in the cell and UTC name the same instant",
+TEST_CASE("a local time column, a zone in the cell and UTC give the same time",
           "[survey][observations]") {
     const UtcTime expected = parse_rfc3339("2019-12-31T23:42:12Z").value();
     const auto [column, cell] = GENERATE(table<std::string, std::string>({
@@ -81,7 +80,7 @@ TEST_CASE("a bad table of observations is refused with line, column and value",
         {kHeader + "A,1,0,2020-01-01T00:00:00Z,0.01,981700,inf\n", "temperature_degc = inf"},
         {kHeader + "A,1,0,2020-01-01T00:00:00Z,0.01,1.001,42.5\n", "acceleration_mgal = 1.001"},
         {kHeader + "A,1,0,2020-01-01T00:00:00Z,70.0,981700,42.5\n", "earth_tide_mgal = 70.0"},
-        {kHeader + good + good, ":3: time_utc = 2020-01-01T00:00:00Z: stands twice"},
+        {kHeader + good + good, ":3: time_utc = 2020-01-01T00:00:00Z: appears twice"},
         {kHeader, "no rows"},
         {"site,occupation,acceleration_mgal,temperature_degc\nA,1,981700,42.5\n",
          "no column of time"},

@@ -18,12 +18,12 @@ const std::string kHeader = "site,occupation,start_utc,end_utc,used,note\n";
 OccupationList read(const std::string& rows) {
     const test::TemporaryDirectory folder;
     const auto file = folder.write("occupations.csv", kHeader + rows);
-    return leave_out_impossible(read_occupation_table(file, kSites), kSites, file);
+    return drop_invalid_occupations(read_occupation_table(file, kSites), kSites, file);
 }
 
 }  // namespace
 
-TEST_CASE("occupations are read in the order of time, with several set-ups of one stay",
+TEST_CASE("occupations are sorted by time, with several set-ups of one stay",
           "[survey][occupations]") {
     const auto list = read(
         "B,1,2020-01-01T02:00:00Z,2020-01-01T02:12:00Z,0,knocked\n"
@@ -53,7 +53,7 @@ TEST_CASE("a bad table of occupations is refused with line, column and value",
     CHECK_THROWS_AS(read(rows), InputError);
 }
 
-TEST_CASE("a slip in the field costs its own occupation and is named, not the day",
+TEST_CASE("a mistake in the field excludes only its own occupation, which is reported",
           "[survey][occupations]") {
     const test::TemporaryDirectory folder;
     const auto file =
@@ -64,7 +64,7 @@ TEST_CASE("a slip in the field costs its own occupation and is named, not the da
                      "{\"type\":\"stop\",\"utc\":\"2020-01-01T01:10:00Z\"}\n"
                      "{\"type\":\"start\",\"utc\":\"2020-01-01T02:00:00Z\",\"site\":\"B\"}\n");
     const auto list =
-        leave_out_impossible(read_logged_occupations(file.parent_path()), kSites, file);
+        drop_invalid_occupations(read_logged_occupations(file.parent_path()), kSites, file);
     REQUIRE(list.windows.size() == 1);
     CHECK(list.windows[0].site == "A");
     REQUIRE(list.warnings.size() == 2);
@@ -75,11 +75,12 @@ TEST_CASE("a slip in the field costs its own occupation and is named, not the da
     CHECK(list.left_out[0].site == "AA");
 }
 
-TEST_CASE("of a log of several days the last one is taken, or what a time says",
+TEST_CASE("the last day of a log of several days is taken, or the requested time",
           "[survey][occupations]") {
     const test::TemporaryDirectory folder;
     std::string log;
-    // On the first day the last stop was forgotten: it lasts to the next morning.
+    // On the first day the last stop was forgotten, so that the occupation lasts to the next
+    // morning.
     for (const auto& [type, utc] :
          std::vector<std::pair<std::string, std::string>>{{"start", "2020-01-01T08:00:00Z"},
                                                           {"stop", "2020-01-01T08:10:00Z"},
@@ -99,25 +100,25 @@ TEST_CASE("of a log of several days the last one is taken, or what a time says",
     REQUIRE(last.warnings.size() == 1);
     CHECK(last.warnings[0] ==
           events.string() +
-              ": the last day is taken, from 2020-01-02T08:00:00Z on; occupations "
-              "of earlier days: 2; from_utc and to_utc choose others");
+              ": only the last day is used, from 2020-01-02T08:00:00Z on; occupations "
+              "of earlier days: 2; use from_utc and to_utc to choose others");
 
     const auto first = read_logged_occupations(events, {}, at("2020-01-02T08:00:00Z"));
     REQUIRE(first.windows.size() == 2);
     CHECK(first.windows[1].start == at("2020-01-01T13:59:59Z"));
     REQUIRE(first.warnings.size() == 1);
-    CHECK_THAT(first.warnings[0], ContainsSubstring("lasts to the next start"));
+    CHECK_THAT(first.warnings[0], ContainsSubstring("lasts until the next start"));
 
     const auto all = read_logged_occupations(events, at("2020-01-01T08:00:00Z"));
     CHECK(all.windows.size() == 4);
     CHECK_THROWS_WITH(
         read_logged_occupations(events, at("2020-01-03T00:00:00Z"), at("2020-01-04T00:00:00Z")),
         EndsWith(": no occupation starts from 2020-01-03T00:00:00Z on and before "
-                 "2020-01-04T00:00:00Z; allowed: a time with one of those that start from "
-                 "2020-01-01T08:00:00Z to 2020-01-02T13:59:59Z"));
+                 "2020-01-04T00:00:00Z; allowed: a time that includes a start; the first is at "
+                 "2020-01-01T08:00:00Z, the last at 2020-01-02T13:59:59Z"));
 }
 
-TEST_CASE("one end typed too late costs its own occupation, not those it overlaps",
+TEST_CASE("an end typed too late excludes its own occupation, not those it overlaps",
           "[survey][occupations]") {
     const auto list = read(
         "A,1,2020-01-01T00:00:00Z,2020-01-01T05:06:00Z,1,\n"
@@ -131,8 +132,9 @@ TEST_CASE("one end typed too late costs its own occupation, not those it overlap
           "B (1) at 2020-01-01T01:00:00Z");
 }
 
-TEST_CASE("of two that overlap each other neither is trusted; swapped times cost one",
-          "[survey][occupations]") {
+TEST_CASE(
+    "two occupations that overlap each other are both left out, swapped times exclude only one",
+    "[survey][occupations]") {
     const auto list = read(
         "A,1,2020-01-01T00:00:00Z,2020-01-01T00:06:00Z,1,\n"
         "B,1,2020-01-01T00:05:00Z,2020-01-01T00:11:00Z,1,\n"

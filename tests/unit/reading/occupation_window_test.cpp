@@ -14,7 +14,7 @@ namespace {
 const UtcTime kStart = parse_rfc3339("2020-01-01T00:00:00Z").value();
 const record::ChannelScale kScale{"BNZ", 2.0, 1.0, "m/s**2"};
 
-/// `count` samples at `rate_hz`, the i-th of value first + i, stamped every 500.
+/// Returns `count` samples at `rate_hz` with the values first + i and a time stamp every 500.
 record::Segment segment(UtcTime start, double rate_hz, std::size_t count, std::int32_t first) {
     record::Segment result;
     result.rate_hz = 50.0;
@@ -37,7 +37,8 @@ std::size_t missing(const std::vector<double>& values) {
 
 }  // namespace
 
-TEST_CASE("a window takes the samples from its start up to its end", "[survey][window]") {
+TEST_CASE("a window has the samples from its start up to, but not including, its end",
+          "[survey][window]") {
     const std::vector<record::Segment> segments{segment(kStart - 1s, 50.0, 10'000, 0)};
     const auto grid = sampling_grid(segments, kStart, kStart + 100s).value();
     CHECK(grid.origin == kStart);
@@ -48,7 +49,8 @@ TEST_CASE("a window takes the samples from its start up to its end", "[survey][w
     CHECK(values.back() == 1.0 + 2.0 * 5049);
 }
 
-TEST_CASE("a sensor off its nominal rate loses no sample and no time", "[survey][window]") {
+TEST_CASE("a sensor off its nominal rate loses no samples and keeps its times",
+          "[survey][window]") {
     const double ppm = GENERATE(-80.0, 0.0, 80.0);
     CAPTURE(ppm);
     const double rate_hz = 50.0 * (1.0 + 1e-6 * ppm);
@@ -62,7 +64,7 @@ TEST_CASE("a sensor off its nominal rate loses no sample and no time", "[survey]
     CHECK(missing(values) == values.size() - 45'000);
 }
 
-TEST_CASE("a gap becomes missing samples of its length", "[survey][window]") {
+TEST_CASE("a gap becomes missing samples of the same length", "[survey][window]") {
     const std::vector<record::Segment> segments{segment(kStart, 50.0, 4000, 0),
                                                 segment(kStart + 80s + 60ms, 50.0, 1000, 4003)};
     const auto grid = sampling_grid(segments, kStart, kStart + 100s).value();
@@ -73,7 +75,7 @@ TEST_CASE("a gap becomes missing samples of its length", "[survey][window]") {
     CHECK(values[4003] == 1.0 + 2.0 * 4003);
 }
 
-TEST_CASE("a window without samples has no grid", "[survey][window]") {
+TEST_CASE("a window without samples has no sampling grid", "[survey][window]") {
     const std::vector<record::Segment> segments{segment(kStart, 50.0, 100, 0)};
     CHECK_FALSE(sampling_grid(segments, kStart + 10s, kStart + 20s).has_value());
     CHECK_FALSE(sampling_grid(segments, kStart - 20s, kStart).has_value());

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Made-up occupations.
+/// Made-up records of occupations.
 
 #include <cmath>
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace a351::corrector {
 inline constexpr double kGalPerStandardGravity = 980.665;
 inline const UtcTime kSiteStart = UtcTime{std::chrono::seconds(1'500'160'000)};
 
-/// `level` g plus a sine of `rms_gal` at `frequency_hz`, sampled at 50 Hz.
+/// Returns `level_g` plus a sine of `rms_gal` at `frequency_hz`, sampled at 50 Hz.
 inline TimeSeries<StandardGravity> vibrating_axis(std::size_t n, double level_g, double rms_gal,
                                                   double frequency_hz) {
     std::vector<double> values(n, level_g);
@@ -27,8 +27,9 @@ inline TimeSeries<StandardGravity> vibrating_axis(std::size_t n, double level_g,
     return {kSiteStart, Hertz(50.0), std::move(values)};
 }
 
-/// A vertical axis of `level(seconds)` mGal at 50 Hz with white noise, horizontal ones with noise,
-/// and a temperature of `temperature(seconds)` from `lead_s` before to `lead_s` after.
+/// Returns a record at 50 Hz: a vertical axis of `level(seconds)` mGal with white noise, horizontal
+/// axes with noise only, and a temperature of `temperature(seconds)` from `lead_s` before the
+/// occupation to `lead_s` after it.
 template <class Level, class Temperature>
 OccupationRecord make_record(double seconds, Level level, Temperature temperature,
                              double noise_mgal = 0.0, double lead_s = 0.0) {
@@ -57,7 +58,7 @@ inline std::optional<RepresentativeValue> value_of(const OccupationRecord& recor
     return representative_value(record, decimate_axes(record), options);
 }
 
-/// The same axis with the samples first..last missing.
+/// Returns the same series with the samples first ... last missing.
 template <class Unit>
 TimeSeries<Unit> without(const TimeSeries<Unit>& series, std::size_t first, std::size_t last) {
     std::vector<double> values = series.values();

@@ -18,7 +18,7 @@ bool has(const RepresentativeValue& value, OccupationFlag flag) {
     return std::find(value.flags.begin(), value.flags.end(), flag) != value.flags.end();
 }
 
-/// The record with `pulse_mgal` added to its vertical axis from `begin_s` for `length_s`.
+/// Returns the record with `pulse_mgal` added to its vertical axis from `begin_s` for `length_s`.
 OccupationRecord with_pulse(OccupationRecord record, double begin_s, double length_s,
                             double pulse_mgal) {
     std::vector<double> z = record.z.values();
@@ -33,7 +33,7 @@ OccupationRecord with_pulse(OccupationRecord record, double begin_s, double leng
 
 }  // namespace
 
-TEST_CASE("a constant without noise comes back as it is") {
+TEST_CASE("a constant without noise gives its value") {
     const auto value = value_of(make_record(900, kConstantLevel, kConstantTemperature));
     REQUIRE(value);
     CHECK(std::abs(value->acceleration.value() - kGravity) < 1e-6);
@@ -51,7 +51,7 @@ TEST_CASE("a constant without noise comes back as it is") {
     CHECK(value->interval_end == kSiteStart + from_seconds(890.0));
 }
 
-TEST_CASE("a constant in noise comes back within its standard error") {
+TEST_CASE("a constant with noise gives its value within the standard error") {
     const auto value = value_of(make_record(900, kConstantLevel, kConstantTemperature, 50.0));
     REQUIRE(value);
     // 50 mGal white at 50 Hz: 50 / sqrt(44 000) = 0.24 mGal for the mean.
@@ -66,14 +66,14 @@ TEST_CASE("a constant in noise comes back within its standard error") {
     CHECK(value->z.mean.value() == Approx(kGravity / kMilliGalPerStandardGravity).epsilon(1e-5));
 }
 
-TEST_CASE("ramps of gravity and temperature come back with their values at mid-interval") {
+TEST_CASE("ramps of gravity and temperature give their values at mid-interval") {
     const auto record = make_record(
         1200, [](double t) { return kGravity + t / 360.0; },
         [](double t) { return 42.5 + 0.3 * t / 3600.0; }, 0.0, 100.0);
     const auto value = value_of(record);
     REQUIRE(value);
     const double middle = 600.0;  // samples 5 ... 595 of 2 s
-    // What is left of the noise that the decomposition adds, four standard deviations.
+    // Remainder of the noise that the decomposition adds, four standard deviations.
     const double left_over = 4.0 * value->noise_level.value() / std::sqrt(80.0 * 591.0);
     CHECK(std::abs(value->acceleration.value() - (kGravity + middle / 360.0)) < left_over);
     CHECK(value->temperature->mean.value() == Approx(42.5 + 0.3 * middle / 3600.0).epsilon(1e-9));
@@ -82,7 +82,9 @@ TEST_CASE("ramps of gravity and temperature come back with their values at mid-i
     CHECK(value->flags.empty());
 }
 
-TEST_CASE("temperature beyond the occupation serves its ends and is not shifted by it") {
+TEST_CASE(
+    "mean and slope of temperature do not depend on how long it was recorded beyond the "
+    "occupation") {
     const auto degc = [](double t) { return 42.5 + 0.3 * t / 3600.0; };
     const auto alone = value_of(make_record(900, kConstantLevel, degc, 20.0, 0.0));
     for (const double lead_s : {0.02, 7.34, 60.0, 1000.0}) {
@@ -101,7 +103,7 @@ TEST_CASE("temperature on another grid is refused") {
     CHECK_THROWS_AS(value_of(record), std::invalid_argument);
 }
 
-TEST_CASE("disturbed ends and a pulse do not move the value of either trend and are flagged") {
+TEST_CASE("disturbed ends and a pulse do not change the value of either trend and are flagged") {
     RepresentativeOptions options;
     options.trend = GENERATE(TrendMethod::eemd, TrendMethod::smoother);
     const auto level = [](double t) {
@@ -147,23 +149,23 @@ TEST_CASE("disturbed ends and a pulse do not move the value of either trend and 
     }
 }
 
-TEST_CASE("a record whose parts between pulses are too short is too short") {
+TEST_CASE("a record is too short if all its parts between pulses are too short") {
     const auto record = with_pulse(make_record(60, kConstantLevel, kConstantTemperature, 20.0),
                                    30.0, 0.5, 10'000.0);
-    CHECK(value_of(record));  // all of it lies next to an end: no pulse
+    CHECK(value_of(record));  // the whole record is near an end: no pulse
     RepresentativeOptions options;
     options.end_margin_s = 0.0;
     CHECK_FALSE(value_of(record, options));
 }
 
-TEST_CASE("a gap is not bridged: the longer run is used and the samples are counted") {
+TEST_CASE("a gap is not bridged: the longer part is used and the missing samples are counted") {
     auto record = make_record(900, kConstantLevel, kConstantTemperature, 20.0);
     record.y = without(record.y, 15'000, 15'004);
     const auto value = value_of(record);
     REQUIRE(value);
     CHECK(has(*value, OccupationFlag::gap));
     CHECK_FALSE(has(*value, OccupationFlag::pulse));
-    // Outputs within 451 raw samples of the gap are spoilt: 146 ... 154.
+    // Outputs within 451 raw samples of the gap are invalid: 146 ... 154.
     CHECK(value->interval_start >= kSiteStart + from_seconds(2.0 * 155));
     CHECK(value->counts.valid == 441 - 9);
     CHECK(value->counts.valid + value->counts.partial + value->counts.missing == 450);
@@ -183,7 +185,7 @@ TEST_CASE("a record of fewer than 16 valid samples is too short, one of 16 is no
     CHECK_FALSE(lasting(2452)->standard_error);
 }
 
-TEST_CASE("a record without temperature has none, and says so") {
+TEST_CASE("a record without temperature gives no temperature and is flagged") {
     auto record = make_record(900, kConstantLevel, kConstantTemperature, 20.0);
     record.temperature = without(record.temperature, 0, record.temperature.size() - 1);
     const auto value = value_of(record);
@@ -192,7 +194,7 @@ TEST_CASE("a record without temperature has none, and says so") {
     CHECK(has(*value, OccupationFlag::no_temperature));
 }
 
-TEST_CASE("the norm order as published carries the rectification bias that it reports") {
+TEST_CASE("the norm in the published order contains the rectification bias that is reported") {
     const auto level = make_record(900, kConstantLevel, kConstantTemperature);
     const OccupationRecord record = {vibrating_axis(45'000, 0.0, 1.0, 7.3),
                                      vibrating_axis(45'000, 0.0, 1.0, 11.9), level.z,
@@ -217,7 +219,7 @@ TEST_CASE("the value is the same on any number of threads") {
     CHECK(three->acceleration == one->acceleration);
 }
 
-TEST_CASE("both trends are averaged over one interval, and the one asked for is the value") {
+TEST_CASE("both trends are averaged over one interval, and the requested trend gives the value") {
     const auto level = [](double t) {
         return kGravity + 3.0 * std::sin(2.0 * std::numbers::pi * t / 900.0);
     };
@@ -228,7 +230,7 @@ TEST_CASE("both trends are averaged over one interval, and the one asked for is 
     const auto by_smoother = value_of(record, options);
     CHECK(by_eemd->acceleration == by_eemd->eemd_mean);
     CHECK(by_smoother->acceleration == by_smoother->smoother_mean);
-    // An undisturbed record: the interval is the whole of it for either curve.
+    // An undisturbed record is used completely with either curve.
     CHECK(by_smoother->eemd_mean == by_eemd->eemd_mean);
     CHECK(by_smoother->smoother_mean == by_eemd->smoother_mean);
     CHECK(by_smoother->curve.values() != by_eemd->curve.values());
@@ -243,10 +245,10 @@ TEST_CASE("both trends are averaged over one interval, and the one asked for is 
         const double error = curve.values()[i] - level(seconds);
         squares += error * error / static_cast<double>(curve.size());
     }
-    CHECK(std::sqrt(squares) < 0.5);  // of a wave of 3
+    CHECK(std::sqrt(squares) < 0.5);  // the wave has an amplitude of 3
 }
 
-TEST_CASE("a wave of the cut-off period stands half as high in the smoother's trend") {
+TEST_CASE("in the smoother's trend a wave of the cut-off period has half its height") {
     const auto level = [](double t) {
         return kGravity + 4.0 * std::sin(2.0 * std::numbers::pi * t / 100.0);
     };
@@ -260,8 +262,8 @@ TEST_CASE("a wave of the cut-off period stands half as high in the smoother's tr
     CHECK(*most - *least == Approx(4.0).epsilon(0.01));
 }
 
-TEST_CASE("a value whose weights did not settle is flagged when it is the smoother's") {
-    // Levels of 2 s each in which no threshold finds a disturbance, but the weights do.
+TEST_CASE("a value of the smoother is flagged if its weights did not converge") {
+    // Levels of 2 s each. No threshold finds a disturbance in them, but the smoother's weights do.
     const std::vector<double> levels = {5, 36, 7, 1, 2, 9, 4, 1, 58, 11, 2, 20, 9, 5, 1, 1,  7, 6,
                                         5, 45, 0, 9, 2, 3, 3, 6, 6,  0,  2, 9,  6, 9, 2, 18, 5};
     const auto level = [&](double t) {
@@ -276,7 +278,7 @@ TEST_CASE("a value whose weights did not settle is flagged when it is the smooth
     CHECK(has(*value_of(record, options), OccupationFlag::unsettled));
 }
 
-TEST_CASE("an option outside its range is refused") {
+TEST_CASE("an averaging option outside its range is refused") {
     const auto record = make_record(100, kConstantLevel, kConstantTemperature);
     RepresentativeOptions options;
     options.end_margin_s = -1.0;
@@ -289,7 +291,7 @@ TEST_CASE("an option outside its range is refused") {
     CHECK_THROWS_AS(value_of(record, options), std::invalid_argument);
 }
 
-TEST_CASE("every flag has the name it has in the enumeration") {
+TEST_CASE("every flag has the same name as in the enumeration") {
     CHECK(flag_name(OccupationFlag::fallback) == "fallback");
     CHECK(flag_name(OccupationFlag::disturbed_start) == "disturbed_start");
     CHECK(flag_name(OccupationFlag::disturbed_end) == "disturbed_end");

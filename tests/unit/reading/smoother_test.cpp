@@ -28,7 +28,7 @@ std::vector<double> sine(std::size_t n, double period) {
     return values;
 }
 
-/// W + lambda D' D of PenalisedFit as a full matrix of 64-bit mantissas.
+/// Full matrix W + lambda D' D of PenalisedFit, with 64-bit mantissas.
 using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
 Matrix dense(const std::vector<double>& weights, double penalty) {
@@ -45,7 +45,7 @@ Matrix dense(const std::vector<double>& weights, double penalty) {
     return a;
 }
 
-/// What the model of the smoother supposes: white second differences of variance 1 / penalty.
+/// Returns a curve of the smoother's model: white second differences of variance 1 / penalty.
 std::vector<double> random_curve(std::uint64_t member, std::size_t n, double penalty) {
     std::vector<double> curve = white_noise(member, n);
     double slope = 0.0;
@@ -60,7 +60,7 @@ std::vector<double> random_curve(std::uint64_t member, std::size_t n, double pen
 
 }  // namespace
 
-TEST_CASE("the banded fit is the dense one, with its inverse") {
+TEST_CASE("the banded fit and its inverse agree with a dense solution") {
     const double cutoff = GENERATE(2.0, 7.5, 30.0, 100.0);
     std::vector<double> weights = white_noise(1, 120);
     for (double& weight : weights) weight = std::abs(weight) < 0.3 ? 0.0 : std::abs(weight);
@@ -80,8 +80,9 @@ TEST_CASE("the banded fit is the dense one, with its inverse") {
     }
 }
 
-TEST_CASE("a long cut-off solves its equations better than its factors alone") {
-    // These leave 1e-6; the dense solution with 64-bit mantissas is good to 1e-9.
+TEST_CASE("with a long cut-off the solution is more accurate than its factors alone") {
+    // The factors alone leave an error of 1e-6; the dense solution with 64-bit mantissas is
+    // accurate to 1e-9.
     const std::vector<double> weights(200, 1.0);
     const std::vector<double> right = white_noise(5, 200);
     const Eigen::Matrix<long double, Eigen::Dynamic, 1> expected =
@@ -96,9 +97,9 @@ TEST_CASE("a long cut-off solves its equations better than its factors alone") {
     }
 }
 
-TEST_CASE("a sine of the cut-off period comes out with half its height") {
+TEST_CASE("a sine of the cut-off period is smoothed to half its height") {
     const double period = GENERATE(4.0, 10.0, 60.0, 150.0);
-    const std::vector<double> series = sine(3000, period);  // the ends reach 10 periods
+    const std::vector<double> series = sine(3000, period);  // end effects reach 10 periods
     const SmoothTrend trend = smooth(series, period);
     CAPTURE(period);
     for (std::size_t i = 1400; i < 1600; ++i) {
@@ -114,7 +115,7 @@ TEST_CASE("a sine of the cut-off period comes out with half its height") {
     }
 }
 
-TEST_CASE("a straight line at a full level returns unchanged, gaps and all") {
+TEST_CASE("a straight line at a full gravity level is unchanged, even with gaps") {
     std::vector<double> line(500);
     for (std::size_t i = 0; i < line.size(); ++i)
         line[i] = 979'800.0 + 0.01 * static_cast<double>(i);
@@ -129,7 +130,7 @@ TEST_CASE("a straight line at a full level returns unchanged, gaps and all") {
     CHECK(trend.degrees_of_freedom < 20.0);
 }
 
-TEST_CASE("a gap is crossed by the cubic of least bending, and is less certain") {
+TEST_CASE("a gap is bridged by the cubic of least bending, with larger standard errors") {
     std::vector<double> series = sine(600, 400.0);
     const auto noise = white_noise(3, 600);
     for (std::size_t i = 0; i < 600; ++i) series[i] += 0.05 * noise[i];
@@ -146,7 +147,7 @@ TEST_CASE("a gap is crossed by the cubic of least bending, and is less certain")
     CHECK(trend.weights[300] == 0.0);
 }
 
-TEST_CASE("Gaussian noise is fitted as by least squares, outliers are left out of it") {
+TEST_CASE("Gaussian noise is fitted as by least squares, and outliers are left out") {
     std::vector<double> series = sine(600, 400.0);
     const auto noise = white_noise(4, 600);
     for (std::size_t i = 0; i < 600; ++i) series[i] += 0.1 * noise[i];
@@ -167,8 +168,8 @@ TEST_CASE("Gaussian noise is fitted as by least squares, outliers are left out o
     CHECK(robust.noise_level == Approx(clean.noise_level).epsilon(0.03));
 }
 
-TEST_CASE("standard errors hold as often as they say") {
-    // Records of the model with a gap, of each four points far from one another.
+TEST_CASE("the stated standard errors cover the true errors as often as they should") {
+    // Records of the model with a gap; of each record four points far from one another.
     const double penalty = penalty_of(60.0);
     std::size_t within_one = 0;
     std::size_t within_two = 0;
@@ -195,7 +196,8 @@ TEST_CASE("standard errors hold as often as they say") {
         mean_squares += share * share / static_cast<double>(kRecords);
         noise_variance += trend.noise_level * trend.noise_level / static_cast<double>(kRecords);
     }
-    // Gaussian: 0.683 and 0.954; of 4000 points their own scatter is 0.007 and 0.003 (one sigma).
+    // Gaussian: 0.683 and 0.954. With 4000 points these shares scatter by 0.007 and 0.003 (one
+    // sigma).
     const double one = static_cast<double>(within_one) / static_cast<double>(points);
     const double two = static_cast<double>(within_two) / static_cast<double>(points);
     INFO(one << " " << two << " " << mean_squares);
@@ -206,7 +208,7 @@ TEST_CASE("standard errors hold as often as they say") {
     CHECK(mean_squares == Approx(1.0).margin(0.13));  // 3 sigma of a mean of 1000 squares
 }
 
-TEST_CASE("what is left of a clean series is rounding, not outliers") {
+TEST_CASE("rounding errors in a clean series are not taken for outliers") {
     std::vector<double> series(450);
     for (std::size_t i = 0; i < 450; ++i) series[i] = 979'800.0 + 0.01 * static_cast<double>(i);
     CHECK(smooth(series, 150.0).weights == std::vector<double>(450, 1.0));
@@ -217,7 +219,7 @@ TEST_CASE("what is left of a clean series is rounding, not outliers") {
     CHECK(three.curve[1] == Approx(0.1));
 }
 
-TEST_CASE("samples up to 1e150 are smoothed as others are, larger ones refused") {
+TEST_CASE("samples up to 1e150 are smoothed like others, larger ones are refused") {
     const std::vector<double> noise = white_noise(6, 100);
     const SmoothTrend plain = smooth(noise, 10.0);
     std::vector<double> large = noise;
@@ -233,9 +235,9 @@ TEST_CASE("samples up to 1e150 are smoothed as others are, larger ones refused")
     CHECK_THROWS_AS(smooth(large, 10.0), std::invalid_argument);
 }
 
-TEST_CASE("weights that would alternate settle, and the result says when they do not") {
-    // Blocks of a tenth of the record five deviations high put many samples on the weights' flanks:
-    // by plain repetition 13 of these 400 would not settle.
+TEST_CASE("weights that would alternate converge, and the result says if they do not") {
+    // Blocks of a tenth of the record, five deviations high, put many samples on the weights'
+    // flanks. With plain iteration 13 of these 400 records would not converge.
     std::size_t unsettled = 0;
     for (std::uint64_t record = 0; record < 400; ++record) {
         const std::size_t n = 40 + record;
@@ -250,14 +252,14 @@ TEST_CASE("weights that would alternate settle, and the result says when they do
     CHECK_FALSE(smooth(three_apart, 10.0).converged);
 }
 
-TEST_CASE("a period or a number of samples that means nothing is refused") {
+TEST_CASE("an unusable period or number of samples is refused") {
     const std::vector<double> series(10, 1.0);
     for (const double period : {1.9, 5001.0, kNan}) {
         CHECK_THROWS_AS(smooth(series, period), std::invalid_argument);
     }
     CHECK_THROWS_AS(smooth(std::vector<double>{1.0, 2.0, kNan, kNan}, 5.0), std::invalid_argument);
     CHECK(smooth(std::vector<double>{1.0, kNan, 2.0, 3.0}, 5.0).curve.size() == 4);
-    // Three samples at one end of 5000: a stiff curve is lost to rounding before the other end.
+    // Three samples at one end of 5000: rounding ruins a stiff curve before the other end.
     std::vector<double> far(5000, kNan);
     for (std::size_t i = 0; i < 3; ++i) far[i] = static_cast<double>(i % 2);
     CHECK_THROWS_AS(smooth(far, 200.0), std::invalid_argument);
@@ -266,7 +268,7 @@ TEST_CASE("a period or a number of samples that means nothing is refused") {
     CHECK(smooth(far, 10.0).degrees_of_freedom > 2.0);
     far.resize(3);
     CHECK(smooth(far, 5000.0).degrees_of_freedom == Approx(2.0).epsilon(0.001));
-    // Three samples far apart: the curve bends through them all and leaves less than 1e-6.
+    // Three samples far apart: the curve passes through all of them with residuals below 1e-6.
     std::vector<double> apart(161, kNan);
     for (const std::size_t i : {0U, 80U, 160U}) apart[i] = static_cast<double>(i % 3);
     CHECK_THROWS_WITH(smooth(apart, 2.0), ContainsSubstring("passes through all its samples"));

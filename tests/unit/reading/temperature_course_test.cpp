@@ -11,7 +11,7 @@ namespace {
 const UtcTime kStart = parse_rfc3339("2020-01-01T00:00:30Z").value();
 const record::ChannelScale kScale{"BK1", 0.5, 40.0, "degC"};  // gain, offset
 
-/// Two records of a sensor faster than its nominal 1 Hz, each with its own stamp.
+/// Returns two records of a sensor faster than its nominal 1 Hz, each with its own time stamp.
 record::Segment segment(UtcTime start, std::int32_t first, std::int32_t second) {
     record::Segment result;
     result.rate_hz = 1.0;
@@ -23,7 +23,7 @@ record::Segment segment(UtcTime start, std::int32_t first, std::int32_t second) 
 
 }  // namespace
 
-TEST_CASE("the course of temperature is means of whole minutes, without those that lack",
+TEST_CASE("the temperature course has means of whole minutes, without minutes that have no samples",
           "[survey][temperature]") {
     const auto course =
         temperature_course({segment(kStart, 2, 6), segment(kStart + 10min, 8, 8)}, kScale);

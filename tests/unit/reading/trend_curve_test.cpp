@@ -22,7 +22,7 @@ Component component(std::vector<double> values, std::size_t extrema) {
 
 }  // namespace
 
-TEST_CASE("the paper's curve is the residue and the slowest mode that is not zero") {
+TEST_CASE("the paper's curve is the residue plus the slowest mode that is not zero") {
     EemdResult result;
     result.modes = {component({1, 1}, 90), component({2, 2}, 5), component({4, 4}, 8),
                     component({0, 0}, 0)};
@@ -36,7 +36,7 @@ TEST_CASE("without modes the paper's curve is the residue") {
     CHECK(paper_curve(result) == std::vector<double>{3, 4});
 }
 
-TEST_CASE("the slow curve is what the fewest modes leave with at most seven extrema") {
+TEST_CASE("the slow curve is the residue after the fewest modes that leave at most seven extrema") {
     std::vector<double> signal(450);
     fill_white_noise(3, 0, signal);
     for (std::size_t i = 0; i < 450; ++i) signal[i] += 0.02 * static_cast<double>(i);
@@ -56,9 +56,11 @@ TEST_CASE("the slow curve is what the fewest modes leave with at most seven extr
 }
 
 TEST_CASE(
-    "on records of a quarter of an hour the slow curve beats the paper's, and the smoother both") {
-    // Why TrendCurve::slow and a cut-off of 300 s are the defaults: 16 records of 2 s samples, drift and a wave of about 15
-    // minutes, white noise half as large; root mean square error over all of them.
+    "on records of 15 minutes the slow curve is better than the paper's, and the smoother better "
+    "than both") {
+    // This is why TrendCurve::slow and a cut-off of 300 s are the defaults: root mean square errors
+    // over 16 records of 2 s samples with drift, a wave of about 15 minutes, and white noise half
+    // as large.
     double squares[3] = {0.0, 0.0, 0.0};
     for (std::uint64_t record = 0; record < 16; ++record) {
         std::vector<double> noise(450);
@@ -85,7 +87,7 @@ TEST_CASE(
     }
     INFO("paper " << std::sqrt(squares[0]) << ", slow " << std::sqrt(squares[1]) << ", smoother "
                   << std::sqrt(squares[2]));
-    // 1.1 times what decimation.md states.
+    // The limits are 1.1 times the figures of decimation.md.
     CHECK(squares[1] < squares[0]);
     CHECK(std::sqrt(squares[1]) < 1.1 * 0.091);
     CHECK(squares[2] < squares[1]);

@@ -17,7 +17,7 @@ CorrectedRow row(const std::string& site, int occupation, const std::string& tim
     return row;
 }
 
-/// Two stays at B two hours apart, the second of two set-ups, and one at S.
+/// Returns two stays at B two hours apart, the second with two set-ups, and one stay at S.
 SurveyCorrection survey() {
     SurveyCorrection result;
     result.rows = {row("B", 1, "2020-05-01T00:00:00Z", 981700.0),
@@ -49,14 +49,15 @@ double value(MilliGal quantity) { return quantity.value(); }
 
 }  // namespace
 
-TEST_CASE("what a tilt explains is no drift", "[report][closure]") {
+TEST_CASE("a difference explained by tilt does not count as drift", "[report][closure]") {
     SurveyCorrection result = survey();
     const double before = close_stations(result)[0].drift_mgal_per_h.value();
     result.rows[2].tilt_correction = MilliGal(3.0);
     CHECK(close_stations(result)[0].drift_mgal_per_h.value() == Approx(before + 1.5));
 }
 
-TEST_CASE("every pair of readings of a station closes step by step", "[report][closure]") {
+TEST_CASE("each pair of readings of a station has its difference after each correction",
+          "[report][closure]") {
     const std::vector<Closure> closures = close_stations(survey());
     REQUIRE(closures.size() == 3);
     const Closure& pair = closures[0];
@@ -80,7 +81,7 @@ TEST_CASE("set-ups of one stay imply no drift", "[report][closure]") {
     CHECK_FALSE(pair.drift_mgal_per_h.has_value());
 }
 
-TEST_CASE("the RMS of the closures is that of their differences", "[report][closure]") {
+TEST_CASE("the RMS of the closures is the RMS of their differences", "[report][closure]") {
     auto closures = close_stations(survey());
     closures.pop_back();
     closures[1].before = MilliGal(8.0);

@@ -11,7 +11,7 @@ using namespace a351::corrector;
 
 namespace {
 
-/// The made-up day with one station's readings off.
+/// Returns the made-up day without the reference of a station, whose value is off by `off_mgal`.
 SurveyCorrection day_with(const std::string& site, double off_mgal) {
     auto rows = made_up::day();
     for (SurveyRow& row : rows)
@@ -28,15 +28,16 @@ SurveyCorrection day_with(const std::string& site, double off_mgal) {
 
 }  // namespace
 
-TEST_CASE("the scatter from day to day stands beside what u lets expect", "[report][joint]") {
+TEST_CASE("the scatter from day to day is given with the value expected from u",
+          "[report][joint]") {
     const auto scatter = scatter_of_days({day_with("S4", 0.0), day_with("S4", 4.0)}).value();
     CHECK(scatter.dof == 8);                                  // eight stations, twice
-    CHECK(scatter.rms_mgal == Approx(std::sqrt(8.0 / 8.0)));  // -2 and 2 of one of them
+    CHECK(scatter.rms_mgal == Approx(std::sqrt(8.0 / 8.0)));  // -2 and 2 at one of them
     CHECK(scatter.expected_mgal.value() == Approx(1.5));
     CHECK_FALSE(scatter_of_days({day_with("S4", 0.0)}).has_value());
 }
 
-TEST_CASE("the joint page has every day, what it differs by, and why one is missing",
+TEST_CASE("the joint page lists every day, the differences, and the reason for a missing day",
           "[report][joint]") {
     const SurveyCorrection first = day_with("S4", 0.0);
     const SurveyCorrection second = day_with("S4", 4.0);

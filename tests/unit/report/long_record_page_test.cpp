@@ -11,7 +11,7 @@ using namespace a351::corrector;
 
 namespace {
 
-/// A night in which the acceleration is the rate of change of a cycle, with noise.
+/// Returns a night in which the acceleration is the rate of change of a cycle, with noise.
 RecordResult night(bool is_raw) {
     std::mt19937_64 random(1);
     std::normal_distribution<double> normal;
@@ -45,7 +45,8 @@ TEST_CASE("the page of a long record is well-formed and has the publication's fi
         const std::string& html = page.files.front().second;
         pugi::xml_document document;
         CHECK(document.load_string(html.c_str()));
-        // Raw and at 20 s, trend, modes, their scatter and correlation, all samples, response.
+        // Figures: raw and at 20 s, trend, modes, their scatter and correlation, all samples,
+        // response.
         CHECK(document.select_nodes("//*[local-name()='svg']").size() == (is_raw ? 8U : 7U));
         CHECK_THAT(html, ContainsSubstring("rate of change") && ContainsSubstring("by spectrum") &&
                              ContainsSubstring("&lt;B&gt; is left out") &&

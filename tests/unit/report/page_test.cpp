@@ -57,7 +57,7 @@ void collect_ids(const pugi::xml_node& node, std::multiset<std::string>& ids) {
 
 }  // namespace
 
-TEST_CASE("the report is well-formed and stands alone, whatever names it is given",
+TEST_CASE("the report is well-formed and self-contained, whatever names it contains",
           "[report][page]") {
     const Report made = report();
     const std::string html = file(made, "report.html");
@@ -84,8 +84,10 @@ TEST_CASE("the same survey gives the same report", "[report][page]") {
     CHECK(report().files == report().files);
 }
 
-TEST_CASE("without gnuplot text, scripts and data are there and the report says what is not",
-          "[report][page]") {
+TEST_CASE(
+    "without gnuplot the report has its text, scripts and data, and says that the figures are "
+    "missing",
+    "[report][page]") {
     const test::TemporaryDirectory folder;
     const PathVariable path(folder.path());
     const Report made = report();
@@ -100,7 +102,7 @@ TEST_CASE("without gnuplot text, scripts and data are there and the report says 
     for (const auto& [name, content] : made.files) CHECK_FALSE(name.ends_with(".svg"));
 }
 
-TEST_CASE("a gnuplot that fails is told once", "[report][page]") {
+TEST_CASE("a failing gnuplot is reported once", "[report][page]") {
     const test::TemporaryDirectory folder;
     write_gnuplot(folder, "echo 'no <terminal>' >&2; exit 2");
     const PathVariable path(folder.path());
@@ -113,7 +115,8 @@ TEST_CASE("a gnuplot that fails is told once", "[report][page]") {
     CHECK_THAT(file(made, "report.html"), ContainsSubstring("no &lt;terminal&gt;"));
 }
 
-TEST_CASE("a table is as wide as its alignment and escapes its cells", "[report][page]") {
+TEST_CASE("an HTML table has one column for each alignment letter and escapes its cells",
+          "[report][page]") {
     CHECK(html_table("lr", {"a", "b"}, {{"<1>", "2"}}) ==
           "<div class=\"wide\"><table>\n<thead><tr><th>a</th><th class=\"r\">b</th></tr>\n"
           "</thead>\n<tbody>\n<tr><td>&lt;1&gt;</td><td class=\"r\">2</td></tr>\n"

@@ -9,7 +9,7 @@
 
 namespace a351 {
 
-/// Puts another PATH into the environment while it lives.
+/// Another PATH in the environment during the lifetime of the object.
 class PathVariable {
 public:
     explicit PathVariable(const std::filesystem::path& value) : before_(::getenv("PATH")) {

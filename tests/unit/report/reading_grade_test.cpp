@@ -9,7 +9,7 @@ using namespace a351::corrector;
 
 namespace {
 
-/// Readings of stations of their own, a day apart, without anything to say about them.
+/// Returns readings of different stations, a day apart, exactly at the limits of trust.
 SurveyCorrection quiet(std::size_t count) {
     SurveyCorrection result;
     result.score.s_mgal = 2.0;
@@ -47,7 +47,8 @@ TEST_CASE("a reading at its limits is trusted", "[report][grade]") {
     CHECK(has_trusted_reading(result, grade_readings(result), "B"));
 }
 
-TEST_CASE("a temperature that moves means repeat, with a rate term care", "[report][grade]") {
+TEST_CASE("a moving temperature is graded repeat, or care if the model has a rate term",
+          "[report][grade]") {
     SurveyCorrection result = quiet(2);
     result.rows[0].row.rate_degc_per_h = -0.21;
     CHECK(first_grade(result) == Grade::repeat);
@@ -56,10 +57,12 @@ TEST_CASE("a temperature that moves means repeat, with a rate term care", "[repo
           "temperature not steady: rate -0.210 degC/h, which the model does not correct|");
     result.rows[0].rate_correction = MilliGal(5.25);
     CHECK(first_grade(result) == Grade::care);
-    CHECK_THAT(first_reasons(result), ContainsSubstring("rests on a rate correction of 5.2 mGal"));
+    CHECK_THAT(first_reasons(result),
+               ContainsSubstring("depends on a rate correction of 5.2 mGal"));
 }
 
-TEST_CASE("a temperature that goes one way counts from its range", "[report][grade]") {
+TEST_CASE("a temperature that moves one way is graded repeat above the limit of its range",
+          "[report][grade]") {
     SurveyCorrection result = quiet(1);
     RecordSummary& record = result.rows[0].row.record.emplace();
     record.temperature_range = DegC(0.051);
@@ -71,7 +74,8 @@ TEST_CASE("a temperature that goes one way counts from its range", "[report][gra
     CHECK(first_grade(result) == Grade::repeat);
 }
 
-TEST_CASE("the whole-day model is graded by what it says without the station", "[report][grade]") {
+TEST_CASE("the whole-day model is graded by its prediction without the station",
+          "[report][grade]") {
     SurveyCorrection result = quiet(1);
     result.model = "day";
     result.rows[0].residual = MilliGal(-9.0);
@@ -84,7 +88,7 @@ TEST_CASE("the whole-day model is graded by what it says without the station", "
         "off its reference by -6.2 mGal when its station is left out, 3.1 times its uncertainty|");
 }
 
-TEST_CASE("set-ups of one station count against the placement of the whole-day model",
+TEST_CASE("set-ups of one station are compared by the placement scatter of the whole-day model",
           "[report][grade]") {
     SurveyCorrection result = quiet(2);
     result.model = "day";
@@ -96,10 +100,12 @@ TEST_CASE("set-ups of one station count against the placement of the whole-day m
     CHECK(first_grade(result) == Grade::trust);
     result.rows[1].corrected = MilliGal(4.3);
     CHECK(first_grade(result) == Grade::care);
-    CHECK(first_reasons(result) == "4.3 mGal from A (1b), 2.0 times what placement lets expect|");
+    CHECK(first_reasons(result) ==
+          "differs by 4.3 mGal from A (1b), 2.0 times the value expected from placement|");
 }
 
-TEST_CASE("what befell the trend is no doubt of the whole-day model", "[report][grade]") {
+TEST_CASE("problems of the trend do not lower the grade of the whole-day model",
+          "[report][grade]") {
     SurveyCorrection result = quiet(1);
     result.rows[0].row.notes = {"fallback", "disturbed_end"};
     result.rows[0].row.record.emplace().smoother_mean = MilliGal(3.0);
@@ -112,7 +118,8 @@ TEST_CASE("what befell the trend is no doubt of the whole-day model", "[report][
     CHECK(first_reasons(result) == "a knock: the samples around it were left out|");
 }
 
-TEST_CASE("an excluded reading is not for use, an amended one is", "[report][grade]") {
+TEST_CASE("an excluded reading is graded repeat, an amended one can be trusted",
+          "[report][grade]") {
     SurveyCorrection result = quiet(1);
     result.rows[0].row.notes = {"excluded"};
     CHECK(first_grade(result) == Grade::repeat);
@@ -120,7 +127,7 @@ TEST_CASE("an excluded reading is not for use, an amended one is", "[report][gra
     CHECK(first_grade(result) == Grade::trust);
 }
 
-TEST_CASE("a residual of more than two u means care, of three repeat", "[report][grade]") {
+TEST_CASE("a residual above two u is graded care, above three u repeat", "[report][grade]") {
     SurveyCorrection result = quiet(1);
     result.rows[0].residual = MilliGal(-4.1);
     CHECK(first_grade(result) == Grade::care);
@@ -131,7 +138,7 @@ TEST_CASE("a residual of more than two u means care, of three repeat", "[report]
     CHECK(first_grade(result) == Grade::trust);
 }
 
-TEST_CASE("trends that disagree mean care", "[report][grade]") {
+TEST_CASE("a reading whose trends disagree is graded care", "[report][grade]") {
     SurveyCorrection result = quiet(1);
     result.rows[0].row.record.emplace().smoother_mean = MilliGal(-0.51);
     CHECK(first_grade(result) == Grade::care);
@@ -140,7 +147,8 @@ TEST_CASE("trends that disagree mean care", "[report][grade]") {
     CHECK(first_grade(result) == Grade::trust);
 }
 
-TEST_CASE("a mark of the operator means repeat, in the fit care", "[report][grade]") {
+TEST_CASE("a reading flagged by the operator is graded repeat, or care if it is in the fit",
+          "[report][grade]") {
     SurveyCorrection result = quiet(1);
     result.rows[0].row.is_flagged = true;
     CHECK(first_grade(result) == Grade::care);
@@ -148,11 +156,11 @@ TEST_CASE("a mark of the operator means repeat, in the fit care", "[report][grad
     CHECK(first_grade(result) == Grade::repeat);
 }
 
-TEST_CASE("notes count as what they say, unknown ones as care", "[report][grade]") {
+TEST_CASE("known notes are graded by their meaning, unknown notes as care", "[report][grade]") {
     SurveyCorrection result = quiet(1);
     result.rows[0].row.notes = {"disturbed_end"};
     CHECK(first_grade(result) == Grade::trust);
-    CHECK(first_reasons(result) == "averaged up to a disturbance at its end|");
+    CHECK(first_reasons(result) == "averaged only up to a disturbance at its end|");
     result.rows[0].row.notes = {"fallback"};
     CHECK(first_grade(result) == Grade::care);
     result.rows[0].row.notes = {"seen from afar"};
@@ -160,7 +168,7 @@ TEST_CASE("notes count as what they say, unknown ones as care", "[report][grade]
     CHECK(first_reasons(result) == "seen from afar|");
 }
 
-TEST_CASE("readings of one station that disagree are both doubted", "[report][grade]") {
+TEST_CASE("readings of one station that disagree are both graded care", "[report][grade]") {
     SurveyCorrection result = quiet(2);
     result.rows[1].row.site = "A";
     result.rows[1].row.occupation = 2;
@@ -169,14 +177,15 @@ TEST_CASE("readings of one station that disagree are both doubted", "[report][gr
     CHECK(first_grade(result) == Grade::trust);
     result.rows[1].corrected = MilliGal(5.7);
     CHECK(first_grade(result) == Grade::care);
-    CHECK(first_reasons(result) == "5.7 mGal from A (2), 2.0 times what s lets expect|");
+    CHECK(first_reasons(result) ==
+          "differs by 5.7 mGal from A (2), 2.0 times the value expected from s|");
     CHECK(grade_readings(result)[1].reasons.front() ==
-          "5.7 mGal from A (1), 2.0 times what s lets expect");
-    result.rows[1].row.rate_degc_per_h = 0.3;  // to be repeated, so no witness
+          "differs by 5.7 mGal from A (1), 2.0 times the value expected from s");
+    result.rows[1].row.rate_degc_per_h = 0.3;  // it must be repeated and is not used for comparison
     CHECK(first_grade(result) == Grade::trust);
 }
 
-TEST_CASE("set-ups of one stay have letters", "[report][grade]") {
+TEST_CASE("set-ups of one stay are distinguished by letters", "[report][grade]") {
     SurveyCorrection result = quiet(3);
     result.rows[2].row.site = "A";
     CHECK(reading_name(result.rows, 0) == "A (1a)");

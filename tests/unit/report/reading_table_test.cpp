@@ -12,7 +12,7 @@ using namespace a351::corrector;
 
 namespace {
 
-/// Cells by the title of their column, line by line.
+/// Returns the cells of each line by the title of their column.
 std::vector<std::map<std::string, std::string>> lines_of(const std::string& html) {
     pugi::xml_document document;
     REQUIRE(document.load_string(("<body>" + html + "</body>").c_str()));
@@ -49,7 +49,7 @@ SurveyCorrection corrected_by_day(const DayRecord& day) {
 
 }  // namespace
 
-TEST_CASE("the whole-day model's table has every correction it makes", "[report][readings]") {
+TEST_CASE("the table of the whole-day model shows all its corrections", "[report][readings]") {
     const MadeUpDay made{.placement_mgal = 1.2, .white_mgal = 0.2};
     const auto lines = lines_of(occupations_html(corrected_by_day(made.record())));
     REQUIRE(lines.size() == MadeUpDay::kSetUps);
@@ -65,7 +65,7 @@ TEST_CASE("the whole-day model's table has every correction it makes", "[report]
     }
 }
 
-TEST_CASE("the whole-day model's table says what it averages", "[report][readings]") {
+TEST_CASE("the table of the whole-day model shows which time it averages", "[report][readings]") {
     const MadeUpDay made{.placement_mgal = 1.2, .white_mgal = 0.2};
     DayRecord day = made.record();
     std::erase_if(day.bins, [](const DayBin& bin) {
@@ -79,7 +79,7 @@ TEST_CASE("the whole-day model's table says what it averages", "[report][reading
     CHECK(lines[2].at("s") == "500");
 }
 
-TEST_CASE("a table of averages has no columns of records", "[report][readings]") {
+TEST_CASE("a table of given averages has no columns of records", "[report][readings]") {
     SurveyOptions options;
     options.model = "t";
     const auto lines = lines_of(occupations_html(correct_survey(made_up::day(), options)));
@@ -88,7 +88,7 @@ TEST_CASE("a table of averages has no columns of records", "[report][readings]")
         CHECK_FALSE(lines[0].contains(title));
 }
 
-TEST_CASE("an occupation without a value stands in its place", "[report][readings]") {
+TEST_CASE("an occupation without a value is listed in time order", "[report][readings]") {
     SurveyOptions options;
     options.model = "t";
     SurveyCorrection result = correct_survey(made_up::day(), options);

@@ -15,7 +15,7 @@ SurveyCorrection corrected(const std::vector<SurveyRow>& rows) {
     return correct_survey(rows, options);
 }
 
-/// All readings good, but with some scatter.
+/// Returns good readings with some scatter.
 std::vector<SurveyRow> scattered_day() {
     auto rows = made_up::day();
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -26,7 +26,7 @@ std::vector<SurveyRow> scattered_day() {
 
 }  // namespace
 
-TEST_CASE("readings are sorted by what to do about them", "[report][summary]") {
+TEST_CASE("readings are grouped by what to do about them", "[report][summary]") {
     auto rows = scattered_day();
     rows[1].is_flagged = true;  // S1, its only reading
     rows[2].is_flagged = true;  // S2, read again later
@@ -51,21 +51,21 @@ TEST_CASE("readings are sorted by what to do about them", "[report][summary]") {
     CHECK(list[4] == "Trust: B (1), S3 (1), B (2), S5 (1), S6 (1), S7 (1), S2 (2), S3 (2), B (3).");
 }
 
-TEST_CASE("that nothing is to be repeated is said", "[report][summary]") {
+TEST_CASE("the summary says so if nothing must be repeated", "[report][summary]") {
     const SurveyCorrection result = corrected(scattered_day());
     const std::vector<ReadingGrade> all_good(result.rows.size());
     const std::vector<std::string> list = actions(result, all_good);
     REQUIRE(list.size() == 2);
-    CHECK(list[0] == "Nothing is to be repeated.");
+    CHECK(list[0] == "No reading needs to be repeated.");
     CHECK_THAT(list[1], StartsWith("Trust: "));
 }
 
-TEST_CASE("the limits name what nothing checks", "[report][summary]") {
+TEST_CASE("the limits name the readings and stations that nothing checks", "[report][summary]") {
     auto rows = scattered_day();
     rows[7].reference.reset();  // S6
     const std::vector<std::string> limits = limits_of(corrected(rows));
     REQUIRE(limits.size() == 2);
-    CHECK_THAT(limits[0], StartsWith("5 of 8 stations rest on one reading"));
+    CHECK_THAT(limits[0], StartsWith("5 of 8 stations have only one reading"));
     CHECK_THAT(limits[1], EndsWith("nothing checks them: S6."));
     rows[4].is_flagged = true;  // the second reading of the base
     CHECK_THAT(limits_of(corrected(rows)).front(),
@@ -80,16 +80,17 @@ TEST_CASE("the scatter is given with its own standard error", "[report][summary]
     score.rms_mgal = 2.0084;
     score.loso_mgal = 2.276;
     CHECK(standard_error_of_rms(score).value() == Approx(2.0084 / std::sqrt(28.0)));
-    CHECK_THAT(honest_sentence(score),
+    CHECK_THAT(scatter_sentence(score),
                StartsWith("n = 16: the scatter of 2.01 mGal (in sample) has itself a "
                           "standard error of about 0.38 mGal") &&
                    EndsWith("2.28 mGal (cross-validated, leave-one-station-out)."));
     score.dof = 0;
     CHECK_FALSE(standard_error_of_rms(score).has_value());
-    CHECK_THAT(honest_sentence(score), ContainsSubstring("say nothing about accuracy"));
+    CHECK_THAT(scatter_sentence(score), ContainsSubstring("say nothing about accuracy"));
 }
 
-TEST_CASE("the summary names the kind of every figure of accuracy", "[report][summary]") {
+TEST_CASE("the summary says of every accuracy figure whether it is in sample or cross-validated",
+          "[report][summary]") {
     const std::string html = summary_html(corrected(scattered_day()), {"a"}, {"figures <missing>"});
     CHECK_THAT(html, ContainsSubstring("<td>in sample</td>") &&
                          ContainsSubstring("<td>cross-validated (leave-one-out)</td>") &&
@@ -98,7 +99,8 @@ TEST_CASE("the summary names the kind of every figure of accuracy", "[report][su
                          ContainsSubstring("figures &lt;missing&gt;"));
 }
 
-TEST_CASE("a network's stations are no coefficients of its readings", "[report][summary]") {
+TEST_CASE("the stations of a network count as unknowns, not as coefficients of its readings",
+          "[report][summary]") {
     SurveyOptions options;
     options.model = "network";
     const SurveyCorrection result = correct_survey(scattered_day(), options);
@@ -106,14 +108,14 @@ TEST_CASE("a network's stations are no coefficients of its readings", "[report][
     CHECK(result.score.dof == 9);
     CHECK(standard_error_of_rms(result.score).value() ==
           Approx(*result.score.rms_mgal / std::sqrt(18.0)));
-    CHECK_THAT(honest_sentence(result.score), ContainsSubstring("with 9 degrees of freedom"));
+    CHECK_THAT(scatter_sentence(result.score), ContainsSubstring("with 9 degrees of freedom"));
     CHECK_THAT(
         summary_html(result, {}, {}),
         ContainsSubstring("12 readings in the fit, 11 unknowns, of which 8 stations (8 held), "
                           "9 degrees of freedom."));
 }
 
-TEST_CASE("a prior counts as a degree of freedom", "[report][summary]") {
+TEST_CASE("a prior adds a degree of freedom", "[report][summary]") {
     SurveyOptions options;
     options.model = "t-rate-drift";
     set_prior(options.priors, "test", "rate_mgal_per_degc_per_h", {10.0, 6.0});
@@ -121,8 +123,9 @@ TEST_CASE("a prior counts as a degree of freedom", "[report][summary]") {
     CHECK(result.score.dof == 12 + 1 - 4);
 }
 
-TEST_CASE("the whole-day model's error is that of its prediction without the station",
-          "[report][summary]") {
+TEST_CASE(
+    "the summary shows the whole-day model's error of predicting a station without its readings",
+    "[report][summary]") {
     SurveyCorrection result = corrected(scattered_day());
     CorrectedRow& row = result.rows[0];
     row.row.notes = {"gap"};

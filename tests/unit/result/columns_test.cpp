@@ -34,7 +34,7 @@ std::string header(const SurveyCorrection& result) {
 
 }  // namespace
 
-TEST_CASE("occupations have the columns of what is known of them", "[result][columns]") {
+TEST_CASE("the table of occupations has columns only for what is known", "[result][columns]") {
     SurveyCorrection result = one_row();
     CorrectedRow& row = result.rows.front();
     CHECK(header(result) == kHead + kTail);
@@ -50,7 +50,7 @@ TEST_CASE("occupations have the columns of what is known of them", "[result][col
 }
 
 TEST_CASE(
-    "a cell is a number of six decimals in CSV, in full in JSON, and empty or null without a value",
+    "a cell has six decimals in CSV and all digits in JSON, and is empty or null without a value",
     "[result][columns]") {
     CHECK(csv_text(cell(1.0 / 3.0)) == "0.333333");
     CHECK(json_value(cell(1.0 / 3.0)) == 1.0 / 3.0);
@@ -63,7 +63,7 @@ TEST_CASE(
     CHECK(csv_text(cell(UtcTime{})) == "1970-01-01T00:00:00.000Z");
 }
 
-TEST_CASE("the publication's Error (1) is there with a reference only", "[result][columns]") {
+TEST_CASE("the publication's Error (1) is given only with a reference", "[result][columns]") {
     SurveyCorrection result = one_row();
     const auto error1 = [&] {
         return json_object(occupation_columns(result), result.rows.front())["residual1_mgal"];

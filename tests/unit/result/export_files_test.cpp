@@ -12,7 +12,7 @@ const std::vector<text::Site> kSites{
     {"A/1", Degrees(282.1414), Degrees(40.7914), Metres(370.0), MilliGal(979900.0)},
     {"B", Degrees(140.1), Degrees(36.1), Metres(20.0), std::nullopt, false}};
 
-/// Two occupations with round numbers, the second flagged.
+/// Returns two occupations with round numbers, the second flagged.
 SurveyCorrection small_survey() {
     SurveyCorrection result;
     CorrectedRow row;
@@ -52,8 +52,9 @@ SurveyCorrection small_survey() {
 
 }  // namespace
 
-TEST_CASE("stations are points with altitude, east positive within half a turn",
-          "[survey][export]") {
+TEST_CASE(
+    "stations are exported as points with altitude and a longitude from -180 to 180 degrees east",
+    "[survey][export]") {
     const std::string text = stations_geojson(small_survey(), kSites);
     CHECK(text ==
           R"({"type": "FeatureCollection", "features": [
@@ -67,7 +68,7 @@ TEST_CASE("stations are points with altitude, east positive within half a turn",
     CHECK(nlohmann::json::parse(text)["features"].size() == 2);
 }
 
-TEST_CASE("GSadjust gets the value before the drift step, the tide's correction to be added",
+TEST_CASE("GSadjust gets the value before the drift step, and the tide correction to be added",
           "[survey][export]") {
     const std::string csv = gsadjust_csv(small_survey(), kSites);
     CHECK(csv ==
@@ -84,11 +85,12 @@ TEST_CASE("GSadjust gets the value before the drift step, the tide's correction 
           "09:08:07,0,0,05/01/2020\n");
 }
 
-TEST_CASE("GSadjust gets readings without tilt, but with flicker and drift", "[survey][export]") {
+TEST_CASE("GSadjust gets readings corrected for tilt, but not for flicker and drift",
+          "[survey][export]") {
     SurveyCorrection result = small_survey();
     result.rows.front().tilt_correction = MilliGal(2.0);
     result.rows.front().corrected =
-        MilliGal(979910.0);  // what the model says of flicker is its own
+        MilliGal(979910.0);  // the flicker correction of the model is not exported
     CHECK_THAT(gsadjust_csv(result, kSites), ContainsSubstring(",979900.250000,1.500000,") &&
                                                  ContainsSubstring(",979903.250000,1.500000,"));
 }

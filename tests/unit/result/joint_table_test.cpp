@@ -22,7 +22,7 @@ SurveyCorrection day_with(double gravity_mgal, std::optional<double> u_mgal) {
 
 }  // namespace
 
-TEST_CASE("days are joined by their weights", "[survey][joint]") {
+TEST_CASE("days are combined by their weights", "[survey][joint]") {
     const auto joint = join_days({day_with(979901.0, 1.0), day_with(979904.0, 2.0)});
     REQUIRE(joint.size() == 1);
     CHECK(joint[0].gravity.value() == Approx(979901.6).epsilon(1e-12));
@@ -32,7 +32,7 @@ TEST_CASE("days are joined by their weights", "[survey][joint]") {
     CHECK(joint[0].row_count == 4);
 }
 
-TEST_CASE("a day without uncertainty makes the mean a plain one", "[survey][joint]") {
+TEST_CASE("if a day has no uncertainty the plain mean of the days is used", "[survey][joint]") {
     const auto joint = join_days({day_with(979901.0, 1.0), day_with(979904.0, std::nullopt)});
     CHECK(joint[0].gravity.value() == Approx(979902.5).epsilon(1e-12));
     CHECK_FALSE(joint[0].u_gravity.has_value());

@@ -47,7 +47,7 @@ TEST_CASE("numbers are written in fixed form, never as minus zero", "[survey][re
     CHECK(text::fixed(1e6, 0) == "1000000");
 }
 
-TEST_CASE("the tables have the promised columns and one line per item", "[survey][result]") {
+TEST_CASE("the tables have the documented columns and one line per item", "[survey][result]") {
     const SurveyCorrection result = corrected("t-rate");
     const auto occupations = text::CsvTable::parse(occupations_csv(result), "occupations.csv");
     CHECK(occupations_csv(result).starts_with(
@@ -79,7 +79,7 @@ TEST_CASE("the tables have the promised columns and one line per item", "[survey
     }
 }
 
-TEST_CASE("the text says of every root mean square whether it is in sample", "[survey][result]") {
+TEST_CASE("the text says for every RMS whether it is in sample", "[survey][result]") {
     for (const std::string model : {"auto", "paper", "t"}) {
         const std::string text = survey_text(corrected(model));
         for (std::size_t at = text.find("RMS"); at != std::string::npos;
@@ -117,7 +117,7 @@ TEST_CASE("the JSON holds settings, inputs, both RMS of the paper and every row"
     CHECK(json["models"].size() == 10);
 }
 
-TEST_CASE("the same rows give the same bytes", "[survey][result]") {
+TEST_CASE("the same rows give result files with the same bytes", "[survey][result]") {
     const auto write = [] { return result_files(corrected("auto"), {{"model", "auto"}}, {}); };
     CHECK(write() == write());
 }
@@ -129,7 +129,7 @@ TEST_CASE("files are written together or not at all", "[survey][result]") {
     CHECK(text::read_text_file(out / "x.csv") == "1");
     CHECK(file_count(out) == 2);
 
-    SECTION("a name may have a folder") {
+    SECTION("a name may include a folder") {
         text::write_together(out, {{"x.csv", "3"}, {"figures/z.dat", "4"}});
         CHECK(text::read_text_file(out / "figures" / "z.dat") == "4");
         CHECK(text::read_text_file(out / "x.csv") == "3");

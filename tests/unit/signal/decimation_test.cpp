@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Gain at `frequency`, a fraction of the input rate.
+/// Returns the gain at `frequency`, a fraction of the input rate.
 double gain(const DecimationFilter& filter, double frequency) {
     double sum = 0.0;
     const double half = static_cast<double>(filter.half_width());
@@ -27,7 +27,7 @@ double decibel(double ratio) { return 20.0 * std::log10(ratio); }
 
 }  // namespace
 
-TEST_CASE("a constant returns unchanged wherever the output is valid") {
+TEST_CASE("a constant is unchanged wherever the output is valid") {
     for (const int factor : {2, 5, 10, 25}) {
         const auto output =
             decimate(std::vector<double>(2000, 980'665.25), design_decimation(factor));
@@ -41,7 +41,7 @@ TEST_CASE("a constant returns unchanged wherever the output is valid") {
     }
 }
 
-TEST_CASE("a ramp comes back as the ramp at the times of the outputs: nothing is delayed") {
+TEST_CASE("a ramp is not delayed by decimation") {
     std::vector<double> ramp(5000);
     for (std::size_t i = 0; i < ramp.size(); ++i) ramp[i] = 0.25 * static_cast<double>(i) - 3.0;
     const UtcTime start{std::chrono::seconds(1'500'000'000)};
@@ -58,7 +58,7 @@ TEST_CASE("a ramp comes back as the ramp at the times of the outputs: nothing is
     CHECK_FALSE(std::isnan(output.values()[25]));
 }
 
-TEST_CASE("a series run backwards decimates to the same values backwards, bit for bit") {
+TEST_CASE("a series reversed in time decimates to the reversed values, bit for bit") {
     std::vector<double> forward(1001);
     for (std::size_t i = 0; i < forward.size(); ++i) {
         forward[i] = std::sin(0.01 * static_cast<double>(i * i % 977));
@@ -71,7 +71,8 @@ TEST_CASE("a series run backwards decimates to the same values backwards, bit fo
 }
 
 TEST_CASE("the filter of factor ten has the gains of its design") {
-    // A 83-tap Hamming-windowed sinc of cut-off 0.05, from any filter design program, 3 decimals.
+    // An 83-tap Hamming-windowed sinc with cut-off 0.05, to 3 decimals; any filter design program
+    // gives these values.
     const DecimationFilter filter = design_decimation(10);
     CHECK(filter.taps.size() == 83);
     CHECK(decibel(gain(filter, 0.01)) == Approx(0.03).margin(0.005));
@@ -88,7 +89,7 @@ TEST_CASE("the filter of factor ten has the gains of its design") {
     CHECK(noise_power == Approx(0.0909).margin(0.00005));
 }
 
-TEST_CASE("a tone comes out with the filter's gain and its own phase") {
+TEST_CASE("a tone gets the filter's gain and keeps its phase") {
     const DecimationFilter filter = design_decimation(10);
     for (const double frequency : {0.003, 0.02, 0.04, 0.045}) {
         std::vector<double> tone(4000);
@@ -111,7 +112,7 @@ TEST_CASE("twenty minutes at 50 Hz give 600 samples of which number 5 to 595 are
     }
 }
 
-TEST_CASE("one missing sample costs the outputs that touch it and no others") {
+TEST_CASE("one missing sample invalidates only the outputs whose filter includes it") {
     const std::size_t gap = GENERATE(200U, 201U, 205U, 241U, 999U);
     std::vector<double> input(1000, 2.0);
     input[gap] = kNan;
@@ -130,7 +131,9 @@ TEST_CASE("an infinite sample counts as missing") {
     CHECK(std::isnan(decimate(input, design_decimation(10))[10]));
 }
 
-TEST_CASE("every length of input gives one output per started block, all missing if too short") {
+TEST_CASE(
+    "each started block of input gives one output, and all outputs are missing if the input is too "
+    "short") {
     const DecimationFilter filter = design_decimation(10);
     for (std::size_t n = 0; n <= 90; ++n) {
         const auto output = decimate(std::vector<double>(n, 1.0), filter);
@@ -141,7 +144,7 @@ TEST_CASE("every length of input gives one output per started block, all missing
     }
 }
 
-TEST_CASE("the least length is the first that gives a valid output") {
+TEST_CASE("the minimum length is the shortest that gives a valid output") {
     for (const int factor : {2, 7, 10, 33}) {
         for (const int stages : {1, 2, 3}) {
             CAPTURE(factor, stages);

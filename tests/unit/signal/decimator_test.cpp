@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// The definition in decimation.hpp, one output after the other; terms from the outside in.
+/// Returns the outputs one by one from the definition in decimation.hpp, with the terms added from
+/// the outside in.
 std::vector<double> by_definition(const std::vector<double>& input,
                                   const DecimationFilter& filter) {
     const std::size_t half = filter.half_width();
@@ -32,7 +33,7 @@ std::vector<double> by_definition(const std::vector<double>& input,
     return output;
 }
 
-/// White noise in which about one sample in 300 is missing.
+/// Returns white noise in which about one sample in 300 is missing.
 std::vector<double> noise_with_gaps(std::size_t n) {
     std::vector<double> values(n);
     fill_white_noise(7, n, values);
@@ -62,7 +63,7 @@ std::vector<double> in_blocks(const std::vector<double>& input, const Decimation
 
 }  // namespace
 
-TEST_CASE("every output has the bits of its definition, whatever the factor and the length") {
+TEST_CASE("every output has the same bits as its definition, for any factor and length") {
     for (const int factor : {2, 3, 5, 7, 10, 13, 16, 50}) {
         const DecimationFilter filter = design_decimation(factor);
         for (const std::size_t n : {0U, 1U, 9U, 82U, 83U, 84U, 640U, 719U, 720U, 721U, 5003U}) {
@@ -73,7 +74,7 @@ TEST_CASE("every output has the bits of its definition, whatever the factor and 
     }
 }
 
-TEST_CASE("a stream cut anywhere gives the bits of the whole") {
+TEST_CASE("a stream fed in pieces gives the same bits as the whole series") {
     const int factor = GENERATE(2, 7, 10, 50);
     const int stages = GENERATE(1, 2, 3);
     const DecimationFilter filter = design_decimation(factor);
@@ -90,7 +91,7 @@ TEST_CASE("a stream cut anywhere gives the bits of the whole") {
     CHECK(same_bits(in_blocks(input, filter, stages, [&] { return length(draw); }), whole));
 }
 
-TEST_CASE("every variant of the inner loop gives the bits of plain arithmetic") {
+TEST_CASE("every variant of the inner loop gives the same bits as plain arithmetic") {
     std::vector<double> samples = noise_with_gaps(1000);
     std::vector<TapPair> pairs;
     for (std::size_t j = 0; j < 41; ++j)
@@ -112,7 +113,7 @@ TEST_CASE("every variant of the inner loop gives the bits of plain arithmetic") 
     }
 }
 
-TEST_CASE("an output comes with the last sample it needs, not later") {
+TEST_CASE("an output is available as soon as the last sample it needs") {
     Decimator decimator(design_decimation(10));
     std::vector<double> output;
     for (std::size_t i = 0; i < 3000; ++i) {

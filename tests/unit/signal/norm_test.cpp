@@ -5,7 +5,7 @@
 #include "tests/support/catch.hpp"
 
 namespace a351::corrector {
-TEST_CASE("the norm does not depend on how the axes point") {
+TEST_CASE("the norm does not depend on the orientation of the axes") {
     const auto x = TimeSeries<StandardGravity>(UtcTime{}, Hertz(50), {0.6, 0.0, 1.0});
     const auto y = TimeSeries<StandardGravity>(UtcTime{}, Hertz(50), {0.0, 0.6, 0.0});
     const auto z = TimeSeries<StandardGravity>(UtcTime{}, Hertz(50), {0.8, -0.8, 0.0});
@@ -13,7 +13,7 @@ TEST_CASE("the norm does not depend on how the axes point") {
     for (const double value : result.values()) CHECK(value == Approx(1.0).epsilon(1e-15));
 }
 
-TEST_CASE("the norm is missing where an axis is") {
+TEST_CASE("the norm is missing if a sample of an axis is missing") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const auto x = TimeSeries<StandardGravity>(UtcTime{}, Hertz(50), {0.0, nan});
     const auto z = TimeSeries<StandardGravity>(UtcTime{}, Hertz(50), {1.0, 1.0});

@@ -1,4 +1,4 @@
-// How metadata grow when sensor or settings change: extend_station_xml().
+// Epochs that extend_station_xml() adds when the sensor or its settings change.
 
 #include "tests/support/catch.hpp"
 
@@ -20,7 +20,7 @@ std::string extended(const std::string& existing, const StationDescription& stat
     const File file(existing);
     const auto text = extend_station_xml(file.path(), station);
     REQUIRE(text);
-    // What was written says the same already.
+    // The extended metadata already contain the description.
     CHECK_FALSE(extend_station_xml(File(*text).path(), station));
     return *text;
 }
@@ -34,11 +34,11 @@ TEST_CASE("a session with nothing new adds no epoch", "[record][station_xml]") {
     CHECK_FALSE(extend_station_xml(file.path(), station));
 }
 
-TEST_CASE("what changes begins an epoch of the channels it concerns", "[record][station_xml]") {
+TEST_CASE("a change begins a new epoch of the channels it affects", "[record][station_xml]") {
     auto station = description();
     const std::string first = to_station_xml(station);
     station.start += 24h;
-    std::size_t concerned = 4;  // the sampled ones
+    std::size_t concerned = 4;  // the sampled channels
     SECTION("serial number") {
         station.serial_number = "X0000002";
         concerned = 5;  // and the temperature derived from them
@@ -53,7 +53,7 @@ TEST_CASE("what changes begins an epoch of the channels it concerns", "[record][
     SECTION("output rate") { station.output_rate_hz = 100; }
     SECTION("orientation") {
         station.codes.axes = {"1", "2", "3"};
-        concerned = 3;  // of all axes, whose order tells which is which
+        concerned = 3;  // all axes, because only their order identifies them
     }
     const auto second = extended(first, station);
     CHECK(count_of(second, "<Channel ") == 7 + concerned);
@@ -75,7 +75,7 @@ TEST_CASE("what changes begins an epoch of the channels it concerns", "[record][
     CHECK(File(text).read().codes == third.codes);
 }
 
-TEST_CASE("an oven that comes and goes has epochs of its own", "[record][station_xml]") {
+TEST_CASE("an oven that is added and removed has its own epochs", "[record][station_xml]") {
     auto station = description();
     const auto without = to_station_xml(station);
     station.start += 1h;
@@ -91,7 +91,7 @@ TEST_CASE("an oven that comes and goes has epochs of its own", "[record][station
     CHECK(File(again).read().channels.size() == 7);
 }
 
-TEST_CASE("other station codes leave the former station's epochs ended", "[record][station_xml]") {
+TEST_CASE("other station codes end the epochs of the former station", "[record][station_xml]") {
     auto station = description();
     const auto first = to_station_xml(station);
     station.start += 1h;
@@ -109,16 +109,16 @@ TEST_CASE("other station codes leave the former station's epochs ended", "[recor
     CHECK(File(back).read().codes == third.codes);
 }
 
-TEST_CASE("a clock that was ahead moves no epoch behind its end", "[record][station_xml]") {
+TEST_CASE("after a clock that was ahead, no epoch starts after its end", "[record][station_xml]") {
     auto station = description();
     const auto first = to_station_xml(station);
     station.start -= 24h;
-    SECTION("the same settings were there before") {
+    SECTION("the same settings were in use before") {
         const auto text = extended(first, station);
         CHECK(count_of(text, "startDate=\"2026-02-28T12:00:00.000000Z\"") == 8);
         CHECK(count_of(text, "2026-03-01") == 0);
     }
-    SECTION("others") {
+    SECTION("other settings were in use before") {
         station.firmware = 259;
         const auto text = extended(first, station);
         CHECK(count_of(text,
@@ -128,7 +128,7 @@ TEST_CASE("a clock that was ahead moves no epoch behind its end", "[record][stat
     }
 }
 
-TEST_CASE("an instant without an epoch has those that go on", "[record][station_xml]") {
+TEST_CASE("a time before all epochs gets the epochs that are still open", "[record][station_xml]") {
     const File file(to_station_xml(description()));
     CHECK(file.read(description().start - 1h).channels.size() == 7);
 }

@@ -16,7 +16,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 
 }  // namespace
 
-TEST_CASE("scales come back from the metadata", "[record][station_xml]") {
+TEST_CASE("scales are read back from the metadata", "[record][station_xml]") {
     const auto metadata = File(to_station_xml(description())).read();
     CHECK(metadata.codes == StationCodes{});
     REQUIRE(metadata.channels.size() == 7);
@@ -25,7 +25,7 @@ TEST_CASE("scales come back from the metadata", "[record][station_xml]") {
         CHECK(metadata.channels[i].code == codes[i]);
         CHECK(metadata.channels[i].unit == "m/s**2");
         CHECK(metadata.channels[i].offset == 0.0);
-        // 2^24 counts are one g; two roundings on the way.
+        // 2^24 counts are one g; the margin allows two roundings.
         CHECK(metadata.channels[i].gain * 16'777'216.0 == Approx(9.80665).epsilon(3e-16).margin(0));
     }
     // M-A352AD10 data sheet 7.6.
@@ -49,7 +49,7 @@ TEST_CASE("the sensitivity has all digits of 2^24 / 9.80665", "[record][station_
                ContainsSubstring("<Value>1710799.9163832706</Value>"));
 }
 
-TEST_CASE("an oven adds its channels", "[record][station_xml]") {
+TEST_CASE("an oven adds its channels to the metadata", "[record][station_xml]") {
     auto station = description();
     station.has_oven = true;
     const auto metadata = File(to_station_xml(station)).read();
@@ -62,7 +62,7 @@ TEST_CASE("an oven adds its channels", "[record][station_xml]") {
     CHECK(metadata.channels[7].unit == "%");
 }
 
-TEST_CASE("the oven's channels have the rate of their samples", "[record][station_xml]") {
+TEST_CASE("the channels of the oven have the rate of their samples", "[record][station_xml]") {
     auto station = description();
     station.has_oven = true;
     CHECK_THAT(to_station_xml(station), !ContainsSubstring("<SampleRate>0.1<"));
@@ -75,18 +75,18 @@ TEST_CASE("the oven's channels have the rate of their samples", "[record][statio
     CHECK_THAT(text, ContainsSubstring("<Frequency>0.01<"));  // below half the rate
 }
 
-TEST_CASE("the clock's drift is that of the declared rate", "[record][station_xml]") {
+TEST_CASE("the clock drift is that of the declared rate", "[record][station_xml]") {
     CHECK_THAT(to_station_xml(description()), !ContainsSubstring("ClockDrift"));
     auto station = description();
     station.declared_rate_hz = 50.001;
     const auto text = to_station_xml(station);
     const auto at = text.find("<ClockDrift>");
     REQUIRE(at != std::string::npos);
-    // 20 ppm of 20 ms; the schema wants it positive.
+    // 20 ppm of 20 ms; the schema requires a positive value.
     CHECK(std::stod(text.substr(at + 12)) == Approx(4e-7).epsilon(1e-4).margin(0));
 }
 
-TEST_CASE("other codes and axes come back", "[record][station_xml]") {
+TEST_CASE("other station codes and axis names are read back", "[record][station_xml]") {
     auto station = description();
     station.codes = {"GR", "AB", "", {"N", "Z", "E"}};
     const auto metadata = File(to_station_xml(station)).read();
@@ -94,7 +94,8 @@ TEST_CASE("other codes and axes come back", "[record][station_xml]") {
     CHECK(metadata.channels[1].code == "BNZ");
 }
 
-TEST_CASE("the metadata say what a reader has to know", "[record][station_xml]") {
+TEST_CASE("the metadata contain everything that a reader of the data must know",
+          "[record][station_xml]") {
     const auto text = to_station_xml(description());
     for (const char* part :
          {"schemaVersion=\"1.2\"", "device profile A351 (unverified)",
@@ -110,11 +111,11 @@ TEST_CASE("the metadata say what a reader has to know", "[record][station_xml]")
     CHECK_THAT(to_station_xml(station), ContainsSubstring("device profile A351 (verified)"));
 }
 
-TEST_CASE("the same description gives the same bytes", "[record][station_xml]") {
+TEST_CASE("the same description gives metadata with the same bytes", "[record][station_xml]") {
     CHECK(to_station_xml(description()) == to_station_xml(description()));
 }
 
-TEST_CASE("a serial number that is no text still gives XML", "[record][station_xml]") {
+TEST_CASE("a serial number that is not text still gives valid XML", "[record][station_xml]") {
     auto station = description();
     station.serial_number = "\x01\xFF<&\"";
     const auto text = to_station_xml(station);
@@ -122,7 +123,7 @@ TEST_CASE("a serial number that is no text still gives XML", "[record][station_x
     CHECK_NOTHROW(File(text).read());
 }
 
-TEST_CASE("an unknown profile breaks the caller's promise", "[record][station_xml]") {
+TEST_CASE("an unknown profile is refused as an error of the caller", "[record][station_xml]") {
     auto station = description();
     station.profile = "A999";
     CHECK_THROWS_AS(to_station_xml(station), std::invalid_argument);
@@ -143,7 +144,7 @@ TEST_CASE("metadata that cannot be used are refused with the file's name",
     CHECK_THROWS_WITH(file.read(), ContainsSubstring("station.xml: "));
 }
 
-TEST_CASE("a missing file is an input error", "[record][station_xml]") {
+TEST_CASE("a missing metadata file is an input error", "[record][station_xml]") {
     CHECK_THROWS_AS(read_station_xml("/nonexistent/station.xml"), InputError);
 }
 

@@ -16,7 +16,8 @@ Status healthy() {
 
 }  // namespace
 
-TEST_CASE("a sampling link with time and space is good", "[daemon][assess]") {
+TEST_CASE("a sampling link with a good clock and enough disk space has the level good",
+          "[daemon][assess]") {
     Status status = healthy();
     LinkStatus link;
     link.state = LinkStatus::State::sampling;
@@ -28,7 +29,7 @@ TEST_CASE("a sampling link with time and space is good", "[daemon][assess]") {
     CHECK(status.serial_number == "00000042");
 }
 
-TEST_CASE("each trouble raises the level and is named", "[daemon][assess]") {
+TEST_CASE("each trouble raises the status level and is named", "[daemon][assess]") {
     Status status = healthy();
     LinkStatus link;
     link.state = LinkStatus::State::searching;
@@ -50,16 +51,18 @@ TEST_CASE("each trouble raises the level and is named", "[daemon][assess]") {
     status = healthy();
     status.disk_free_bytes.reset();
     assess(status);
-    CHECK(status.reasons == std::vector<std::string>{"free space of the record cannot be told"});
+    CHECK(status.reasons ==
+          std::vector<std::string>{"disk: the free space cannot be determined; check the disk of "
+                                   "storage.root"});
 
     status = healthy();
     link.state = LinkStatus::State::sampling;
-    link.is_held_up = true;
+    link.waits_for_journal = true;
     fill(status, link);
     CHECK(status.level == Status::Level::warning);
 }
 
-TEST_CASE("an oven that is not enabled is no trouble; one that does not answer is a warning",
+TEST_CASE("an oven that is not enabled is no trouble, an oven that does not answer is a warning",
           "[daemon][assess]") {
     OvenLinkStatus link;
     const auto reasons = [&link] {
@@ -77,16 +80,19 @@ TEST_CASE("an oven that is not enabled is no trouble; one that does not answer i
     link.values = oven::ControllerValues{DegC(42.5), DegC(42.5), Percent(25.0), 0x0100};
     CHECK(reasons().empty());
     link.values->status = oven::kInputError;
-    CHECK(reasons() == Reasons{"oven: input error, its temperature is not to be believed"});
+    CHECK(reasons() == Reasons{"oven: input error, its temperature is not valid; check the "
+                               "controller's probe (sensor data are not affected)"});
 
     link.is_stale = true;
-    CHECK(reasons() == Reasons{"oven: its last answer is old"});
+    CHECK(reasons() == Reasons{"oven: the last answer is old; check the controller's cable "
+                               "(sensor data are not affected)"});
     link.state = OvenLinkStatus::State::silent;
     link.trouble = "no answer in time";
-    CHECK(reasons() == Reasons{"oven: silent"});
+    CHECK(reasons() == Reasons{"oven: silent; check the controller's cable (sensor data are not "
+                               "affected)"});
 }
 
-TEST_CASE("the polls of the oven are told by their outcome", "[daemon][assess]") {
+TEST_CASE("the polls of the oven are counted by their outcome", "[daemon][assess]") {
     OvenLinkStatus link;
     for (std::size_t i = 0; i < link.polls.size(); ++i) link.polls.at(i) = 10 + i;
     Status status;
@@ -100,18 +106,17 @@ TEST_CASE("the polls of the oven are told by their outcome", "[daemon][assess]")
                                                                      {"no_port", 16}});
 }
 
-TEST_CASE("a rate that was measured over a day is compared with the declared one",
-          "[daemon][assess]") {
+TEST_CASE("a rate measured over a day is compared with the declared one", "[daemon][assess]") {
     Status status = healthy();
     status.measured_rate = {Hertz(50.0006), 0.05, std::chrono::hours(24)};
     assess(status);
     CHECK(status.level == Status::Level::good);
     CHECK(status.rate_advice ==
-          "measured over a day: put declared_rate_hz = 50.000600 into [storage]");
+          "measured over a day: set declared_rate_hz = 50.000600 in [storage]");
 
     status = healthy();
     status.measured_rate = {Hertz(50.0006), 0.05, std::chrono::hours(24)};
-    status.declared_rate_hz = 50.000612;  // 0.24 ppm, of which 0.05 may be chance
+    status.declared_rate_hz = 50.000612;  // off by 0.24 ppm, of which 0.05 may be chance
     assess(status);
     CHECK(status.rate_advice.empty());
     CHECK(status.level == Status::Level::good);
@@ -121,11 +126,13 @@ TEST_CASE("a rate that was measured over a day is compared with the declared one
     CHECK(status.rate_advice.find("-0.26 ppm") != std::string::npos);
 
     status = healthy();
-    SECTION("not over less") { status.measured_rate = {Hertz(51.0), 0.05, std::chrono::hours(22)}; }
-    SECTION("not one that is not known") {
+    SECTION("not if it was measured for less than a day") {
+        status.measured_rate = {Hertz(51.0), 0.05, std::chrono::hours(22)};
+    }
+    SECTION("not if its uncertainty is too large") {
         status.measured_rate = {Hertz(51.0), 0.21, std::chrono::hours(24)};
     }
-    SECTION("not when there is none") {}
+    SECTION("not without a measured rate") {}
     assess(status);
     CHECK(status.rate_advice.empty());
 }
@@ -134,15 +141,14 @@ TEST_CASE("the calibration of another unit is a warning", "[daemon][assess]") {
     Status status = healthy();
     status.calibrated_serial_number = "00000042";
     assess(status);
-    CHECK(status.level == Status::Level::good);  // Nobody knows the sensor's.
+    CHECK(status.level == Status::Level::good);  // The sensor's number is not known yet.
     status.serial_number = "00000042";
     assess(status);
     CHECK(status.level == Status::Level::good);
     status.serial_number = "00000043";
     assess(status);
     CHECK(status.level == Status::Level::warning);
-    CHECK(
-        status.reasons.at(0) ==
-        "the calibration is of unit 00000042, the sensor is 00000043: the verdict goes by another "
-        "unit's behaviour");
+    CHECK(status.reasons.at(0) ==
+          "the calibration is for unit 00000042, but the sensor is unit 00000043: the verdict uses "
+          "another unit's behaviour; check survey.calibration");
 }

@@ -29,9 +29,9 @@ struct Fixture {
 
 }  // namespace
 
-TEST_CASE_METHOD(Fixture,
-                 "a trouble is said at its start, once a minute with its count, at its end",
-                 "[daemon][status_log]") {
+TEST_CASE_METHOD(
+    Fixture, "a trouble is logged when it begins, once a minute with its count, and when it ends",
+    "[daemon][status_log]") {
     Status bad;
     bad.reasons = {"no disk"};
     CHECK(said(bad, 0) == "no disk\n");
@@ -39,23 +39,24 @@ TEST_CASE_METHOD(Fixture,
     CHECK(said(bad, 59).empty());
     CHECK(said(bad, 60) == "no disk (seen 4 times)\n");
     CHECK(said(bad, 61).empty());
-    CHECK(said(Status(), 62) == "over: no disk\n");
+    CHECK(said(Status(), 62) == "resolved: no disk\n");
     CHECK(said(Status(), 63).empty());
 }
 
-TEST_CASE_METHOD(Fixture, "a counter that rises is said with its step, at most once a minute",
+TEST_CASE_METHOD(Fixture, "a rising counter is logged with its increase, at most once a minute",
                  "[daemon][status_log]") {
     Status status;
     CHECK(said(status, 0).empty());
     status.counters.gaps = 2;
-    CHECK(said(status, 1) == "gaps: 2 more, 2 in all\n");
+    CHECK(said(status, 1) == "gaps: 2 more, 2 in total\n");
     status.counters.gaps = 3;
     CHECK(said(status, 2).empty());
     status.counters.gaps = 7;
-    CHECK(said(status, 61) == "gaps: 5 more, 7 in all\n");
+    CHECK(said(status, 61) == "gaps: 5 more, 7 in total\n");
 }
 
-TEST_CASE_METHOD(Fixture, "the oven's state is said when it changes, its lost polls by kind",
+TEST_CASE_METHOD(Fixture,
+                 "the state of the oven is logged when it changes, and its failed polls by kind",
                  "[daemon][status_log]") {
     Status status;
     CHECK(said(status, 0).empty());
@@ -65,14 +66,15 @@ TEST_CASE_METHOD(Fixture, "the oven's state is said when it changes, its lost po
     status.oven->polls = {{"answered", 1}, {"timed_out", 0}};
     CHECK(said(status, 1) == "oven: answering (/dev/pts/5, 9600 baud 8N2)\n");
     status.oven->polls = {{"answered", 2}, {"timed_out", 3}};
-    CHECK(said(status, 2) == "oven polls timed_out: 3 more, 3 in all\n");
+    CHECK(said(status, 2) == "oven polls timed_out: 3 more, 3 in total\n");
     status.oven->state = "silent";
     status.oven->trouble = "no answer in time";
     CHECK(said(status, 3) == "oven: silent (no answer in time)\n");
     CHECK(said(status, 4).empty());
 }
 
-TEST_CASE_METHOD(Fixture, "the state of the reserve is said when it changes, with what is wrong",
+TEST_CASE_METHOD(Fixture,
+                 "the state of the disk reserve is logged when it changes, with the reason",
                  "[daemon][status_log]") {
     Status status;
     status.disk_reserve = "present";

@@ -7,7 +7,7 @@
 using namespace a351;
 using namespace a351::text;
 
-TEST_CASE("a table is read by column name, whatever the line ends", "[text][csv]") {
+TEST_CASE("a table is read by column name, with any kind of line end", "[text][csv]") {
     const auto table = CsvTable::parse(
         "\xEF\xBB\xBF"
         "a,b\r\n1, x \r\n\r\n2.5,\n",
@@ -19,7 +19,7 @@ TEST_CASE("a table is read by column name, whatever the line ends", "[text][csv]
     CHECK_FALSE(table.has_column("c"));
 }
 
-TEST_CASE("a blank line of a single column is an empty cell, but for the last", "[text][csv]") {
+TEST_CASE("a blank line of a single column is an empty cell, except at the end", "[text][csv]") {
     const auto table = CsvTable::parse("\na\n1\n\n3\r\n \t\r\n5\n\n", "t.csv");
     REQUIRE(table.row_count() == 5);
     CHECK(table.number_if_given(1, "a") == std::nullopt);
@@ -30,14 +30,15 @@ TEST_CASE("a blank line of a single column is an empty cell, but for the last", 
     CHECK_THROWS_WITH((void)table.number(1, "a"), ContainsSubstring("t.csv:4: a = : not a number"));
 }
 
-TEST_CASE("an empty cell is no number, and may be asked for as such", "[text][csv]") {
+TEST_CASE("an empty cell is not a number, but can be read as a missing one", "[text][csv]") {
     const auto table = CsvTable::parse("a,b\n,1\n", "t.csv");
     CHECK(table.number_if_given(0, "a") == std::nullopt);
     CHECK(table.number_if_given(0, "b") == 1.0);
     CHECK_THROWS_AS(table.number(0, "a"), InputError);
 }
 
-TEST_CASE("trouble names file, line, column, value and what is allowed", "[text][csv]") {
+TEST_CASE("an error in a CSV file names file, line, column, value and what is allowed",
+          "[text][csv]") {
     const auto table = CsvTable::parse("a,b\n1,2\n\nnan,3\n400,3\n", "t.csv");
     CHECK_THROWS_WITH(
         (void)table.number(1, "a"),
@@ -48,7 +49,7 @@ TEST_CASE("trouble names file, line, column, value and what is allowed", "[text]
     CHECK_THROWS_WITH(CsvTable::parse("a,b\n1\n", "t.csv"),
                       "t.csv:2: 1 cells; allowed: 2 as in the header");
     CHECK_THROWS_WITH(CsvTable::parse("a,a\n", "t.csv"),
-                      "t.csv:1: column a stands twice; allowed: once");
+                      "t.csv:1: column a appears twice; allowed: once");
     CHECK_THROWS_AS(CsvTable::parse("", "t.csv"), InputError);
     CHECK_THROWS_AS(read_csv("/nowhere/t.csv"), InputError);
 }

@@ -24,7 +24,8 @@ const std::string kHeader = "site,longitude_deg,latitude_deg,altitude_m,gravity_
 
 }  // namespace
 
-TEST_CASE("the calibration line has 14 sites over 192.941 mGal", "[text][sites]") {
+TEST_CASE("the calibration line has 14 sites with a gravity range of 192.941 mGal",
+          "[text][sites]") {
     const auto sites = read_sites(A351_GOLDEN "/tsukuba/sites.csv");
     REQUIRE(sites.size() == 14);
     const Site* base = find_site(sites, "No.0");
@@ -40,7 +41,8 @@ TEST_CASE("an unknown station has no reference value", "[text][sites]") {
     CHECK_FALSE(sites[0].gravity.has_value());
 }
 
-TEST_CASE("a site without coordinates has the mean of the others, in any order", "[text][sites]") {
+TEST_CASE("a site without coordinates gets the mean position of the others, in any order",
+          "[text][sites]") {
     const std::vector<std::string> rows{"W,179.9,-17.1,10,\n", "E,-179.7,-17.3,40,\n", "X,,,,\n",
                                         "H,179.8,-17.2,,\n"};
     const auto sites = read_sites(written(kHeader + rows[0] + rows[1] + rows[2] + rows[3]));
@@ -62,7 +64,7 @@ TEST_CASE("a bad sites file is refused with its line", "[text][sites]") {
     CHECK_THROWS_WITH(read_sites(written(kHeader + "X,nan,36,0,\n")),
                       ContainsSubstring(":2: longitude_deg = nan: not a number"));
     CHECK_THROWS_WITH(read_sites(written(kHeader + "X,1,36,0,\nX,1,36,0,\n")),
-                      ContainsSubstring(":3: site = X: stands twice"));
+                      ContainsSubstring(":3: site = X: appears twice"));
     CHECK_THROWS_WITH(read_sites(written(kHeader + ",1,36,0,\n")),
                       ContainsSubstring(":2: site = : empty"));
     CHECK_THROWS_WITH(read_sites(written(kHeader + "X,1,36,,\nY,1,36,,\n")),

@@ -7,7 +7,8 @@
 using namespace a351;
 using namespace a351::text;
 
-TEST_CASE("every key that is read is allowed, and defaults fill the rest", "[text][strict_toml]") {
+TEST_CASE("every key that is read is allowed, and missing keys get their defaults",
+          "[text][strict_toml]") {
     auto root = parse_toml(
         "name = \"x\"\nflag = true\ncount = 3\nlist = [1, 2.5]\nnames = [\"a\"]\npath = \"d/f\"\n"
         "[sub]\nrate = 50\n[[item]]\nn = 1\n[[item]]\nn = 2\n",
@@ -30,7 +31,8 @@ TEST_CASE("every key that is read is allowed, and defaults fill the rest", "[tex
     CHECK(root.table("absent").number("x", 0, 1) == std::nullopt);
 }
 
-TEST_CASE("trouble is one line, whatever the file holds", "[text][strict_toml]") {
+TEST_CASE("an error in a TOML file is one line, whatever the file contains",
+          "[text][strict_toml]") {
     CHECK_THROWS_WITH(parse_toml("a = t\n", "c.toml"),
                       "c.toml:1: not TOML: Error while parsing boolean: expected 'true', saw 't '");
     auto root = parse_toml(R"("two\nlines" = "red\u001b[31m")", "c.toml");
@@ -38,7 +40,8 @@ TEST_CASE("trouble is one line, whatever the file holds", "[text][strict_toml]")
                       "c.toml:1: two lines = \"red\\u001B[31m\": unknown key; allowed: ");
 }
 
-TEST_CASE("trouble names file, line, key, value and what is allowed", "[text][strict_toml]") {
+TEST_CASE("an error in a TOML file names file, line, key, value and what is allowed",
+          "[text][strict_toml]") {
     auto root = parse_toml("a = 1\n[s]\nb = \"x\"\nc = 70\n", "c.toml");
     auto sub = root.table("s");
     CHECK_THROWS_WITH(sub.integer_or("b", 0, 0, 9),

@@ -10,7 +10,8 @@
 using namespace a351;
 using namespace a351::text;
 
-TEST_CASE("blocks of a file are its content, none longer than a fixed size", "[text_file]") {
+TEST_CASE("the blocks of a file make up its content, and none is longer than a fixed size",
+          "[text_file]") {
     const test::TemporaryDirectory folder;
     for (const std::size_t size : {0U, 1U, 65536U, 65537U, 1'000'000U}) {
         std::string content(size, '\0');
@@ -28,11 +29,12 @@ TEST_CASE("blocks of a file are its content, none longer than a fixed size", "[t
     }
 }
 
-TEST_CASE("a FIFO is refused, not waited for", "[text_file]") {
+TEST_CASE("a FIFO is refused without waiting for it", "[text_file]") {
     const test::TemporaryDirectory folder;
     const auto fifo = folder.path() / "fifo";
     REQUIRE(::mkfifo(fifo.c_str(), S_IRUSR | S_IWUSR) == 0);
-    CHECK_THROWS_WITH(read_text_file(fifo), ContainsSubstring("fifo: is no regular file; allowed"));
+    CHECK_THROWS_WITH(read_text_file(fifo),
+                      ContainsSubstring("fifo: is not a regular file; allowed"));
     CHECK_THROWS_AS(open_file(folder.path()), InputError);
     CHECK_THROWS_WITH(open_file(folder.path() / "none"), ContainsSubstring("none: cannot be read"));
 }

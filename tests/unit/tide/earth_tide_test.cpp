@@ -21,7 +21,7 @@ TEST_CASE("the tide is linear in its two factors", "[tide]") {
     CHECK(std::abs(degree3) < 0.1 * std::abs(degree2) + 0.005);
 }
 
-TEST_CASE("gravity is least where the Moon stands overhead", "[tide]") {
+TEST_CASE("gravity is least where the Moon is overhead", "[tide]") {
     // New Moon of 2017-02-26 14:58 UTC, near both nodes and the equator: Moon and Sun pull together
     // and are overhead near local noon, at 0 degrees longitude at 12 UTC.
     const UtcTime noon = parse_rfc3339("2017-02-26T12:00:00Z").value();
@@ -31,7 +31,7 @@ TEST_CASE("gravity is least where the Moon stands overhead", "[tide]") {
     CHECK(direct_tide(noon, aside, kRigidEarth).value() > 0.03);
 }
 
-TEST_CASE("a full turn of longitude changes nothing", "[tide]") {
+TEST_CASE("360 degrees of longitude more change nothing", "[tide]") {
     const TideStation turned{kStation.latitude, kStation.longitude - Degrees(360.0),
                              kStation.height};
     CHECK(direct_tide(kTime, turned).value() ==
@@ -50,7 +50,7 @@ TEST_CASE("both methods agree within Longman's known error over a month", "[tide
     }
 }
 
-TEST_CASE("the model is chosen by name", "[tide]") {
+TEST_CASE("the tide model is chosen by name", "[tide]") {
     const TideFactors factors{1.2, 1.2};
     CHECK(earth_tide(TideModel::none, kTime, kStation, factors) == MilliGal(0.0));
     CHECK(earth_tide(TideModel::direct, kTime, kStation, factors) ==

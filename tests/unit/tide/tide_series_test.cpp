@@ -32,7 +32,7 @@ TideSeries sampled_tide(std::chrono::seconds step, std::chrono::hours length) {
     return series(rows);
 }
 
-/// Largest difference from the model that was sampled, between two instants.
+/// Returns the largest difference from the sampled model between two times.
 double largest_error_mgal(const TideSeries& tide, UtcTime from, UtcTime to) {
     double largest = 0.0;
     for (UtcTime time = from; time <= to; time += 433s) {
@@ -43,7 +43,7 @@ double largest_error_mgal(const TideSeries& tide, UtcTime from, UtcTime to) {
     return largest;
 }
 
-/// 10 x^3 mGal, x in days from kStart: a cubic, which four points determine.
+/// Returns a row of 10 x^3 mGal, x in days from kStart: a cubic, which four points determine.
 std::string cubic_row(std::chrono::minutes after) {
     const double x = seconds_between(kStart, kStart + after) / 86400.0;
     return to_rfc3339(kStart + after) + ',' + text::shortest(10.0 * x * x * x) + '\n';
@@ -51,7 +51,7 @@ std::string cubic_row(std::chrono::minutes after) {
 
 }  // namespace
 
-TEST_CASE("a series sampled every 10 minutes gives back its model to a millionth",
+TEST_CASE("a series sampled every 10 minutes reproduces its model within 1e-6 mGal",
           "[survey][tide_series]") {
     const auto month = 30 * 24h;
     const double inside = largest_error_mgal(sampled_tide(600s, month), kStart, kStart + month);
@@ -61,7 +61,8 @@ TEST_CASE("a series sampled every 10 minutes gives back its model to a millionth
     CHECK(hourly < 2e-4);
 }
 
-TEST_CASE("unequal steps and both ends follow a cubic exactly", "[survey][tide_series]") {
+TEST_CASE("interpolation of a cubic is exact with unequal steps and at both ends",
+          "[survey][tide_series]") {
     std::string rows;
     for (const auto minute : {0min, 10min, 25min, 30min, 75min, 100min}) rows += cubic_row(minute);
     const TideSeries tide = series(rows);
@@ -71,7 +72,7 @@ TEST_CASE("unequal steps and both ends follow a cubic exactly", "[survey][tide_s
     }
 }
 
-TEST_CASE("outside the series and in a gap there is no value, beside a gap there is",
+TEST_CASE("there is no value outside the series or in a gap, but there is one beside a gap",
           "[survey][tide_series]") {
     std::string rows;
     for (const auto minute : {0min, 30min, 60min, 90min, 151min, 180min, 210min, 240min}) {
@@ -133,7 +134,8 @@ TEST_CASE("the settings name the tide's source, model, factors and sign", "[surv
     CHECK_THROWS_WITH(set_tide_option(choice, "moon"), ContainsSubstring("--tide = moon: neither"));
 }
 
-TEST_CASE("a tide that is to be given must be in the table", "[survey][observations]") {
+TEST_CASE("a tide that the survey declares as given must be in the table",
+          "[survey][observations]") {
     const std::vector<text::Site> sites{
         {"A", Degrees(140.0), Degrees(36.0), Metres(10.0), MilliGal(979900.0)}};
     SurveyRow row;

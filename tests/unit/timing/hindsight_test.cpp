@@ -10,7 +10,7 @@ namespace {
 
 const UtcTime kNoon = *parse_rfc3339("2026-03-01T12:00:00Z");
 
-/// A host in true time, with readings each second while it is awake.
+/// A host in true time, with a clock reading each second while it is awake.
 struct Host {
     UtcHistory history;
     Nanoseconds now{0}, slept{0};
@@ -29,7 +29,7 @@ struct Host {
         now += length;
         slept += length;
     }
-    /// Of the history, for an instant of this host given by its raw and true time.
+    /// Returns the error of the history at a time of this host, given by its raw and its true time.
     [[nodiscard]] Nanoseconds error(RawTime at, Nanoseconds truth, std::size_t sleeps = 0) const {
         return history.at(at, sleeps).utc - (kNoon + truth);
     }
@@ -37,9 +37,9 @@ struct Host {
 
 }  // namespace
 
-TEST_CASE("in hindsight a sleep is bridged, whether the host is synchronised after it or not",
+TEST_CASE("in hindsight a sleep is bridged, whether or not the host is synchronised after it",
           "[timing][hindsight]") {
-    for (const bool is_mended : {true, false}) {
+    for (const bool is_synchronised_later : {true, false}) {
         Host host;
         host.run(100);
         host.sleep(1h);
@@ -48,16 +48,17 @@ TEST_CASE("in hindsight a sleep is bridged, whether the host is synchronised aft
         const RawTime woken = host.raw();
         const Nanoseconds truth = host.now;
         host.run(30);
-        host.is_synchronised = is_mended;
+        host.is_synchronised = is_synchronised_later;
         host.run(100);
         CHECK(std::chrono::abs(host.error(woken, truth, 1)) < Nanoseconds(1ms));
-        CHECK((host.history.at(woken, 1).error < Nanoseconds(10ms)) == is_mended);
+        CHECK((host.history.at(woken, 1).error < Nanoseconds(10ms)) == is_synchronised_later);
         CHECK(std::chrono::abs(host.error(RawTime(550s), 50s)) < Nanoseconds(1ms));
     }
 }
 
-TEST_CASE("what lies before a sleep of a host that is synchronised only after it is right to 1 s",
-          "[timing][hindsight]") {
+TEST_CASE(
+    "in hindsight times before a sleep are right to 1 s if the host is synchronised only after it",
+    "[timing][hindsight]") {
     Host host;
     host.is_synchronised = false;
     host.clock_off = -5h;
@@ -71,7 +72,8 @@ TEST_CASE("what lies before a sleep of a host that is synchronised only after it
     CHECK(host.history.at(RawTime(550s), 0).error >= Nanoseconds(1s));
 }
 
-TEST_CASE("in hindsight a clock that was set and set back was not set", "[timing][hindsight]") {
+TEST_CASE("in hindsight a clock that was set and set back counts as never set",
+          "[timing][hindsight]") {
     Host host;
     host.run(100);
     host.clock_off = 5s;
@@ -84,7 +86,8 @@ TEST_CASE("in hindsight a clock that was set and set back was not set", "[timing
     CHECK(host.history.at(wrong, 0).stretch == host.history.at(host.raw(), 0).stretch);
 }
 
-TEST_CASE("in hindsight a step that stays is at its reading", "[timing][hindsight]") {
+TEST_CASE("in hindsight a lasting step of the clock is placed at the reading that shows it",
+          "[timing][hindsight]") {
     Host host;
     host.run(100);
     const RawTime before = host.raw();
@@ -95,7 +98,7 @@ TEST_CASE("in hindsight a step that stays is at its reading", "[timing][hindsigh
     CHECK(std::chrono::abs(host.error(host.raw(), host.now) - 5s) < Nanoseconds(1ms));
 }
 
-TEST_CASE("in hindsight a loss of 60 years costs nothing", "[timing][hindsight]") {
+TEST_CASE("in hindsight a gap of 60 years adds no pieces", "[timing][hindsight]") {
     Host host;
     host.run(100);
     Hindsight hindsight({Hertz(50.0), 0s}, 0);

@@ -19,11 +19,11 @@ struct World {
     int rate_hz = 50;
     bool is_synchronised = true;
     std::int64_t max_error_us = 500;
-    Nanoseconds host_off{0};           ///< The host's clock is fast by this.
-    Nanoseconds slept{0};              ///< The raw clock stood still for this.
-    UtcTime bend_at = UtcTime::max();  ///< From here on the raw clock runs at another rate.
+    Nanoseconds host_off{0};           ///< Error of the host's clock, positive if it is fast.
+    Nanoseconds slept{0};              ///< Time for which the raw clock did not run.
+    UtcTime bend_at = UtcTime::max();  ///< Time from which the raw clock has another rate.
     double bend_ppm = 0.0;
-    Nanoseconds slept_too_long{0};  ///< What the host takes this for is too much by that.
+    Nanoseconds slept_too_long{0};  ///< Excess of the sleep as the host measures it.
     SampleClock clock{{Hertz(50.0), kGroupDelay}};
 
     [[nodiscard]] UtcTime truth(std::int64_t k) const {
@@ -47,7 +47,8 @@ struct World {
     }
 };
 
-/// Delay of a frame behind an adapter that delivers every 16 ms, and now and then a busy host.
+/// Delays of frames behind an adapter that delivers every 16 ms, with a host that is busy now and
+/// then.
 class Delays {
 public:
     explicit Delays(std::uint64_t seed) : random_(seed) {}
@@ -66,7 +67,7 @@ private:
 
 }  // namespace
 
-TEST_CASE("arrivals without noise give times to 0.1 ms", "[timing][sample_clock]") {
+TEST_CASE("arrivals without noise give times within 0.1 ms", "[timing][sample_clock]") {
     World world;
     for (std::int64_t k = 0; k < 20'000; ++k) world.frame(k, 0s);
     for (std::int64_t k = 0; k < 20'000; k += 7)
@@ -74,7 +75,8 @@ TEST_CASE("arrivals without noise give times to 0.1 ms", "[timing][sample_clock]
                 Nanoseconds(100us));
 }
 
-TEST_CASE("the line follows the rates of both oscillators", "[timing][sample_clock]") {
+TEST_CASE("the fitted line of times follows the rates of sensor and host",
+          "[timing][sample_clock]") {
     for (const double device_ppm : {-10.0, 10.0}) {
         for (const double raw_ppm : {-100.0, 0.0, 100.0}) {
             World world;
@@ -93,7 +95,8 @@ TEST_CASE("the line follows the rates of both oscillators", "[timing][sample_clo
     }
 }
 
-TEST_CASE("late arrivals change nothing while others come in time", "[timing][sample_clock]") {
+TEST_CASE("late frames do not change the times as long as others arrive in time",
+          "[timing][sample_clock]") {
     World punctual, late;
     std::mt19937_64 random(1);
     for (std::int64_t k = 0; k < 10'000; ++k) {
@@ -105,7 +108,7 @@ TEST_CASE("late arrivals change nothing while others come in time", "[timing][sa
         REQUIRE(punctual.clock.time_of(k)->utc == late.clock.time_of(k)->utc);
 }
 
-TEST_CASE("an earlier arrival pulls the published line by at most 0.2 ms per second of data",
+TEST_CASE("an earlier arrival moves the published line by at most 0.2 ms per second of data",
           "[timing][sample_clock]") {
     World world;
     for (std::int64_t k = 0; k < 500; ++k) world.frame(k, 50ms);
@@ -122,7 +125,7 @@ TEST_CASE("an earlier arrival pulls the published line by at most 0.2 ms per sec
     CHECK(world.clock.time_of(600)->uncertainty >= error(600));
 }
 
-TEST_CASE("a published time never changes and does not depend on who asks when",
+TEST_CASE("a published time never changes and does not depend on when it is requested",
           "[timing][sample_clock]") {
     World asked, quiet;
     Delays delays(2), same(2);
@@ -136,7 +139,7 @@ TEST_CASE("a published time never changes and does not depend on who asks when",
     }
     for (std::int64_t k = 0; k < 30'000; ++k) {
         REQUIRE(quiet.clock.time_of(k)->utc == asked.clock.time_of(k)->utc);
-        if (k < 100) continue;  // provisional when asked
+        if (k < 100) continue;  // provisional when requested
         REQUIRE(asked.clock.time_of(k)->utc == when_new[static_cast<std::size_t>(k)]);
     }
 }
@@ -166,8 +169,9 @@ TEST_CASE("times older than 24 h of data are forgotten and newer ones kept",
     CHECK(world.clock.index_at(world.truth(day + 100)));
 }
 
-// A damaged instant in a journal, found by fuzzing: a piece was made for every second of the loss.
-TEST_CASE("a loss of 60 years costs nothing and ends in a break", "[timing][sample_clock]") {
+// A damaged time in a journal, found by fuzzing: a piece was made for every second of the gap.
+TEST_CASE("a gap of 60 years costs nothing and ends in a break of the times",
+          "[timing][sample_clock]") {
     World world;
     world.device_ppm = 5.0004;  // no whole number of nanoseconds a second
     for (std::int64_t k = 0; k < 10'000; ++k) world.frame(k, 0s);
@@ -201,7 +205,7 @@ TEST_CASE("the stated uncertainty covers the true error behind a 16 ms adapter f
     }
 }
 
-TEST_CASE("an unsynchronised host is not trusted to a second", "[timing][sample_clock]") {
+TEST_CASE("an unsynchronised host has an uncertainty of at least 1 s", "[timing][sample_clock]") {
     World world;
     world.is_synchronised = false;
     for (std::int64_t k = 0; k < 5000; ++k) world.frame(k, 0s);
@@ -222,14 +226,15 @@ TEST_CASE("the clock is unlocked for 60 s of data, then locked", "[timing][sampl
     CHECK(world.clock.state() == TimingState::locked);
 }
 
-TEST_CASE("a timer that hides 5 ms leaves the clock coarse", "[timing][sample_clock]") {
+TEST_CASE("a timer that hides 5 ms gives the clock state coarse", "[timing][sample_clock]") {
     World world;
     for (std::int64_t k = 0; k < 10'000; ++k) world.frame(k, k % 4 * 5ms);
     CHECK(world.clock.state() == TimingState::coarse);
     CHECK(world.clock.uncertainty() > Nanoseconds(3ms));
 }
 
-TEST_CASE("a host that loses its synchronisation is held over", "[timing][sample_clock]") {
+TEST_CASE("a host that loses its synchronisation gives the clock state holdover",
+          "[timing][sample_clock]") {
     World world;
     for (std::int64_t k = 0; k < 5000; ++k) world.frame(k, 0s);
     const Nanoseconds before = world.clock.uncertainty();
@@ -269,7 +274,7 @@ TEST_CASE("published times break where a step of the host's clock is followed",
 TEST_CASE("a sleep of the host is added to its raw clock", "[timing][sample_clock]") {
     World world;
     for (std::int64_t k = 0; k < 10'000; ++k) world.frame(k, 0s);
-    // The sensor went on; the host counted 400 ms too much, and a time service mends it later.
+    // The sensor continued. The host counted 400 ms too much, and a time service corrects it later.
     world.slept = 20min;
     world.slept_too_long = world.host_off = 400ms;
     const std::int64_t awake = 10'000 + 20 * 60 * 50;
@@ -289,7 +294,7 @@ TEST_CASE("a sleep of the host is added to its raw clock", "[timing][sample_cloc
     CHECK(world.clock.awake(RawTime(0s)).time_since_epoch() == Nanoseconds(20min) + 400ms);
 }
 
-TEST_CASE("what stood unread through a sleep of the host does not fix the times after it",
+TEST_CASE("frames left unread during a sleep of the host do not affect the times after it",
           "[timing][sample_clock]") {
     for (const std::int64_t unread : {1, 5, 15}) {
         World world;
@@ -310,7 +315,8 @@ TEST_CASE("what stood unread through a sleep of the host does not fix the times 
     }
 }
 
-TEST_CASE("after a sleep the rate may be another", "[timing][sample_clock]") {
+TEST_CASE("after a sleep of the host its raw clock may have another rate",
+          "[timing][sample_clock]") {
     World world;
     for (std::int64_t k = 0; k < 180'000; ++k) world.frame(k, 0s);
     world.slept = 20min;
@@ -326,7 +332,7 @@ TEST_CASE("after a sleep the rate may be another", "[timing][sample_clock]") {
     }
 }
 
-TEST_CASE("a sensor that restarts keeps what is known of the host", "[timing][sample_clock]") {
+TEST_CASE("a restart of the sensor keeps what is known of the host", "[timing][sample_clock]") {
     World world;
     for (std::int64_t k = 0; k < 5000; ++k) world.frame(k, 0s);
     world.clock.restart_index();
@@ -359,13 +365,13 @@ TEST_CASE("the rate of the sensor is measured as well as it says", "[timing][sam
     }
 }
 
-TEST_CASE("the uncertainty of the rate counts both ends of its span", "[timing][sample_clock]") {
+TEST_CASE("the uncertainty of the rate includes both ends of its span", "[timing][sample_clock]") {
     World world;
     world.max_error_us = 20'000;
     for (std::int64_t k = 0; k < 50 * 600; ++k) world.frame(k, 0s);
     const auto measured = world.clock.measured_rate();
     REQUIRE(measured);
-    // Each end is as uncertain as the host's clock at least.
+    // Each end is at least as uncertain as the host's clock.
     const double stated_s =
         1e-6 * measured->uncertainty_ppm * std::chrono::duration<double>(measured->span).count();
     CHECK(stated_s >= 2 * 0.020);

@@ -9,7 +9,7 @@ using Kind = Placement::Kind;
 
 namespace {
 
-/// A device at `rate_hz` whose frames arrive at once, driven by its true sample number.
+/// A device at `rate_hz` whose frames arrive without delay, driven by its true sample number.
 class Device {
 public:
     explicit Device(int rate_hz, std::uint16_t first_count = 0)
@@ -53,14 +53,15 @@ TEST_CASE("the index counts frames through every wrap of the counter", "[timing]
     }
 }
 
-TEST_CASE("a gap within contiguous bytes is exact from the counter alone, however late they come",
-          "[timing][sample_index]") {
+TEST_CASE(
+    "a gap within contiguous bytes is exact from the counter alone, however late the bytes arrive",
+    "[timing][sample_index]") {
     for (std::int64_t missing = 1; missing <= 818; ++missing) {
         Device device(50);
         (void)device.frame(0);
         const auto placement = device.frame(missing + 1, true, missing % 3 * 7s);
         INFO(missing);
-        if (missing <= 767) {  // further ones look like a step back by up to 4096 ticks
+        if (missing <= 767) {  // larger gaps look like a step back by up to 4096 ticks
             CHECK(placement.kind == Kind::after_gap);
             CHECK(placement.missing == missing);
             CHECK(placement.index == missing + 1);
@@ -85,8 +86,9 @@ TEST_CASE("a gap is exact after outages of many wraps", "[timing][sample_index]"
     }
 }
 
-TEST_CASE("an outage longer than a wrap is exact even when the caller calls it contiguous",
-          "[timing][sample_index]") {
+TEST_CASE(
+    "an outage longer than a counter wrap is exact even if the caller calls the bytes contiguous",
+    "[timing][sample_index]") {
     Device device(50);
     (void)device.frame(0);
     const auto placement = device.frame(851);  // 17 s: the counter difference is no multiple of 80
@@ -94,7 +96,7 @@ TEST_CASE("an outage longer than a wrap is exact even when the caller calls it c
     CHECK(placement.index == 851);
 }
 
-TEST_CASE("an oscillator 10 ppm off does not spoil a gap of ten hours", "[timing][sample_index]") {
+TEST_CASE("a gap of ten hours is exact with an oscillator 10 ppm off", "[timing][sample_index]") {
     for (const int ppm : {-10, 10}) {
         Device device(50);
         for (std::int64_t k = 0; k < 3000; ++k) (void)device.frame(k);
@@ -123,7 +125,7 @@ TEST_CASE("a backlog after a pause of the host loses nothing and its end shows t
     }
 }
 
-TEST_CASE("bytes that are merely late are taken at the counter's word", "[timing][sample_index]") {
+TEST_CASE("frames that are only late are placed by their counter", "[timing][sample_index]") {
     // At 1000x a host's pause of 100 ms is 100 s of instrument time.
     Device device(50);
     (void)device.frame(0);
@@ -133,7 +135,8 @@ TEST_CASE("bytes that are merely late are taken at the counter's word", "[timing
     CHECK(placement.missing == 2);
 }
 
-TEST_CASE("a counter that disagrees with elapsed time is a new session", "[timing][sample_index]") {
+TEST_CASE("a counter that disagrees with the elapsed time begins a new session",
+          "[timing][sample_index]") {
     int missed = 0;
     for (std::int64_t before = 100; before < 4196; ++before) {
         Device device(50);
@@ -141,13 +144,14 @@ TEST_CASE("a counter that disagrees with elapsed time is a new session", "[timin
         const RawTime arrival = device.time(before) + 30s;
         if (device.raw(80, false, arrival).kind != Kind::new_session) ++missed;
     }
-    // +-1 s of 81.92 s fit by chance: one in 41 (99 to 101 of 4096), and as many, and one, again
+    // A difference within 1 s of 81.92 s fits by chance: one in 41 (99 to 101 of 4096). Another 51
     // count as late bytes with up to 1 s missing.
     CHECK(missed <= 152);
     CHECK(missed >= 99);
 }
 
-TEST_CASE("a repeated counter is a duplicate and moves nothing", "[timing][sample_index]") {
+TEST_CASE("a repeated counter is a duplicate and does not change the index",
+          "[timing][sample_index]") {
     Device device(50);
     (void)device.frame(0);
     CHECK(device.frame(0).kind == Kind::duplicate);
@@ -157,7 +161,8 @@ TEST_CASE("a repeated counter is a duplicate and moves nothing", "[timing][sampl
 }
 
 TEST_CASE(
-    "a counter that jumps by no multiple of the step, or back, is an anomaly and moves nothing",
+    "a counter that jumps back, or by no multiple of the step, is an anomaly that does not change "
+    "the index",
     "[timing][sample_index]") {
     for (const int rate_hz : {50, 100, 200, 500, 1000}) {
         for (const int jump : {1, 3, 16, 79, 81, -4, -80, -160, -1000}) {
@@ -175,7 +180,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a counter restarted in mid-stream becomes a new session with its second frame",
+TEST_CASE("a counter that restarts in mid-stream begins a new session with its second frame",
           "[timing][sample_index]") {
     Device device(50);
     for (std::int64_t k = 0; k < 10; ++k) (void)device.frame(k);

@@ -1,6 +1,7 @@
 #pragma once
 /// @file
-/// A sensor, its cable and its host in true time: what SampleClock observes, and the truth.
+/// A sensor, its cable and its host in true time, with the observations of SampleClock and the
+/// truth.
 
 #include <algorithm>
 #include <cmath>
@@ -13,18 +14,18 @@ namespace a351::timing {
 struct TransportCase {
     const char* name;
     double timer_ms;   ///< Latency timer of the adapter; 0: none.
-    double timer_ppm;  ///< Of its oscillator against true time; in step: against the sensor.
+    double timer_ppm;  ///< Rate error of its oscillator; relative to the sensor if in step.
     bool is_in_step;
     double delay_ms;          ///< Mean of the scheduler's exponential delay.
-    double late_share;        ///< Frames that come up to 20 ms late.
-    double pauses_per_h;      ///< Of the host, 1 to 5 s.
-    double transient_ppm;     ///< Of the sensor from 30 min on, within 10 min.
-    double walk_ppm_per_min;  ///< Random walk of its rate.
-    double poll_ms = 1.0;     ///< Frames of the bus.
+    double late_share;        ///< Share of frames that are up to 20 ms late.
+    double pauses_per_h;      ///< Pauses of the host, of 1 to 5 s.
+    double transient_ppm;     ///< Change of the sensor's rate from 30 min on, within 10 min.
+    double walk_ppm_per_min;  ///< Random walk of the sensor's rate.
+    double poll_ms = 1.0;     ///< Interval of the bus frames.
 };
 
-/// 50 samples/s; the sensor's rate is 12 ppm off, with a slow swing of 0.5 ppm over 4 h where it is
-/// free to move; the host's raw clock 35 ppm off.
+/// Transport of 50 samples/s. The sensor's rate is 12 ppm off, with a slow swing of 0.5 ppm over 4
+/// h if it is free to move. The host's raw clock is 35 ppm off.
 class TransportWorld {
 public:
     static constexpr double kRawError = 35e-6;

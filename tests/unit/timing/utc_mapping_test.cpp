@@ -11,11 +11,11 @@ namespace {
 
 const UtcTime kNoon = *parse_rfc3339("2026-03-01T12:00:00Z");
 
-/// A host whose clock can be set: one reading a second.
+/// A host whose clock can be set, with one clock reading a second.
 struct Host {
     UtcMapping mapping;
     Nanoseconds now{0};     ///< True time since noon.
-    double offset_s = 0.0;  ///< The clock is fast by this.
+    double offset_s = 0.0;  ///< Error of the clock, positive if it is fast.
     double slew_ppm = 0.0;
     bool is_synchronised = true;
     std::int64_t max_error_us = 1000;
@@ -34,7 +34,7 @@ struct Host {
             if (step) followed = step;
         }
     }
-    /// Of the mapping against true time, ms.
+    /// Returns the error of the mapping against true time, ms.
     [[nodiscard]] double error_ms() const {
         return 1e3 * seconds_between(kNoon + now, mapping.at(raw()));
     }
@@ -80,7 +80,7 @@ TEST_CASE("a step of a host that was synchronised is doubted, then followed",
     }
 }
 
-TEST_CASE("a clock that is set back to what it was changes nothing", "[timing][utc_mapping]") {
+TEST_CASE("a clock that is set and set back changes nothing", "[timing][utc_mapping]") {
     Host host;
     host.run(100);
     host.offset_s = 5.0;
@@ -92,8 +92,9 @@ TEST_CASE("a clock that is set back to what it was changes nothing", "[timing][u
     CHECK_FALSE(host.mapping.is_held());
 }
 
-TEST_CASE("a step while the clock was slewed stays doubted, and the error says how long",
-          "[timing][utc_mapping]") {
+TEST_CASE(
+    "a step while the clock is slewed stays doubtful, and the stated error covers the true one",
+    "[timing][utc_mapping]") {
     Host host;
     host.run(10);
     host.slew_ppm = 500.0;
@@ -138,7 +139,8 @@ TEST_CASE("the first synchronisation is followed at once", "[timing][utc_mapping
     CHECK(host.mapping.error_at(host.raw()) < Nanoseconds(2ms));
 }
 
-TEST_CASE("a clock that nobody synchronises is followed after a minute", "[timing][utc_mapping]") {
+TEST_CASE("a step of a clock that is never synchronised is followed after a minute",
+          "[timing][utc_mapping]") {
     Host host;
     host.is_synchronised = false;
     host.run(30);
@@ -163,7 +165,7 @@ TEST_CASE("a step within a minute of waking up is doubted", "[timing][utc_mappin
     CHECK(host.followed);
 }
 
-TEST_CASE("an announced leap second is followed at once, and is doubtful for minutes",
+TEST_CASE("an announced leap second is followed at once, with a larger stated error for minutes",
           "[timing][utc_mapping]") {
     for (const auto& [leap, step_s] :
          {std::pair(LeapSecond::inserted, -1.0), std::pair(LeapSecond::removed, 1.0)}) {
@@ -186,14 +188,14 @@ TEST_CASE("an announced leap second is followed at once, and is doubtful for min
     }
 }
 
-TEST_CASE("a reading across the midnight of a leap second is followed too",
+TEST_CASE("a leap second is followed even if the reading after it still announces it",
           "[timing][utc_mapping]") {
     for (const auto& [leap, step_s] :
          {std::pair(LeapSecond::inserted, -1.0), std::pair(LeapSecond::removed, 1.0)}) {
         Host host;
         host.leap = leap;
         host.run(12 * 3600 - 1);
-        host.offset_s += step_s;  // Announced by this reading still.
+        host.offset_s += step_s;  // This reading still announces it.
         host.run(1);
         REQUIRE(host.followed);
         host.leap = LeapSecond::none;
@@ -204,7 +206,7 @@ TEST_CASE("a reading across the midnight of a leap second is followed too",
     }
 }
 
-TEST_CASE("a step of a second at another time than the announced one is doubted",
+TEST_CASE("a step of one second at another time than the announced one is doubted",
           "[timing][utc_mapping]") {
     Host host;
     host.leap = LeapSecond::inserted;

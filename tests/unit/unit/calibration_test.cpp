@@ -47,7 +47,7 @@ std::string refusal_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a calibration that is written and read is the same to the bit", "[calibration]") {
+TEST_CASE("a calibration is bit-identical after writing and reading", "[calibration]") {
     const Calibration calibration = whole();
     CHECK(parse_calibration(to_toml(calibration), "c.toml") == calibration);
 
@@ -58,7 +58,7 @@ TEST_CASE("a calibration that is written and read is the same to the bit", "[cal
     CHECK(parse_calibration(to_toml(least), "c.toml") == least);
 }
 
-TEST_CASE("what a calibration must not say is refused by file, line and key", "[calibration]") {
+TEST_CASE("invalid values in a calibration are refused with file, line and key", "[calibration]") {
     const std::string good = to_toml(whole());
     struct Case {
         std::string old, with, message;
@@ -72,7 +72,7 @@ TEST_CASE("what a calibration must not say is refused by file, line and key", "[
         {"\"x_mgal_per_g\", \"y_mgal_per_g\"", "\"y_mgal_per_g\", \"x_mgal_per_g\"",
          "axis_bias.coefficients"},
         {"values = [-12,", "values = [", "]: 4 numbers; allowed: 5 numbers"},
-        {"3.76, 7.9", "43, 2700", "thermal.values"},  // seconds in the place of their logarithms
+        {"3.76, 7.9", "43, 2700", "thermal.values"},  // seconds instead of their logarithms
         {"3.76, 7.9", "43, 2700", "fast_lag_ln_s = 43: out of range; allowed: 0 to 12"},
         {"3.76, 7.9", "3.76, -0.1", "slow_lag_ln_s = -0.1: out of range"},
         {"-12, -20.1", "-12, -20100", "slow_temperature_mgal_per_degc = -20100: out of range"},
@@ -93,7 +93,7 @@ TEST_CASE("what a calibration must not say is refused by file, line and key", "[
                ContainsSubstring("axis_bias, thermal or warm_up"));
 }
 
-TEST_CASE("SHA-256 of the standard's example", "[calibration]") {
+TEST_CASE("SHA-256 of a file agrees with the example of the standard", "[calibration]") {
     // FIPS 180-4 examples, "abc".
     const test::TemporaryDirectory folder;
     CHECK(text::sha256_of_file(folder.write("abc", "abc")) ==

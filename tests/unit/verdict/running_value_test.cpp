@@ -26,15 +26,15 @@ TEST_CASE("the running value is the mean of the norm", "[verdict][running]") {
         running.take(sample(2.0 * i, 980000.0 + (i % 2 == 0 ? 1.0 : -1.0)));
     const RunningReading reading = running.reading(MilliGal(1.0), VerdictState::stable);
     CHECK(reading.value->value() == Approx(980000.0).epsilon(0.0).margin(1e-6));
-    CHECK(reading.used_s == 800.0);  // The first 10 s reach back before the start.
+    CHECK(reading.used_s == 800.0);  // The filters of the first 10 s reach back before the start.
     CHECK(reading.left_out_s == 0.0);
-    // No scatter: what is left is the cycle's, 6 / sqrt 8 x 900 / (800 pi).
+    // Without scatter the error of the cycle remains, 6 / sqrt 8 x 900 / (800 pi).
     CHECK(reading.standard_error->value() == Approx(0.7596).margin(1e-4));
     CHECK(reading.is_good_enough);
     CHECK(reading.needed_s == 0.0);
 }
 
-TEST_CASE("the time still needed is the time that it takes", "[verdict][running]") {
+TEST_CASE("the predicted time still needed is the time that it takes", "[verdict][running]") {
     RunningValue running({}, kStart);
     const auto value_at = [](int i) { return 980000.0 + 0.8 * ((i / 30) % 2 == 0 ? 1.0 : -1.0); };
     int i = 5;
@@ -51,7 +51,7 @@ TEST_CASE("the time still needed is the time that it takes", "[verdict][running]
     CHECK(reading.used_s == Approx(promised_s).margin(20.0));
 }
 
-TEST_CASE("good enough needs a stable verdict and three minutes", "[verdict][running]") {
+TEST_CASE("good enough requires a stable verdict and three minutes", "[verdict][running]") {
     RunningValue running({}, kStart);
     int i = 5;
     for (; i < 94; ++i) running.take(sample(2.0 * i, 980000.0));
@@ -64,7 +64,8 @@ TEST_CASE("good enough needs a stable verdict and three minutes", "[verdict][run
     CHECK(unsettled.standard_error);
 }
 
-TEST_CASE("a knock and what it reaches stay out of the running value", "[verdict][running]") {
+TEST_CASE("a knock and the samples it affects are left out of the running value",
+          "[verdict][running]") {
     RunningValue running({}, kStart);
     for (int i = 5; i < 300; ++i) {
         // Shaken from 400 to 402 s; the filters spread it to 9 s on either side.
@@ -77,7 +78,7 @@ TEST_CASE("a knock and what it reaches stay out of the running value", "[verdict
     CHECK(reading.left_out_s == 20.0);
 }
 
-TEST_CASE("a missing sample is left out", "[verdict][running]") {
+TEST_CASE("a missing sample is left out of the running value", "[verdict][running]") {
     RunningValue running({}, kStart);
     for (int i = 5; i < 300; ++i) {
         running.take(

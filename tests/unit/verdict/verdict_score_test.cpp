@@ -8,7 +8,7 @@ namespace {
 
 using daemon::VerdictState;
 
-TEST_CASE("early, late and false verdicts are told apart", "[verdict][truth]") {
+TEST_CASE("early, late and false verdicts are distinguished", "[verdict][truth]") {
     std::vector<Allowed> truth(1000, Allowed::no);
     std::fill(truth.begin() + 500, truth.begin() + 900, Allowed::yes);
     std::vector<VerdictState> told(1000, VerdictState::settling);
@@ -21,18 +21,18 @@ TEST_CASE("early, late and false verdicts are told apart", "[verdict][truth]") {
         CHECK(result.false_s == 160.0);
         CHECK(result.stable_s == 560.0);
     }
-    SECTION("more is") {
+    SECTION("more than a minute before the truth is early") {
         std::fill(told.begin() + 439, told.end(), VerdictState::stable);
         CHECK(score(told, truth).early_s == std::vector<double>{439.0});
     }
-    SECTION("late is a delay") {
+    SECTION("a late verdict is a delay") {
         std::fill(told.begin() + 620, told.end(), VerdictState::stable);
         CHECK(score(told, truth).delays_s == std::vector<double>{120.0});
     }
-    SECTION("never is a delay without end") {
+    SECTION("a verdict that never comes is an infinite delay") {
         CHECK(std::isinf(score(told, truth).median_delay_s()));
     }
-    SECTION("overtaken by a hand is false, not early") {
+    SECTION("a verdict that comes after a hand at the box is false, not early") {
         std::fill(told.begin() + 915, told.end(), VerdictState::stable);
         const VerdictScore result = score(told, truth);
         CHECK(result.early_s.empty());

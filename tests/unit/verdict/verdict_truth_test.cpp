@@ -7,7 +7,7 @@
 namespace a351::sim {
 namespace {
 
-/// Three hours: a ramp, and the cycle of a settled oven upon it.
+/// Returns three hours of a ramp with the cycle of a settled oven.
 std::vector<double> error_course(double mgal_per_10_min, double cycle_mgal) {
     std::vector<double> error;
     for (int s = 0; s < 10800; ++s) {
@@ -17,21 +17,21 @@ std::vector<double> error_course(double mgal_per_10_min, double cycle_mgal) {
     return error;
 }
 
-TEST_CASE("the oven's cycle is no unsteadiness", "[verdict][truth]") {
+TEST_CASE("the oven's cycle does not count as unsteady", "[verdict][truth]") {
     const auto mean = cycle_mean(error_course(0.0, 3.0));
     CHECK(std::isnan(mean[449]));
     for (std::size_t i = 450; i < mean.size() - 450; ++i) REQUIRE(std::abs(mean[i]) < 1e-9);
     CHECK(allowed(mean, {})[5000] == Allowed::yes);
 }
 
-TEST_CASE("2 mGal in 10 min is the limit, either way", "[verdict][truth]") {
+TEST_CASE("the limit is a change of 2 mGal in 10 min, in either direction", "[verdict][truth]") {
     for (const double sign : {1.0, -1.0}) {
         CHECK(allowed(cycle_mean(error_course(1.99 * sign, 3.0)), {})[5000] == Allowed::yes);
         CHECK(allowed(cycle_mean(error_course(2.01 * sign, 3.0)), {})[5000] == Allowed::no);
     }
 }
 
-TEST_CASE("a change that comes within 10 min counts now", "[verdict][truth]") {
+TEST_CASE("a change within the next 10 min counts now", "[verdict][truth]") {
     std::vector<double> mean(4000, 0.0);
     for (std::size_t i = 2000; i < mean.size(); ++i) mean[i] = 3.0;
     const auto truth = allowed(mean, {});
@@ -41,7 +41,7 @@ TEST_CASE("a change that comes within 10 min counts now", "[verdict][truth]") {
     CHECK(truth[2000] == Allowed::yes);
 }
 
-TEST_CASE("a touch counts from its begin until a minute after its end", "[verdict][truth]") {
+TEST_CASE("a touch counts from its start until a minute after its end", "[verdict][truth]") {
     const std::vector<double> mean(4000, 0.0);
     const std::vector<Touch> touches{{1000.0, 1010.0}};
     const auto truth = allowed(mean, touches);
@@ -51,7 +51,7 @@ TEST_CASE("a touch counts from its begin until a minute after its end", "[verdic
     CHECK(truth[1070] == Allowed::yes);
 }
 
-TEST_CASE("where the record does not reach, nothing is known", "[verdict][truth]") {
+TEST_CASE("the truth is unknown where the record does not reach", "[verdict][truth]") {
     const auto truth = allowed(cycle_mean(error_course(0.0, 0.0)), {});
     CHECK(truth[449] == Allowed::unknown);
     CHECK(truth[450] == Allowed::yes);
@@ -59,7 +59,7 @@ TEST_CASE("where the record does not reach, nothing is known", "[verdict][truth]
     CHECK(truth[10800 - 1050] == Allowed::unknown);
 }
 
-TEST_CASE("a warm-up becomes allowed once, late", "[verdict][truth]") {
+TEST_CASE("a warm-up allows readings only after more than two hours", "[verdict][truth]") {
     const VerdictRecord record = simulated_case(3);
     std::size_t first = 0;
     while (record.truth[first] != Allowed::yes) ++first;

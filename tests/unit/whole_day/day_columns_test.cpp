@@ -12,7 +12,7 @@ const UtcTime kStart = *parse_rfc3339("2026-05-01T00:00:00Z");
 
 }  // namespace
 
-TEST_CASE("a lagged ramp follows by the lag", "[day]") {
+TEST_CASE("a ramp after a first-order lag agrees with the exact solution", "[day]") {
     std::vector<double> ramp(2000);
     for (std::size_t i = 0; i < ramp.size(); ++i) ramp[i] = 40.0 + 0.001 * static_cast<double>(i);
     const double tau_s = 43.0;
@@ -25,7 +25,7 @@ TEST_CASE("a lagged ramp follows by the lag", "[day]") {
     }
 }
 
-TEST_CASE("bins average the grid at the times of their samples", "[day]") {
+TEST_CASE("bin means are averages of the grid at the times of their samples", "[day]") {
     const TimeSeries<DegC> grid(kStart, Hertz(0.5), {0.0, 10.0, 20.0, 30.0});
     DayBin bin;
     bin.times = {kStart + from_seconds(1.0), kStart + from_seconds(4.0)};

@@ -15,7 +15,7 @@ double coefficient(const DayFit& fit, DayTerm term) {
 
 }  // namespace
 
-TEST_CASE("the day's model finds what the readings were made of", "[day]") {
+TEST_CASE("the whole-day model finds the parameters of made-up readings", "[day]") {
     const MadeUpDay day;
     const DayRecord record = day.record();
     const auto fit = fit_day(record, MadeUpDay::stations());
@@ -35,7 +35,7 @@ TEST_CASE("the day's model finds what the readings were made of", "[day]") {
               Approx(MadeUpDay::gravity_mgal(s)).margin(0.001));
 }
 
-TEST_CASE("corrections add up to the corrected value", "[day]") {
+TEST_CASE("reading, flicker and effects of a set-up add up to its corrected value", "[day]") {
     const auto fit = fit_day(MadeUpDay{.placement_mgal = 1.0}.record(), MadeUpDay::stations());
     for (const DaySetUp& set_up : fit.value().set_ups) {
         double effects = 0.0;
@@ -45,8 +45,9 @@ TEST_CASE("corrections add up to the corrected value", "[day]") {
     }
 }
 
-TEST_CASE("gravity of unknown stations comes with an uncertainty that holds", "[day]") {
-    // Stations 3 and 9, of 40 days whose set-ups scatter by 1.2 mGal.
+TEST_CASE("the stated uncertainty of unknown stations covers their errors as often as it should",
+          "[day]") {
+    // Stations 3 and 9 of 40 days with a set-up scatter of 1.2 mGal.
     std::size_t count = 0, within = 0;
     double sum = 0.0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -72,7 +73,7 @@ TEST_CASE("gravity of unknown stations comes with an uncertainty that holds", "[
     CHECK(within <= 68);
 }
 
-TEST_CASE("set-ups of one unknown share its value", "[day]") {
+TEST_CASE("set-ups of one unknown station share its value", "[day]") {
     auto stations = MadeUpDay::stations();
     for (const std::size_t s : {2U, 13U}) {  // both at the third of eleven stations
         stations[s].gravity.reset();
@@ -87,13 +88,13 @@ TEST_CASE("set-ups of one unknown share its value", "[day]") {
     CHECK(std::abs(departure2) > 0.05);
 }
 
-TEST_CASE("nothing held determines nothing", "[day]") {
+TEST_CASE("the whole-day model is refused without a known station", "[day]") {
     auto stations = MadeUpDay::stations();
     for (DayStation& station : stations) station.gravity.reset();
     CHECK_FALSE(fit_day(MadeUpDay{}.record(), stations));
 }
 
-TEST_CASE("a fit from nearby is the same fit", "[day]") {
+TEST_CASE("a fit that starts from a nearby fit gives the same result", "[day]") {
     const DayRecord record = MadeUpDay{.placement_mgal = 1.0, .white_mgal = 0.2}.record();
     auto stations = MadeUpDay::stations();
     const auto all = fit_day(record, stations);
@@ -105,7 +106,7 @@ TEST_CASE("a fit from nearby is the same fit", "[day]") {
           Approx(afar->unknown_mgal.at(0).standard_error).epsilon(0.005));
 }
 
-TEST_CASE("the fit is the same to the bit each time", "[day]") {
+TEST_CASE("the whole-day fit is bit-identical each time", "[day]") {
     const DayRecord record = MadeUpDay{.placement_mgal = 1.0}.record();
     const auto a = fit_day(record, MadeUpDay::stations()),
                b = fit_day(record, MadeUpDay::stations());
@@ -114,8 +115,8 @@ TEST_CASE("the fit is the same to the bit each time", "[day]") {
         CHECK(a->set_ups[s].corrected == b->set_ups[s].corrected);
 }
 
-TEST_CASE("priors that are known better hold what the day cannot tell", "[day]") {
-    // Level and slow slope known to 2 mGal/degC each and better together, x to 1 mGal/g.
+TEST_CASE("narrower priors determine what the day does not determine", "[day]") {
+    // Level and slow slope are known to 2 mGal/degC each and better together, x to 1 mGal/g.
     const MadeUpDay day{.placement_mgal = 1.2, .white_mgal = 0.2};
     DayPriors priors = usual_day_priors();
     const auto level = DayPriors::place_of(DayTerm::level);
@@ -134,7 +135,7 @@ TEST_CASE("priors that are known better hold what the day cannot tell", "[day]")
     CHECK(fit->coefficients.at(static_cast<std::size_t>(DayTerm::level)).standard_error <=
           Approx(2.0));
     CHECK(usual->coefficients.at(static_cast<std::size_t>(DayTerm::x)).standard_error > 50.0);
-    // Estimates are the prior's mean moved by the shift.
+    // Each estimate is the mean of its prior plus the shift.
     const DayPriors::Vector moved = priors.mean + priors.factor * fit->shift;
     CHECK(moved(level) == Approx(coefficient(*fit, DayTerm::level)));
     CHECK(moved(slow) == Approx(coefficient(*fit, DayTerm::slow)));
@@ -145,7 +146,7 @@ TEST_CASE("priors that are known better hold what the day cannot tell", "[day]")
           Approx(fit->coefficients.at(static_cast<std::size_t>(DayTerm::slow)).standard_error));
 }
 
-TEST_CASE("a measurement may be as exact as it likes", "[day]") {
+TEST_CASE("a prior from an arbitrarily exact measurement is accepted", "[day]") {
     const auto x = DayPriors::place_of(DayTerm::x);
     for (const double variance : {1.0, 1e-10, 1e-20}) {
         DayPriors priors = usual_day_priors();
@@ -157,8 +158,8 @@ TEST_CASE("a measurement may be as exact as it likes", "[day]") {
     }
 }
 
-TEST_CASE("a lag that is tied to a slope takes it along", "[day]") {
-    // The fast lag's logarithm moves by 1 when the slope does by 10.
+TEST_CASE("a lag that is correlated with a slope changes together with it", "[day]") {
+    // The fast lag's logarithm changes by 1 when the slope changes by 10.
     const MadeUpDay day;
     DayPriors priors = usual_day_priors();
     Eigen::Matrix2d covariance;

@@ -12,7 +12,7 @@ using namespace a351::corrector;
 
 namespace {
 
-/// Covariance of the flicker of unit variance at two instants so far apart.
+/// Returns the covariance of flicker of unit variance at two times `lag_s` apart.
 double flicker_correlation(double lag_s) {
     double sum = 0.0;
     for (const double period_s : kFlickerPeriods_s)
@@ -20,7 +20,7 @@ double flicker_correlation(double lag_s) {
     return sum / static_cast<double>(kFlickerPeriods_s.size());
 }
 
-/// By its definition.
+/// Returns the covariance of the bins from the definition of the noise.
 Eigen::MatrixXd covariance(const std::vector<DayBin>& bins, const DayNoise& noise) {
     const auto n = static_cast<Eigen::Index>(bins.size());
     Eigen::MatrixXd matrix(n, n);
@@ -41,7 +41,7 @@ Eigen::MatrixXd covariance(const std::vector<DayBin>& bins, const DayNoise& nois
 
 }  // namespace
 
-TEST_CASE("the filter whitens as the dense covariance does", "[day]") {
+TEST_CASE("the filter whitens like the dense covariance", "[day]") {
     std::vector<DayBin> bins = MadeUpDay{}.record().bins;
     for (std::size_t i = 0; i < bins.size(); i += 3) bins[i].times.resize(9);
     const DayNoise noise{1.1, 0.8, 0.3};
@@ -58,7 +58,7 @@ TEST_CASE("the filter whitens as the dense covariance does", "[day]") {
 }
 
 TEST_CASE("flicker is 1/f between its first and last period", "[day]") {
-    // Spectrum of the sum of processes with these corners, times frequency.
+    // Returns the spectrum of the sum of processes with these corners, times frequency.
     const auto power = [](double period_s) {
         double sum = 0.0;
         for (const double corner_s : kFlickerPeriods_s) {

@@ -26,7 +26,7 @@ OccupationRecord still(double seconds) {
 
 }  // namespace
 
-TEST_CASE("bins hold the mean norm and the mean horizontal axes", "[day]") {
+TEST_CASE("bins contain the mean norm and the mean horizontal axes", "[day]") {
     const auto bins = bin_set_up(3, decimate_axes(still(400.0)), 8.0);
     REQUIRE(bins.size() == 8);
     for (const DayBin& bin : bins) {
@@ -40,7 +40,7 @@ TEST_CASE("bins hold the mean norm and the mean horizontal axes", "[day]") {
     CHECK(seconds_between(kStart, bins[2].time) == Approx(124.0));
 }
 
-TEST_CASE("samples near a disturbance take no part", "[day]") {
+TEST_CASE("samples near a disturbance are left out of the bins", "[day]") {
     OccupationRecord record = still(400.0);
     std::vector<double> z = record.z.values();
     for (std::size_t i = 7400; i < 7500; ++i) z[i] += 0.01;  // 148 to 150 s
@@ -52,7 +52,7 @@ TEST_CASE("samples near a disturbance take no part", "[day]") {
     }
 }
 
-TEST_CASE("a bin of few samples is left out", "[day]") {
+TEST_CASE("a bin with few samples is left out", "[day]") {
     OccupationRecord record = still(100.0);
     std::vector<double> z = record.z.values();
     std::fill(z.begin() + 1000, z.begin() + 2600, std::numeric_limits<double>::quiet_NaN());
@@ -62,7 +62,7 @@ TEST_CASE("a bin of few samples is left out", "[day]") {
     CHECK(seconds_between(kStart, bins[0].times.front()) > 60.0);
 }
 
-TEST_CASE("the day's temperature is smooth and bridges its gaps", "[day]") {
+TEST_CASE("the day's temperature is smooth, and its gaps are bridged", "[day]") {
     std::mt19937_64 random(6);
     std::normal_distribution<double> noise(0.0, 0.01);
     std::vector<double> degc(180000);  // an hour
@@ -80,7 +80,7 @@ TEST_CASE("the day's temperature is smooth and bridges its gaps", "[day]") {
     }
 }
 
-TEST_CASE("minutes of temperature are no day", "[day]") {
+TEST_CASE("a few minutes of temperature, or none, are too short for a day", "[day]") {
     CHECK_FALSE(day_temperature({kStart, kRate, std::vector<double>(25000, 42.0)}));
     CHECK_FALSE(day_temperature(
         {kStart, kRate, std::vector<double>(90000, std::numeric_limits<double>::quiet_NaN())}));

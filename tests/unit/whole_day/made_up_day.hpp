@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A day of set-ups whose readings follow the model exactly, noise apart.
+/// A day of set-ups whose readings follow the model exactly, except for noise.
 
 #include <cmath>
 #include <numbers>
@@ -22,7 +22,7 @@ struct MadeUpDay {
 
     [[nodiscard]] static UtcTime start() { return *parse_rfc3339("2026-05-01T00:00:00Z"); }
 
-    /// Ten hours at 2 s: a daily course and faster waves.
+    /// Returns ten hours at 2 s: a daily course and faster waves.
     [[nodiscard]] static TimeSeries<DegC> temperature() {
         std::vector<double> degc(18000);
         for (std::size_t i = 0; i < degc.size(); ++i) {

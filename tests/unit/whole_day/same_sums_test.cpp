@@ -6,14 +6,15 @@ using namespace a351::corrector;
 
 TEST_CASE("Eigen sums in the same order on every processor", "[day]") {
 #ifdef EIGEN_VECTORIZE
-    FAIL("Eigen uses the vectors of this architecture");
+    FAIL("Eigen uses the vector instructions of this processor");
 #endif
     CHECK(Eigen::l1CacheSize() == 32768);
     CHECK(Eigen::l2CacheSize() == 262144);
     CHECK(Eigen::l3CacheSize() == 2097152);
 }
 
-TEST_CASE("where a search looks and what it sees does not depend on last bits", "[day]") {
+TEST_CASE("the points and costs of a search do not depend on the last bits of its values",
+          "[day]") {
     for (const double value : {0.3, -1.7, 11.25, 1e-9}) {
         CHECK(search_point(value) == search_point(value * (1.0 + 1e-13)));
         CHECK(search_point(value) == Approx(value).margin(3.1e-5));

@@ -5,7 +5,7 @@
 namespace a351::wire {
 namespace {
 
-constexpr unsigned kBefore = 2;  // frames that bring the decoder into step
+constexpr unsigned kBefore = 2;  // frames that synchronise the decoder
 constexpr unsigned kFrames = 5;
 
 }  // namespace
@@ -27,7 +27,7 @@ TEST_CASE("any single flipped bit of five frames loses exactly the frame it hits
     }
 }
 
-TEST_CASE("a flipped bit within a stream is one run of one frame", "[wire][burst_decoder]") {
+TEST_CASE("a flipped bit within a stream discards one frame in one run", "[wire][burst_decoder]") {
     const BurstLayout layout = BurstLayout::recommended();
     for (std::size_t at = 0; at < layout.frame_size(); ++at) {
         CAPTURE(at);
@@ -67,18 +67,18 @@ TEST_CASE("an inserted byte of any value costs at most the frame it falls into",
             const auto hit = static_cast<unsigned>(at / layout.frame_size());
             const unsigned lost = at % layout.frame_size() == 0 ? 99 : hit;
             const auto found = frames_in(decode(layout, stream));
-            // A byte equal to its neighbour may come to lie outside the frame.
+            // A byte equal to its neighbour may be outside the frame after all.
             if (found.size() < 6) REQUIRE(found == values_except(layout, 0, 6, lost));
             if (lost == 99) REQUIRE(found.size() == 6);
         }
     }
 }
 
-TEST_CASE("frames hidden behind a false header are found", "[wire][burst_decoder]") {
+TEST_CASE("frames hidden by a false header are found", "[wire][burst_decoder]") {
     const BurstLayout layout = BurstLayout::recommended();
     for (std::size_t ahead = 1; ahead < 2 * layout.frame_size(); ++ahead) {
         CAPTURE(ahead);
-        // Byte 9 of each frame is an end byte: right for the header that starts 14 bytes before it.
+        // Byte 9 of each frame is an end byte. It fits a false header 14 bytes before the frame.
         Bytes stream(ahead, kStartByte);
         std::vector<BurstValues> sent;
         for (unsigned i = 0; i < 4; ++i) {
@@ -92,7 +92,7 @@ TEST_CASE("frames hidden behind a false header are found", "[wire][burst_decoder
     }
 }
 
-TEST_CASE("a false frame with right markers and checksum hides none of the frames it overlaps",
+TEST_CASE("a false frame with valid markers and checksum hides none of the frames it overlaps",
           "[wire][burst_decoder]") {
     const BurstLayout layout = layout_of(0x0703);
     Bytes stream = to_bytes({0x80, 0x7F, 0xFF, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x00, 0x01});

@@ -16,7 +16,8 @@ Event frame_event(const BurstLayout& layout, unsigned i) {
 }
 Event discarded(Reason reason, std::size_t count) { return {.reason = reason, .discarded = count}; }
 
-/// Healthy frames, lost and inserted bytes, flipped bits, false headers, a restart of the device.
+/// Returns healthy frames, lost and inserted bytes, flipped bits, false headers, and a restart of
+/// the device.
 Bytes rough_stream(const BurstLayout& layout) {
     Bytes damaged = frames(layout, 6, 2);
     damaged[3] ^= std::byte{0x10};
@@ -48,7 +49,7 @@ TEST_CASE("a stream cut at any byte decodes to the same events", "[wire][burst_d
     }
 }
 
-TEST_CASE("a stream fed in pieces of any one size decodes to the same events",
+TEST_CASE("a stream fed in pieces of any size decodes to the same events",
           "[wire][burst_decoder]") {
     for (const int burst_ctrl : {0xC703, 0x4702, 0x0701, 0x0400}) {
         const BurstLayout layout = layout_of(burst_ctrl);
@@ -67,7 +68,7 @@ TEST_CASE("a stream fed in pieces of any one size decodes to the same events",
     }
 }
 
-TEST_CASE("each byte ends up in exactly one event or is pending", "[wire][burst_decoder]") {
+TEST_CASE("each byte is in exactly one event or pending", "[wire][burst_decoder]") {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         CAPTURE(seed);
         std::mt19937_64 generator(seed);
@@ -113,7 +114,7 @@ TEST_CASE("the first frame is held until a second one confirms it", "[wire][burs
     CHECK(decoder.pending_bytes() == 0);
 }
 
-TEST_CASE("two damaged frames between do not keep the held frame from being confirmed",
+TEST_CASE("a held frame is confirmed even if two damaged frames follow it",
           "[wire][burst_decoder]") {
     Bytes stream = frames(kFull, 0, 4);
     stream[30] ^= std::byte{1};
@@ -124,7 +125,7 @@ TEST_CASE("two damaged frames between do not keep the held frame from being conf
                       frame_event(kFull, 3)});
 }
 
-TEST_CASE("a frame that nothing confirms is given up, and its bytes are named",
+TEST_CASE("a frame that is never confirmed is discarded and its bytes are reported",
           "[wire][burst_decoder]") {
     const auto events = decode(kFull, joined({frame_at(kFull, 0), Bytes(96), Bytes(24)}));
     REQUIRE(events.size() == 6);
@@ -141,7 +142,7 @@ TEST_CASE("a second frame whose COUNT does not follow confirms nothing", "[wire]
     CHECK(frames_in(decode(kFull, joined({stream, Bytes(200)}))).empty());
 }
 
-TEST_CASE("without checksum it takes three frames in a row", "[wire][burst_decoder]") {
+TEST_CASE("without a checksum three frames in a row are required", "[wire][burst_decoder]") {
     const BurstLayout layout = layout_of(0x4702);
     const Bytes gap = Bytes(7);
     CHECK(frames_in(decode(layout, joined({frames(layout, 0, 2), gap, Bytes(60)}))).empty());
@@ -152,7 +153,7 @@ TEST_CASE("without checksum it takes three frames in a row", "[wire][burst_decod
               .size() == 6);
 }
 
-TEST_CASE("without checksum a constant field that looks like two markers is not taken for frames",
+TEST_CASE("without a checksum a constant field that looks like two markers is not taken for frames",
           "[wire][burst_decoder]") {
     // X holds 0x000D80xx, so end and start byte recur one frame apart, two bytes into the field.
     const BurstLayout layout = layout_of(0x4702);
@@ -168,12 +169,12 @@ TEST_CASE("without checksum a constant field that looks like two markers is not 
     CHECK(found.front().count == 2 * kStep);
 }
 
-TEST_CASE("a frame directly behind another needs no plausible COUNT", "[wire][burst_decoder]") {
+TEST_CASE("a frame directly after another one needs no plausible COUNT", "[wire][burst_decoder]") {
     const Bytes stream = joined({frames(kFull, 50, 3), frames(kFull, 0, 1), frames(kFull, 0, 1)});
     CHECK(frames_in(decode(kFull, stream)).size() == 5);
 }
 
-TEST_CASE("after a loss the counter may have started again: held, then confirmed",
+TEST_CASE("after a loss a frame with a restarted counter is held until it is confirmed",
           "[wire][burst_decoder]") {
     BurstDecoder decoder(kFull, kStep);
     std::vector<Event> events;
@@ -184,8 +185,10 @@ TEST_CASE("after a loss the counter may have started again: held, then confirmed
     CHECK(decoder.pending_bytes() == 0);
 }
 
-TEST_CASE("after a loss of half a wrap one frame is enough, beyond it takes two",
-          "[wire][burst_decoder]") {
+TEST_CASE(
+    "after a loss of up to half a counter wrap one frame is enough, after a longer one two are "
+    "required",
+    "[wire][burst_decoder]") {
     const unsigned half_wrap = 0x8000 / kStep;  // 409 steps = 32720 counts
     for (const unsigned lost : {1U, 100U, half_wrap - 1, half_wrap}) {
         CAPTURE(lost);

@@ -12,7 +12,7 @@
 namespace a351::wire {
 namespace {
 
-// Physical values of the vectors are given to the last digit printed in their source.
+// Tolerance of physical values, which are given to the last digit printed in their source.
 constexpr double kLastDigit = 6e-12;
 
 Bytes encode(std::uint16_t burst_ctrl, const BurstValues& values) {
@@ -21,7 +21,7 @@ Bytes encode(std::uint16_t burst_ctrl, const BurstValues& values) {
     return bytes;
 }
 
-/// The first frame of a stream that goes on with `values` at later COUNTs.
+/// Returns the first frame of a stream that continues with `values` at later COUNTs.
 BurstValues decode_first(std::uint16_t burst_ctrl, const Bytes& frame, BurstValues values) {
     Bytes stream = frame;
     for (int i = 0; i < 2; ++i) {
@@ -47,7 +47,7 @@ double temperature_degc(const BurstValues& values) {
     return find_profile("A352AD10")->temperature(values.temperature).value();
 }
 
-/// Where `pattern` starts in `frame`; empty when it does not occur.
+/// Returns the offset of `pattern` in `frame`; empty if it does not occur.
 std::string offset_of(const Bytes& frame, std::size_t end, const Bytes& pattern) {
     const auto last = frame.begin() + static_cast<std::ptrdiff_t>(end);
     const auto found = std::search(frame.begin(), last, pattern.begin(), pattern.end());
@@ -56,7 +56,7 @@ std::string offset_of(const Bytes& frame, std::size_t end, const Bytes& pattern)
 
 }  // namespace
 
-TEST_CASE("every one of the 112 layouts puts its fields where the table says",
+TEST_CASE("each of the 112 layouts has its fields at the offsets of the reference table",
           "[wire][burst_layout]") {
     const auto table = text::read_csv(A351_GOLDEN "/wire/burst_layouts.csv");
     REQUIRE(table.row_count() == 112);
@@ -90,7 +90,7 @@ TEST_CASE("every one of the 112 layouts puts its fields where the table says",
     }
 }
 
-TEST_CASE("of all 65536 values of BURST_CTRL exactly 112 are layouts", "[wire][burst_layout]") {
+TEST_CASE("exactly 112 of the 65536 values of BURST_CTRL are layouts", "[wire][burst_layout]") {
     int valid = 0;
     for (unsigned value = 0; value <= 0xFFFF; ++value) {
         if (BurstLayout::from_burst_ctrl(static_cast<std::uint16_t>(value))) ++valid;
@@ -101,7 +101,8 @@ TEST_CASE("of all 65536 values of BURST_CTRL exactly 112 are layouts", "[wire][b
     CHECK(BurstLayout::recommended().burst_ctrl() == 0xC703);
 }
 
-TEST_CASE("any frame of any layout decodes to what was encoded", "[wire][burst_frame]") {
+TEST_CASE("any frame of any layout is decoded to the values that were encoded",
+          "[wire][burst_frame]") {
     std::mt19937_64 generator(1);
     for (unsigned burst_ctrl = 0; burst_ctrl <= 0xFFFF; ++burst_ctrl) {
         const auto layout = BurstLayout::from_burst_ctrl(static_cast<std::uint16_t>(burst_ctrl));
@@ -119,7 +120,7 @@ TEST_CASE("any frame of any layout decodes to what was encoded", "[wire][burst_f
     }
 }
 
-TEST_CASE("the checksum of the data sheet's example comes out", "[wire][burst_frame]") {
+TEST_CASE("the checksum of the data sheet's example is reproduced", "[wire][burst_frame]") {
     // M-A352AD10 data sheet, rev. 20251023, 6.2.4.
     const Bytes words =
         to_bytes({0xFE, 0x01, 0xC4, 0x55, 0x40, 0x00, 0x00, 0x52, 0x33, 0xC0, 0x00, 0x43,
@@ -128,9 +129,9 @@ TEST_CASE("the checksum of the data sheet's example comes out", "[wire][burst_fr
     CHECK(burst_checksum(words) == 0x11B4);
 }
 
-// Raw values of the next three: register dump of a real M-A352, printed in the README of Epson's
-// ess_accl_ros2_driver.  Scales: data sheet table 2.3, 7.6, 7.7.
-TEST_CASE("a frame with all fields decodes to the values of the register dump",
+// The raw values of the next three tests are from the register dump of a real M-A352, printed in
+// the README of Epson's ess_accl_ros2_driver. Scales: data sheet table 2.3, 7.6, 7.7.
+TEST_CASE("a frame with all fields is decoded to the values of the register dump",
           "[wire][burst_frame]") {
     const Bytes frame =
         to_bytes({0x80, 0x8E, 0x00, 0x00, 0x00, 0x09, 0xA2, 0xFF, 0xFC, 0xE3, 0x88, 0x00,
@@ -146,14 +147,14 @@ TEST_CASE("a frame with all fields decodes to the values of the register dump",
     CHECK(milligal.value() == Approx(-11918.2).margin(0.05));
 }
 
-TEST_CASE("the factory layout, without checksum, decodes", "[wire][burst_frame]") {
+TEST_CASE("a frame of the factory layout, without checksum, is decoded", "[wire][burst_frame]") {
     const Bytes frame = to_bytes({0x80, 0x00, 0x00, 0x09, 0xA2, 0xFF, 0xFC, 0xE3, 0x88, 0x00,
                                   0x09, 0x3A, 0x7A, 0x00, 0xFF, 0x06, 0x24, 0x00, 0x14, 0x0D});
     check_both_ways(0x4702, frame,
                     {.temperature = 2466, .axes = {-203896, 604794, 16713252}, .count = 20});
 }
 
-TEST_CASE("three axes and nothing else decode", "[wire][burst_frame]") {
+TEST_CASE("a frame with three axes and nothing else is decoded", "[wire][burst_frame]") {
     const Bytes frame = to_bytes(
         {0x80, 0xFF, 0xFC, 0xE3, 0x88, 0x00, 0x09, 0x3A, 0x7A, 0x00, 0xFF, 0x06, 0x24, 0x0D});
     check_both_ways(0x0700, frame, {.axes = {-203896, 604794, 16713252}});
@@ -174,8 +175,8 @@ TEST_CASE("markers inside the data are data", "[wire][burst_frame]") {
     CHECK(x_g(values, 2) == Approx(1.05098724365).margin(kLastDigit));
 }
 
-// Special values: data sheet 5.13, 7.4, 7.7.
-TEST_CASE("an axis at its alarm limit says so and is clamped at 15 g", "[wire][burst_frame]") {
+// Sources of the special values: data sheet 5.13, 7.4, 7.7.
+TEST_CASE("an axis at its alarm limit sets a flag and is clamped at 15 g", "[wire][burst_frame]") {
     const Bytes frame =
         to_bytes({0x80, 0x8E, 0x10, 0xFF, 0xFF, 0xF8, 0x43, 0x0F, 0x00, 0x00, 0x00, 0x00,
                   0x00, 0x00, 0x00, 0x00, 0xFF, 0xBE, 0x77, 0x00, 0x28, 0x54, 0xF0, 0x0D});
@@ -187,7 +188,7 @@ TEST_CASE("an axis at its alarm limit says so and is clamped at 15 g", "[wire][b
     CHECK(x_g(values, 2) == Approx(0.99899858).margin(5e-9));
 }
 
-TEST_CASE("an illegal pair of rate and filter is told by the flag and by 100 g on each axis",
+TEST_CASE("an illegal pair of rate and filter is shown by the flag and by 100 g on each axis",
           "[wire][burst_frame]") {
     const Bytes frame =
         to_bytes({0x80, 0x8E, 0x02, 0xFF, 0xFF, 0xF8, 0x43, 0x64, 0x00, 0x00, 0x00, 0x64,
@@ -201,7 +202,7 @@ TEST_CASE("an illegal pair of rate and filter is told by the flag and by 100 g o
     CHECK(x_g(values, 0) == 100.0);
 }
 
-TEST_CASE("tilt at its limits is 60 degrees", "[wire][burst_frame]") {
+TEST_CASE("the tilt output is 60 degrees at its limits", "[wire][burst_frame]") {
     const Bytes frame = to_bytes({0x80, 0x21, 0x82, 0xA4, 0x70, 0xDE, 0x7D, 0x5B, 0x90, 0x0C, 0x15,
                                   0x23, 0x82, 0x2F, 0x96, 0x0D});
     const BurstValues values{.axes = {0x2182A470, -0x2182A470, 0x0C152382}};
@@ -212,7 +213,7 @@ TEST_CASE("tilt at its limits is 60 degrees", "[wire][burst_frame]") {
     CHECK(std::ldexp(values.axes[2], -bits) == Approx(0.37758041).margin(5e-9));
 }
 
-TEST_CASE("each of the 256 byte values survives in each payload position",
+TEST_CASE("each of the 256 byte values is decoded in each position of the payload",
           "[wire][burst_frame][burst_decoder]") {
     const BurstLayout layout = BurstLayout::recommended();
     const std::size_t checksum_at = layout.frame_size() - 3;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Streams of burst frames, whole and damaged, and what the decoder makes of them.
+/// Streams of burst frames, intact and damaged, and the events that the decoder makes of them.
 
 #include <algorithm>
 #include <cstddef>
@@ -37,7 +37,8 @@ inline BurstLayout layout_of(int burst_ctrl) {
 
 inline constexpr std::uint16_t kStep = 80;  // 50 Hz
 
-/// What a healthy device at rest says in its i-th frame, less the fields that `layout` lacks.
+/// Returns the values of a healthy device at rest in its i-th frame, without the fields that
+/// `layout` lacks.
 inline BurstValues values_at(const BurstLayout& layout, unsigned i) {
     const auto drift = static_cast<std::int32_t>(i);
     BurstValues values{};
@@ -64,7 +65,7 @@ inline Bytes frames(const BurstLayout& layout, unsigned first, unsigned count) {
     return bytes;
 }
 
-/// One event with equality: a frame, or a run of `discarded` bytes.
+/// An event that can be compared: a frame, or a run of `discarded` bytes.
 struct Event {
     BurstValues values{};
     Discarded::Reason reason = Discarded::Reason::no_start_byte;
@@ -107,7 +108,7 @@ inline std::vector<BurstValues> frames_in(const std::vector<Event>& events) {
     return found;
 }
 
-/// Frames `first` ... `first + count - 1` without the one numbered `lost`.
+/// Returns the values of frames `first` ... `first + count - 1` without frame `lost`.
 inline std::vector<BurstValues> values_except(const BurstLayout& layout, unsigned first,
                                               unsigned count, unsigned lost) {
     std::vector<BurstValues> values;
@@ -117,7 +118,7 @@ inline std::vector<BurstValues> values_except(const BurstLayout& layout, unsigne
     return values;
 }
 
-/// Bytes of any value, or rich in the frame markers; the same for a seed on any machine.
+/// Returns random bytes, or bytes rich in frame markers; the same for a seed on any machine.
 inline Bytes garbage(std::uint64_t seed, std::size_t size, bool is_rich_in_markers) {
     std::mt19937_64 generator(seed);
     Bytes bytes;

@@ -21,8 +21,9 @@ ConfigMode config() { return *ConfigMode::from_mode_ctrl(0x0400); }
 
 }  // namespace
 
-TEST_CASE("commands are those of the data sheet's auto sampling example, window first",
-          "[wire][commands]") {
+TEST_CASE(
+    "commands are those of the data sheet's auto sampling example, with the window selected first",
+    "[wire][commands]") {
     // M-A352AD10 data sheet 8.2.3: 200 samples/s, BURST_CTRL 0x4702.
     CHECK(flat(config().write(kSmplCtrl, 0x0400, 0x0F00)) ==
           to_bytes({0xFE, 0x01, 0x0D, 0x85, 0x04, 0x0D}));
@@ -37,13 +38,13 @@ TEST_CASE("commands are those of the data sheet's auto sampling example, window 
     CHECK(flat(read_mode()) == to_bytes({0xFE, 0x00, 0x0D, 0x02, 0x00, 0x0D}));
 }
 
-TEST_CASE("a write leaves the byte outside its mask alone and reserved bits zero",
+TEST_CASE("a write does not change the byte outside its mask and keeps reserved bits zero",
           "[wire][commands]") {
     CHECK(flat(config().write(kMscCtrl, 0xFFFF, 0x0046)) ==
           to_bytes({0xFE, 0x01, 0x0D, 0x82, 0x66, 0x0D}));
 }
 
-TEST_CASE("configuration mode is what MODE_STAT says", "[wire][commands]") {
+TEST_CASE("configuration mode is recognised by MODE_STAT", "[wire][commands]") {
     for (unsigned value = 0; value <= 0xFFFF; ++value) {
         const bool is_config = (value & 0x0C00) == 0x0400;
         REQUIRE(ConfigMode::from_mode_ctrl(static_cast<std::uint16_t>(value)).has_value() ==
@@ -51,7 +52,7 @@ TEST_CASE("configuration mode is what MODE_STAT says", "[wire][commands]") {
     }
 }
 
-TEST_CASE("an answer holds any value, CR included", "[wire][commands]") {
+TEST_CASE("an answer may contain any value, CR included", "[wire][commands]") {
     for (unsigned value = 0; value <= 0xFFFF; ++value) {
         const Bytes answer =
             to_bytes({0x0C, static_cast<int>(value >> 8), static_cast<int>(value & 0xFF), 0x0D});
@@ -59,7 +60,7 @@ TEST_CASE("an answer holds any value, CR included", "[wire][commands]") {
     }
 }
 
-TEST_CASE("an answer of another register, length or end is none", "[wire][commands]") {
+TEST_CASE("an answer with another register, length or end is refused", "[wire][commands]") {
     CHECK(parse_answer(kModeCtrl, to_bytes({0x02, 0x04, 0x00, 0x0D})) == 0x0400);
     CHECK_FALSE(parse_answer(kModeCtrl, to_bytes({0x04, 0x04, 0x00, 0x0D})));
     CHECK_FALSE(parse_answer(kModeCtrl, to_bytes({0x82, 0x04, 0x00, 0x0D})));
@@ -69,7 +70,7 @@ TEST_CASE("an answer of another register, length or end is none", "[wire][comman
     CHECK_FALSE(parse_answer(kModeCtrl, {}));
 }
 
-TEST_CASE("the register map agrees with itself and with the data sheet", "[wire][registers]") {
+TEST_CASE("the register map is consistent and agrees with the data sheet", "[wire][registers]") {
     // Writable byte addresses: data sheet table 7.1.
     const std::set<int> writable_w0{0x00, 0x03, 0x7E};
     const std::set<int> writable_w1{0x00, 0x01, 0x02, 0x03, 0x05, 0x06, 0x08, 0x09, 0x0A,

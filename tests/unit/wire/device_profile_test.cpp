@@ -26,7 +26,7 @@ TEST_CASE("profiles are found by name, and only the documented one is verified",
     CHECK(find_profile("") == nullptr);
 }
 
-TEST_CASE("the unverified profile measures as the documented one", "[wire][device_profile]") {
+TEST_CASE("the unverified profile has the scales of the documented one", "[wire][device_profile]") {
     const DeviceProfile& documented = *find_profile("A352AD10");
     const DeviceProfile& copy = *find_profile("A351");
     for (const std::int32_t counts : {-2147483647 - 1, -1, 0, 1, 16713252, 2147483647}) {
@@ -44,7 +44,7 @@ TEST_CASE("one count of acceleration is exactly 2^-24 g", "[wire][device_profile
           Approx(0.05845218896865844).epsilon(1e-15));
 }
 
-TEST_CASE("temperature falls with the counts as published", "[wire][device_profile]") {
+TEST_CASE("temperature falls with rising counts, as published", "[wire][device_profile]") {
     // Data sheet 7.6: 2634 counts at 25 degC.
     const DeviceProfile& profile = *find_profile("A352AD10");
     CHECK(profile.temperature(2634).value() == Approx(25.0).margin(0.0019));  // half a count

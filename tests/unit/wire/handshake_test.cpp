@@ -32,15 +32,15 @@ void check_sampling_as_asked(const HandshakeRun& run, const ScriptedRegisters& d
 
 }  // namespace
 
-TEST_CASE("a device with factory settings ends up sampling as asked", "[wire][handshake]") {
+TEST_CASE("a device with factory settings is brought to sampling with the requested settings",
+          "[wire][handshake]") {
     ScriptedRegisters device;
     check_sampling_as_asked(run_with(device), device);
     CHECK(device.received.back() == to_bytes({0x83, 0x01, 0x0D}));
     CHECK(device.received[device.received.size() - 2] == to_bytes({0xFE, 0x00, 0x0D}));
 }
 
-TEST_CASE("each command but a window selection follows one, so no window is left to chance",
-          "[wire][handshake]") {
+TEST_CASE("each command is preceded by a window selection", "[wire][handshake]") {
     ScriptedRegisters device;
     device.not_ready_reads = 2;
     run_with(device);
@@ -56,8 +56,10 @@ TEST_CASE("each command but a window selection follows one, so no window is left
     }
 }
 
-TEST_CASE("before the first question the line is stopped and drained twice, around a lone CR",
-          "[wire][handshake]") {
+TEST_CASE(
+    "before the first question sampling is stopped and the line drained twice, with a lone CR "
+    "between",
+    "[wire][handshake]") {
     Handshake handshake(kProfile, {});
     const std::vector<Bytes> expected{to_bytes({0xFE, 0x00, 0x0D}),
                                       to_bytes({0x83, 0x02, 0x0D}),
@@ -80,7 +82,7 @@ TEST_CASE("before the first question the line is stopped and drained twice, arou
     CHECK(std::holds_alternative<Receive>(handshake.next({})));
 }
 
-TEST_CASE("the handshake names what it found", "[wire][handshake]") {
+TEST_CASE("the handshake reports the identity of the device", "[wire][handshake]") {
     ScriptedRegisters device;
     const std::vector<std::pair<int, int>> words{{0x6A, 0x3341}, {0x6C, 0x3235}, {0x6E, 0x4441},
                                                  {0x70, 0x3031}, {0x72, 0x000D}, {0x74, 0x3057},
@@ -100,7 +102,7 @@ TEST_CASE("the handshake names what it found", "[wire][handshake]") {
     CHECK(run.identity().has_expected_product_id);
 }
 
-TEST_CASE("another product is told, not refused", "[wire][handshake]") {
+TEST_CASE("another product is reported, not refused", "[wire][handshake]") {
     ScriptedRegisters device;
     device.set(kProductId1, 0x3342);
     const auto run = run_with(device);
@@ -109,7 +111,7 @@ TEST_CASE("another product is told, not refused", "[wire][handshake]") {
     CHECK_FALSE(run.identity().has_expected_product_id);
 }
 
-TEST_CASE("a register that is right already is not written", "[wire][handshake]") {
+TEST_CASE("a register that already has its value is not written", "[wire][handshake]") {
     ScriptedRegisters device;
     run_with(device);
     device.received.clear();
@@ -128,7 +130,7 @@ TEST_CASE("a device left streaming is stopped first", "[wire][handshake]") {
     check_sampling_as_asked(run_with(device), device);
 }
 
-TEST_CASE("a command left half-sent by a former host does no harm", "[wire][handshake]") {
+TEST_CASE("a half-sent command of a former host does no harm", "[wire][handshake]") {
     for (const Bytes& rest : {to_bytes({0x83}), to_bytes({0x83, 0x01}), to_bytes({0xFE, 0x01})}) {
         ScriptedRegisters device;
         device.half_sent = rest;
@@ -155,7 +157,7 @@ TEST_CASE("two unanswered reads are repeated, whatever the register", "[wire][ha
     }
 }
 
-TEST_CASE("a register that stays silent is named", "[wire][handshake]") {
+TEST_CASE("a register that never answers is named", "[wire][handshake]") {
     ScriptedRegisters device;
     device.unanswered[ScriptedRegisters::key(kBurstCtrl)] = 3;
     CHECK(run_with(device).reason() ==
@@ -163,7 +165,7 @@ TEST_CASE("a register that stays silent is named", "[wire][handshake]") {
     CHECK_FALSE(device.is_sampling);
 }
 
-TEST_CASE("a device without register W0:4C, or with another value there, is taken",
+TEST_CASE("a device without register W0:4C, or with another value there, is accepted",
           "[wire][handshake]") {
     ScriptedRegisters silent;
     silent.unanswered[ScriptedRegisters::key(kId)] = 1000;
@@ -173,7 +175,7 @@ TEST_CASE("a device without register W0:4C, or with another value there, is take
     check_sampling_as_asked(run_with(other), other);
 }
 
-TEST_CASE("a device still starting up is waited for", "[wire][handshake]") {
+TEST_CASE("the handshake waits for a device that is still starting up", "[wire][handshake]") {
     ScriptedRegisters device;
     device.not_ready_reads = 20;
     const auto run = run_with(device);
@@ -213,7 +215,7 @@ TEST_CASE("a write that is lost once is repeated", "[wire][handshake]") {
     }
 }
 
-TEST_CASE("a register that will not take its value is named with expected and found",
+TEST_CASE("a register that does not take its value is named with the expected and the found value",
           "[wire][handshake]") {
     ScriptedRegisters device;
     device.lost_writes[ScriptedRegisters::key(kBurstCtrl)] = 1000;
@@ -222,14 +224,14 @@ TEST_CASE("a register that will not take its value is named with expected and fo
     CHECK_FALSE(device.is_sampling);
 }
 
-TEST_CASE("reserved bits that read as 1 are no mismatch", "[wire][handshake]") {
+TEST_CASE("reserved bits that read as 1 are not a mismatch", "[wire][handshake]") {
     ScriptedRegisters device;
     device.forced[ScriptedRegisters::key(kBurstCtrl)] = 0xE77F;
     device.forced[ScriptedRegisters::key(kSmplCtrl)] = 0xF6FF;
     CHECK(run_with(device).has_succeeded());
 }
 
-TEST_CASE("the filter is waited for", "[wire][handshake]") {
+TEST_CASE("the handshake waits until the filter is set", "[wire][handshake]") {
     ScriptedRegisters device;
     device.filter_busy_reads = 20;
     check_sampling_as_asked(run_with(device), device);
@@ -239,7 +241,7 @@ TEST_CASE("the filter is waited for", "[wire][handshake]") {
           "FILTER_CTRL: expected 0x0006, found 0x0026 (bits compared: 0x002F)");
 }
 
-TEST_CASE("answers full of CR are taken by length", "[wire][handshake]") {
+TEST_CASE("answers full of CR are separated by their length", "[wire][handshake]") {
     ScriptedRegisters device;
     for (std::uint8_t address = 0x6A; address <= 0x7A; address += 2) {
         device.values[{Window::w1, address}] = 0x0D0D;
@@ -260,7 +262,7 @@ TEST_CASE("a pair of rate and filter that the device rejects is named", "[wire][
     CHECK_FALSE(device.is_sampling);
 }
 
-TEST_CASE("baud rate, flash, self tests and the thermal compensation are left alone",
+TEST_CASE("baud rate, flash, self tests and the thermal compensation are not changed",
           "[wire][handshake]") {
     ScriptedRegisters device;
     device.set(kUartCtrl, 0x0302);
@@ -276,7 +278,7 @@ TEST_CASE("baud rate, flash, self tests and the thermal compensation are left al
     }
 }
 
-TEST_CASE("sampling is not started in an unproven window", "[wire][handshake]") {
+TEST_CASE("sampling is not started if the window cannot be verified", "[wire][handshake]") {
     ScriptedRegisters device;
     device.forced[ScriptedRegisters::key(kWinCtrl)] = 0x0001;
     CHECK(run_with(device).reason() ==
@@ -285,7 +287,7 @@ TEST_CASE("sampling is not started in an unproven window", "[wire][handshake]") 
     CHECK_FALSE(has_written(device, 0x83, 0x01));
 }
 
-TEST_CASE("after the end the same step comes again", "[wire][handshake]") {
+TEST_CASE("after its end the handshake repeats its last step", "[wire][handshake]") {
     ScriptedRegisters device;
     Handshake handshake(kProfile, {});
     REQUIRE(run_handshake(handshake, device).has_succeeded());
@@ -293,12 +295,13 @@ TEST_CASE("after the end the same step comes again", "[wire][handshake]") {
     CHECK(std::holds_alternative<Sampling>(handshake.next({})));
 }
 
-TEST_CASE("settings that the profile does not know are a broken promise", "[wire][handshake]") {
+TEST_CASE("settings that the profile does not have are refused as an error of the caller",
+          "[wire][handshake]") {
     CHECK_THROWS_AS(Handshake(kProfile, {.output_rate_hz = 60}), std::invalid_argument);
     CHECK_THROWS_AS(Handshake(kProfile, {.filter_code = 0}), std::invalid_argument);
 }
 
-TEST_CASE("the commands that stop sampling are right in any window", "[wire][handshake]") {
+TEST_CASE("the commands that stop sampling are valid in any window", "[wire][handshake]") {
     std::vector<std::byte> bytes;
     for (const Command& command : stop_sampling()) {
         bytes.insert(bytes.end(), command.begin(), command.end());

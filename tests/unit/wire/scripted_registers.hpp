@@ -19,13 +19,13 @@ public:
     using Key = std::pair<Window, std::uint8_t>;
 
     bool is_sampling = false;
-    int not_ready_reads = 0;              ///< GLOB_CMD says NOT_READY so many times.
-    int filter_busy_reads = 0;            ///< FILTER_STAT after a write.
-    std::map<Key, int> unanswered;        ///< So many reads of a register stay without answer.
-    std::map<Key, int> lost_writes;       ///< So many writes to a register have no effect.
-    std::map<Key, std::uint16_t> forced;  ///< Reads always give this.
-    Bytes half_sent;                      ///< A command that a former host left unfinished.
-    std::vector<Bytes> received;          ///< Commands, window selection included.
+    int not_ready_reads = 0;              ///< Number of reads for which GLOB_CMD reports NOT_READY.
+    int filter_busy_reads = 0;            ///< Number of reads with FILTER_STAT busy after a write.
+    std::map<Key, int> unanswered;        ///< Number of reads that get no answer, by register.
+    std::map<Key, int> lost_writes;       ///< Number of writes that have no effect, by register.
+    std::map<Key, std::uint16_t> forced;  ///< Value that reads always return, by register.
+    Bytes half_sent;                      ///< Command that a former host left unfinished.
+    std::vector<Bytes> received;          ///< Received commands, including window selections.
 
     ScriptedRegisters() {
         for (const Register& reg : kRegisters) {
@@ -98,14 +98,14 @@ private:
         if (where == key(kDiagStat)) values[where] = 0;
     }
 
-    Window window_ = Window::w1;  ///< As a former host left it.
+    Window window_ = Window::w1;  ///< Window that a former host selected.
     int busy_reads_left_ = 0;
 };
 
-/// What the driver of a handshake saw.
+/// Result of a handshake, as seen by its driver.
 struct HandshakeRun {
     HandshakeStep end;
-    std::chrono::milliseconds waited{0};  ///< Pauses and quiet times, answers at once.
+    std::chrono::milliseconds waited{0};  ///< Sum of pauses and quiet times; answers take no time.
 
     [[nodiscard]] bool has_succeeded() const { return std::holds_alternative<Sampling>(end); }
     [[nodiscard]] const DeviceIdentity& identity() const {

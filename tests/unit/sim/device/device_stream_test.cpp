@@ -41,7 +41,7 @@ struct Rig {
     Collected line;
 };
 
-/// Counts: x of sample k is k.
+/// A source of numbered samples: x of sample k is k.
 class CountingSource final : public SampleSource {
 public:
     explicit CountingSource(int rate_hz) : rate_hz_(rate_hz) {}
@@ -90,7 +90,8 @@ TEST_CASE("a frame is sent when it is due and not before", "[sim][device_stream]
     CHECK(rig.line.times[0] == start + 140ms + delay);
 }
 
-TEST_CASE("a full line holds the device up and changes nothing it sends", "[sim][device_stream]") {
+TEST_CASE("a full line delays the device and does not change what it sends",
+          "[sim][device_stream]") {
     Rig blocked, flowing;
     blocked.bench.start_logging();
     flowing.bench.start_logging();
@@ -105,7 +106,8 @@ TEST_CASE("a full line holds the device up and changes nothing it sends", "[sim]
     CHECK(blocked.line.times == flowing.line.times);
 }
 
-TEST_CASE("far behind, it catches up in pieces and answers between them", "[sim][device_stream]") {
+TEST_CASE("a device far behind catches up in pieces and answers commands between them",
+          "[sim][device_stream]") {
     Rig rig;
     rig.bench.start_logging();
     const UtcTime end = rig.scenario.start() + 1h;
@@ -116,12 +118,12 @@ TEST_CASE("far behind, it catches up in pieces and answers between them", "[sim]
     rig.advance_to(end);
     CHECK(rig.line.truth.size() == piece);
     REQUIRE(rig.stream.next_due());
-    CHECK(*rig.stream.next_due() < end);  // Unheard samples take their pieces too.
+    CHECK(*rig.stream.next_due() < end);  // Samples that are not sent also take their pieces.
     while (*rig.stream.next_due() <= end) rig.advance_to(end);
     CHECK(*rig.stream.next_due() == end + 20ms);
 }
 
-TEST_CASE("frames decode to the truth, COUNT steps evenly", "[sim][device_stream]") {
+TEST_CASE("frames decode to the truth, and COUNT advances evenly", "[sim][device_stream]") {
     Rig rig;
     rig.bench.start_logging();
     rig.advance_to(rig.scenario.start() + 10s);
@@ -136,7 +138,7 @@ TEST_CASE("frames decode to the truth, COUNT steps evenly", "[sim][device_stream
     }
 }
 
-TEST_CASE("the grid goes on while sampling is stopped", "[sim][device_stream]") {
+TEST_CASE("the sample grid continues while sampling is stopped", "[sim][device_stream]") {
     Rig rig, undisturbed;
     undisturbed.bench.start_logging();
     rig.bench.start_logging();
@@ -169,7 +171,7 @@ TEST_CASE("an answer is sent at once, between frames", "[sim][device_stream]") {
     CHECK(hex_of(std::span(rig.line.bytes).last(4)) == "02 00 00 0D");
 }
 
-TEST_CASE("samples that the source lacks are missing in COUNT", "[sim][device_stream]") {
+TEST_CASE("samples that the source lacks appear as a jump of COUNT", "[sim][device_stream]") {
     CountingSource source(50);
     Bench bench;
     DeviceStream stream(source, bench.machine);
@@ -189,14 +191,14 @@ TEST_CASE("samples that the source lacks are missing in COUNT", "[sim][device_st
           static_cast<std::uint16_t>(next.values.count + 80));
 }
 
-TEST_CASE("rates below the source's take every n-th sample", "[sim][device_stream]") {
+TEST_CASE("an output rate below the source's takes every n-th sample", "[sim][device_stream]") {
     CountingSource source(200);
     Bench bench;
     DeviceStream stream(source, bench.machine);
     Collected line;
     bench.start_logging();
     stream.advance_to({UtcTime(2s), bench.now}, line);
-    source.index += 1000;  // 250 of the output rate.
+    source.index += 1000;  // 250 samples at the output rate.
     stream.advance_to({UtcTime(10s), bench.now}, line);
     REQUIRE(line.truth.size() > 100);
     for (std::size_t i = 1; i < line.truth.size(); ++i) {
@@ -210,7 +212,7 @@ TEST_CASE("rates below the source's take every n-th sample", "[sim][device_strea
     }
 }
 
-TEST_CASE("rates above the grid's hold each sample", "[sim][device_stream]") {
+TEST_CASE("an output rate above the grid's repeats each sample", "[sim][device_stream]") {
     Rig rig;
     rig.bench.send({"FE 01", "85 04", "86 08", "88 01", "8C 03", "8D C7", "FE 00", "83 01"});
     rig.advance_to(rig.scenario.start() + 2s);
@@ -223,7 +225,7 @@ TEST_CASE("rates above the grid's hold each sample", "[sim][device_stream]") {
     }
 }
 
-TEST_CASE("after a stop in the middle of a held sample a lower rate is on time from the start",
+TEST_CASE("after a stop between repeats of a sample a lower rate is on time from its first frame",
           "[sim][device_stream]") {
     // Stopped at 1000/s with 15 of 20 repeats sent, started again at 50/s before the next sample.
     CountingSource source(50);
@@ -254,7 +256,8 @@ TEST_CASE("after a stop in the middle of a held sample a lower rate is on time f
     }
 }
 
-TEST_CASE("a truth file gives back its records and refuses what is none", "[sim][truth_file]") {
+TEST_CASE("a truth file gives its records back, and a truncated one is refused",
+          "[sim][truth_file]") {
     const auto file = std::filesystem::temp_directory_path() / "a351_truth_test.bin";
     TruthRecord record;
     record.utc = *parse_rfc3339("2017-07-16T00:00:00.020Z");

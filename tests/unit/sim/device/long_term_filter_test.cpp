@@ -7,9 +7,8 @@
 using namespace a351::sim;
 using Kind = LongTermFilter::Kind;
 
-TEST_CASE(
-    "the low-pass settles on a constant after twice its taps, the high-pass on zero after once",
-    "[sim][long_term_filter]") {
+TEST_CASE("the low-pass settles on a constant after twice its taps, the high-pass after its taps",
+          "[sim][long_term_filter]") {
     // Data sheet table 5.5.
     for (int log2_taps = 1; log2_taps <= 12; ++log2_taps) {
         const int taps = 1 << log2_taps;
@@ -39,7 +38,7 @@ TEST_CASE("a pulse comes out of the low-pass as a triangle", "[sim][long_term_fi
     }
 }
 
-TEST_CASE("the filter starts anew", "[sim][long_term_filter]") {
+TEST_CASE("a restarted long-term filter forgets the earlier samples", "[sim][long_term_filter]") {
     LongTermFilter filter;
     filter.start(Kind::low_pass, 1);
     static_cast<void>(filter.next({4000, 0, 0}));

@@ -10,7 +10,7 @@
 
 namespace a351::sim {
 
-/// "FE 01 0D" -> three bytes.
+/// Returns the bytes of a text in hex: "FE 01 0D" are three bytes.
 inline std::vector<std::byte> bytes_of(std::string_view hex) {
     std::vector<std::byte> bytes;
     for (std::size_t i = 0; i + 1 < hex.size();) {
@@ -36,7 +36,7 @@ inline std::string hex_of(std::span<const std::byte> bytes) {
     return hex;
 }
 
-/// The values of a register dump of a real A352 that the maker published.
+/// Sample of a real A352, from a register dump that the maker published.
 inline constexpr SensorSample kSample{{-203896, 604794, 16713252}, 2466};
 
 inline constexpr std::int32_t kOneG = 1 << 24;
@@ -61,14 +61,15 @@ struct Bench {
         return hex_of(answers);
     }
 
-    /// The register at a place as the data sheet writes it, "W0:4C", as four digits.
+    /// Returns the four hex digits of a register, "none" without an answer.  The place is written
+    /// as in the data sheet, for example "W0:4C".
     std::string read(std::string_view place) {
         const std::string window = place[1] == '0' ? "FE 00" : "FE 01";
         const std::string answer = send({window, std::string(place.substr(3)) + " 00"});
         return answer.size() < 8 ? "none" : answer.substr(3, 2) + answer.substr(6, 2);
     }
 
-    /// A byte into a register, "W1:85 06".
+    /// Writes a byte to a register: "W1:85 06" sends the command 85 06 in window 1.
     void write(std::string_view place) {
         send({place[1] == '0' ? "FE 00" : "FE 01", place.substr(3)});
     }
@@ -78,19 +79,19 @@ struct Bench {
         machine.pass_time(now);
     }
 
-    /// Hands over so many equal samples; returns the frames as hex.
+    /// Gives the machine `count` equal samples; returns the frames as hex.
     std::string sample(int count = 1, const SensorSample& values = kSample) {
         std::vector<std::byte> frames;
         for (int i = 0; i < count; ++i) static_cast<void>(machine.sample(values, frames));
         return hex_of(frames);
     }
 
-    /// As the recorder: 50 Hz, 512 taps at 9 Hz, automatic frames with every field.
+    /// Starts sampling as the recorder does: 50 Hz, 512 taps at 9 Hz, automatic frames, all fields.
     void start_logging() {
         send({"FE 01", "85 06", "86 06", "88 01", "8C 03", "8D C7", "FE 00", "83 01"});
     }
 
-    /// Past the transient of start_logging().
+    /// Samples without a frame after start_logging(): the transient of the filter.
     static constexpr int kTransient = 7;
 
     RegisterMachine machine;

@@ -7,7 +7,7 @@ using namespace a351;
 using namespace a351::sim;
 using namespace std::chrono_literals;
 
-TEST_CASE("the maker's Python logger gets through its handshake", "[sim][register_machine]") {
+TEST_CASE("the handshake of the maker's Python logger succeeds", "[sim][register_machine]") {
     // Order of accesses of py_esensorlib 2.1.0; every access is preceded by its window.
     Bench bench;
     bench.send({"FE 00", "83 02"});
@@ -37,7 +37,7 @@ TEST_CASE("the maker's Python logger gets through its handshake", "[sim][registe
     CHECK_FALSE(bench.machine.is_sampling());
 }
 
-TEST_CASE("the maker's C logger gets through its handshake", "[sim][register_machine]") {
+TEST_CASE("the handshake of the maker's C logger succeeds", "[sim][register_machine]") {
     Bench bench;
     CHECK(bench.send({"FE 00", "83 02", "FE 00", "02 00"}) == "02 04 00 0D");
     bench.now += 900ms;
@@ -54,13 +54,13 @@ TEST_CASE("the maker's C logger gets through its handshake", "[sim][register_mac
     CHECK(bench.machine.is_sampling());
 }
 
-TEST_CASE("our own handshake brings the device into sampling, from streaming too",
+TEST_CASE("our own handshake starts sampling, even if the device is already streaming",
           "[sim][register_machine]") {
     for (const bool was_streaming : {false, true}) {
         Bench bench("A351", {"A351AU10", "00000001", 1});
         if (was_streaming) bench.start_logging();
         wire::Handshake handshake(*wire::find_profile("A351"), {});
-        std::vector<std::byte> line;  // What the device has answered and nobody has read.
+        std::vector<std::byte> line;  // Answers of the device that have not been read yet.
         std::vector<std::byte> answer;
         std::optional<wire::DeviceIdentity> identity;
         for (int step = 0; step < 500 && !identity; ++step) {

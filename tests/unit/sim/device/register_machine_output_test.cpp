@@ -31,10 +31,10 @@ TEST_CASE("an offset is added to its axis", "[sim][register_machine]") {
           "80 8E 00 01 00 00 00 00 FF FF FF 00 00 00 00 0D");
 }
 
-TEST_CASE("beyond an alarm limit the output is the limit and the flag shows",
+TEST_CASE("beyond an alarm limit the output is the limit, and the alarm flag is set",
           "[sim][register_machine]") {
     Bench bench;
-    // Factory limits of 15 g; at the limit is not beyond it.
+    // Factory limits: 15 g.  A value at the limit is not beyond it.
     CHECK(frame_with(bench, {}, {{15 * kOneG + 1, -15 * kOneG - 1, 15 * kOneG}, 0}) ==
           "80 8E 18 0F 00 00 00 F1 00 00 00 0F 00 00 00 0D");
     Bench other;  // Data sheet 8.2: X within 5 g.
@@ -58,7 +58,7 @@ TEST_CASE("an alarm stays until FLAG is read, by command or by a frame that carr
     CHECK(streaming.sample(1, calm).substr(0, 8) == "80 8E 00");
 }
 
-TEST_CASE("a frame without FLAG shows no alarm, which stands until FLAG is read",
+TEST_CASE("a frame without FLAG shows no alarm, and the alarm remains until FLAG is read",
           "[sim][register_machine]") {
     Bench bench;
     const SensorSample shaken{{0, 0, 20 * kOneG}, 0};
@@ -86,7 +86,7 @@ TEST_CASE("tilt is the arc sine of the acceleration, in radians times 2^29",
     CHECK(tilt_counts(kOneG / 2, profile) == 281104952);  // pi / 6.
 }
 
-TEST_CASE("tilt ends at 60 degrees", "[sim][register_machine]") {
+TEST_CASE("tilt is limited to 60 degrees", "[sim][register_machine]") {
     // Data sheet 7.8: 2182A470 for +60 degrees or more, DE7D5B90 for -60 degrees or less.
     Bench bench;
     CHECK(frame_with(bench, {"80 E4"}, {{kOneG, -20 * kOneG, 3 * kOneG}, 0}) ==
@@ -106,7 +106,7 @@ TEST_CASE("with tilt selected on one axis, acceleration and tilt can be read sid
     CHECK(bench.read("W0:40") == "FFFF");
 }
 
-TEST_CASE("an invalid pair shows in tilt as in acceleration, and raises no alarm",
+TEST_CASE("an invalid pair of rate and filter shows in tilt as in acceleration, without an alarm",
           "[sim][register_machine]") {
     Bench bench;
     bench.send({"FE 01", "80 E4", "85 06", "86 08", "88 01", "8C 00", "8D 87", "FE 00", "83 01"});

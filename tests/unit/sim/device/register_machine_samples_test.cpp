@@ -9,7 +9,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// The 16-bit words between the markers of a frame.
+/// Returns the sum of the 16-bit words of `payload`, modulo 65536.
 unsigned word_sum(std::span<const std::byte> payload) {
     unsigned sum = 0;
     for (std::size_t i = 0; i < payload.size(); i += 2) {
@@ -25,8 +25,8 @@ TEST_CASE("each of the 112 layouts streams its fields at their offsets",
           "[sim][register_machine]") {
     const auto table = text::read_csv(A351_GOLDEN "/wire/burst_layouts.csv");
     REQUIRE(table.row_count() == 112);
-    // kSample, flags of a healthy device with the factory's ND enables, COUNT after three samples
-    // at 50 Hz; the checksum is of what was sent.
+    // Values of kSample, flags of a healthy device with the factory's ND enables, COUNT after three
+    // samples at 50 Hz.  The checksum is computed from the frame sent.
     const std::pair<const char*, std::string> kFields[] = {
         {"flag", "8E 00"},    {"temperature", "00 00 09 A2"}, {"x", "FF FC E3 88"},
         {"y", "00 09 3A 7A"}, {"z", "00 FF 06 24"},           {"count", "00 F0"}};
@@ -76,7 +76,8 @@ TEST_CASE("a recorder's frame carries flags, temperature, axes, count and checks
           "80 8E 00 00 00 09 A2 FF FC E3 88 00 09 3A 7A 00 FF 06 24 00 50 BD 1C 0D");
 }
 
-TEST_CASE("frames start after the transient, with one step in COUNT", "[sim][register_machine]") {
+TEST_CASE("the first frame comes after the transient, with one step in COUNT",
+          "[sim][register_machine]") {
     // Suppressed samples of data sheet table 5.3.
     struct Case {
         std::string_view rate, filter;
@@ -97,7 +98,7 @@ TEST_CASE("frames start after the transient, with one step in COUNT", "[sim][reg
             REQUIRE(bench.machine.sample(kSample, frames)->count == c.step);
             REQUIRE(bench.machine.sample(kSample, frames)->count == 2 * c.step);
             CHECK(bench.machine.sampling_run() == run);
-            bench.send({"83 02", "83 01"});  // After a restart it begins anew.
+            bench.send({"83 02", "83 01"});  // After a restart the transient begins again.
         }
     }
 }
@@ -125,7 +126,7 @@ TEST_CASE("COUNT keeps its last value when sampling stops", "[sim][register_mach
     CHECK(bench.read("W0:0A") == "07D0");
 }
 
-TEST_CASE("the counter can jump, and goes on for samples that nobody hears",
+TEST_CASE("the counter can jump, and it counts samples that are not sent",
           "[sim][register_machine]") {
     Bench bench;
     bench.start_logging();
@@ -137,7 +138,7 @@ TEST_CASE("the counter can jump, and goes on for samples that nobody hears",
     CHECK(bench.read("W0:0A") == "0190");
 }
 
-TEST_CASE("a rate and filter that do not fit give ALIASI_ERR and 100 g on all axes",
+TEST_CASE("a filter that does not fit the rate gives ALIASI_ERR and 100 g on all axes",
           "[sim][register_machine]") {
     Bench bench;  // Factory: 200 Hz with 60 Hz; 50 Hz leaves it invalid.
     CHECK(bench.read("W0:06") == "0000");
@@ -152,7 +153,7 @@ TEST_CASE("a rate and filter that do not fit give ALIASI_ERR and 100 g on all ax
     CHECK(bench.read("W0:06") == "0000");
 }
 
-TEST_CASE("in manual mode the burst command sends the newest sample once a frame",
+TEST_CASE("in manual mode each burst command sends one frame with the newest sample",
           "[sim][register_machine]") {
     Bench bench;
     bench.send({"FE 01", "85 06", "86 06", "8C 03", "8D C7", "FE 00", "83 01"});
@@ -210,7 +211,7 @@ TEST_CASE("answers in automatic sampling come between frames", "[sim][register_m
     CHECK(hex_of(std::span(stream).subspan(24, 4)) == "02 00 00 0D");
 }
 
-TEST_CASE("the delay of a frame is group delay, internal delay and wire time",
+TEST_CASE("the delay of a frame is the sum of group delay, internal delay and wire time",
           "[sim][register_machine]") {
     Bench bench;
     bench.start_logging();
@@ -218,7 +219,7 @@ TEST_CASE("the delay of a frame is group delay, internal delay and wire time",
     CHECK(bench.machine.frame_delay() == 63'875'000ns + 430'000ns + 520'833ns);
 }
 
-TEST_CASE("frames come as fast as the baud rate carries them, and UART_OVF tells of the rest",
+TEST_CASE("frames come as fast as the baud rate allows, and UART_OVF reports dropped ones",
           "[sim][register_machine]") {
     struct Case {
         std::string_view baud, rate, filter;
@@ -238,10 +239,10 @@ TEST_CASE("frames come as fast as the baud rate carries them, and UART_OVF tells
         bench.sample(c.transient);
         const int rate = bench.machine.output_rate_hz();
         const std::size_t bytes = bytes_of(bench.sample(10 * rate)).size();
-        REQUIRE(bytes % 24 == 0);  // Dropped whole.
-        // The frame that waits at the end, and the rounding of a period, are worth two frames.
+        REQUIRE(bytes % 24 == 0);  // Frames are dropped whole.
+        // Tolerance: a frame that still waits at the end, and one for the rounding of a period.
         CHECK(std::abs(static_cast<int>(bytes / 24) - 10 * c.frames_a_second) <= 2);
-        // EA in the next frame that is sent; COUNT shows the loss.
+        // The next frame that is sent has EA; COUNT shows the loss.
         std::string last;
         for (int i = 0; i < 10 && last.empty(); ++i) last = bench.sample();
         CHECK(last.substr(0, 8) == (c.overflows ? "80 8E 01" : "80 8E 00"));
@@ -250,7 +251,7 @@ TEST_CASE("frames come as fast as the baud rate carries them, and UART_OVF tells
     }
 }
 
-TEST_CASE("a frame that waits for the line is late by no more than one frame's time",
+TEST_CASE("a frame that waits for the line is late by at most the time of one frame",
           "[sim][register_machine]") {
     Bench bench;
     bench.send({"FE 01", "89 03", "85 02", "86 08", "88 01", "8C 03", "8D C7", "FE 00", "83 01"});
@@ -268,7 +269,7 @@ TEST_CASE("a frame that waits for the line is late by no more than one frame's t
     }
 }
 
-TEST_CASE("with EXT_SEL only an edge makes a sample, and COUNT follows its spacing",
+TEST_CASE("with EXT_SEL only an external edge makes a sample, and COUNT follows their spacing",
           "[sim][register_machine]") {
     Bench bench;
     bench.send({"FE 01", "82 46", "85 06", "86 08", "88 01", "8C 03", "8D C7", "FE 00", "83 01"});

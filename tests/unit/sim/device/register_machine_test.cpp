@@ -8,7 +8,8 @@ using namespace a351;
 using namespace a351::sim;
 using namespace std::chrono_literals;
 
-TEST_CASE("where the host cuts its bytes is indifferent", "[sim][register_machine]") {
+TEST_CASE("commands are understood however the host splits their bytes",
+          "[sim][register_machine]") {
     const auto commands = bytes_of("FE 01 0D 85 06 0D 04 00 0D FE 00 0D 02 00 0D");
     Bench whole;
     std::vector<std::byte> expected;
@@ -23,7 +24,7 @@ TEST_CASE("where the host cuts its bytes is indifferent", "[sim][register_machin
     }
 }
 
-TEST_CASE("damaged commands are passed over and the next one is understood",
+TEST_CASE("damaged commands are skipped and the next one is understood",
           "[sim][register_machine]") {
     const std::string mode = "02 04 00 0D";
     for (const std::string damage :
@@ -92,7 +93,7 @@ TEST_CASE("a dump of all registers after start-up shows the documented defaults"
     CHECK(listed == std::size(kDefaults));
 }
 
-TEST_CASE("identity is spelled with the first character in the low byte",
+TEST_CASE("identity registers have the first character in the low byte",
           "[sim][register_machine]") {
     // M-A352AD10 data sheet 7.27, 7.29: A352AD10, serial number 01234567.
     Bench bench;
@@ -106,12 +107,12 @@ TEST_CASE("identity is spelled with the first character in the low byte",
     CHECK(bench.read("W1:74") == "3057");
 }
 
-TEST_CASE("the ID register can be lacking", "[sim][register_machine]") {
+TEST_CASE("a device can lack the ID register", "[sim][register_machine]") {
     Bench bench("A351", {"A351AU10", "00000001", 1, false});
     CHECK(bench.read("W0:4C") == "0000");
 }
 
-TEST_CASE("only the writable bytes take a write, and only their defined bits",
+TEST_CASE("a write changes only writable bytes, and only their defined bits",
           "[sim][register_machine]") {
     // Writable byte addresses of the data sheet, tables 7.1 to 7.30, without the commands that do
     // something at once (MODE_CTRL, GLOB_CMD, tests) and the registers that refuse reserved codes.
@@ -130,7 +131,7 @@ TEST_CASE("only the writable bytes take a write, and only their defined bits",
     CHECK(bench.send({"FE 00", "8A FF", "B0 FF", "0A 00", "30 00"}) == "0A 00 00 0D 30 FF FF 0D");
 }
 
-TEST_CASE("reserved codes of rate, filter, baud, long-term filter and window are not taken",
+TEST_CASE("reserved codes of rate, filter, baud, long-term filter and window are ignored",
           "[sim][register_machine]") {
     Bench bench;
     CHECK(bench.send({"FE 01", "85 00", "85 07", "04 00"}) == "04 04 00 0D");
@@ -140,7 +141,7 @@ TEST_CASE("reserved codes of rate, filter, baud, long-term filter and window are
     CHECK(bench.send({"FE 02", "04 00"}) == "04 04 00 0D");
 }
 
-TEST_CASE("start-up answers NOT_READY and nothing else", "[sim][register_machine]") {
+TEST_CASE("during start-up NOT_READY is answered and nothing else", "[sim][register_machine]") {
     Bench bench;
     bench.machine.power_cycle(bench.now);
     CHECK(bench.send({"FE 00", "02 00", "FE 01", "0A 00", "85 06"}) == "0A 04 00 0D");
@@ -148,7 +149,7 @@ TEST_CASE("start-up answers NOT_READY and nothing else", "[sim][register_machine
     CHECK(bench.send({"0A 00", "04 00"}) == "0A 00 00 0D 04 04 00 0D");
 }
 
-TEST_CASE("SOFT_RST reads 1 until its reset is done, and works in sampling too",
+TEST_CASE("SOFT_RST reads 1 until its reset is done, and works during sampling too",
           "[sim][register_machine]") {
     Bench bench;
     bench.start_logging();
@@ -168,7 +169,7 @@ TEST_CASE("MODE_CMD clears itself and MODE_STAT follows", "[sim][register_machin
     CHECK_FALSE(bench.machine.is_sampling());
 }
 
-TEST_CASE("in sampling all writes but mode, reset and window are ignored",
+TEST_CASE("during sampling all writes except mode, reset and window are ignored",
           "[sim][register_machine]") {
     Bench bench;
     // Rate, signal, self test, flash backup, user filter; sleep only from configuration.
@@ -178,7 +179,7 @@ TEST_CASE("in sampling all writes but mode, reset and window are ignored",
     CHECK(bench.machine.is_sampling());
 }
 
-TEST_CASE("a sleeping device wakes by an edge at EXT, in configuration mode",
+TEST_CASE("an edge at EXT wakes a sleeping device into configuration mode",
           "[sim][register_machine]") {
     Bench bench;
     CHECK(bench.send({"FE 01", "85 06", "FE 00", "83 03"}).empty());
@@ -190,10 +191,10 @@ TEST_CASE("a sleeping device wakes by an edge at EXT, in configuration mode",
     CHECK(bench.send({"02 00"}).empty());
     bench.wait(RegisterMachine::kWakeTime);
     CHECK(bench.read("W0:02") == "0400");
-    CHECK(bench.read("W1:04") == "0600");  // What was set is still set.
+    CHECK(bench.read("W1:04") == "0600");  // Settings are kept.
 }
 
-TEST_CASE("power wakes a sleeping device too", "[sim][register_machine]") {
+TEST_CASE("a power cycle wakes a sleeping device too", "[sim][register_machine]") {
     Bench bench;
     bench.send({"83 03"});
     bench.machine.power_cycle(bench.now);
@@ -201,7 +202,7 @@ TEST_CASE("power wakes a sleeping device too", "[sim][register_machine]") {
     CHECK(bench.read("W0:02") == "0400");
 }
 
-TEST_CASE("a new baud rate holds from the end of its write", "[sim][register_machine]") {
+TEST_CASE("a new baud rate applies from the end of its write", "[sim][register_machine]") {
     Bench bench;
     CHECK(bench.machine.baud() == 460800);
     bench.write("W1:89 03");
@@ -210,7 +211,7 @@ TEST_CASE("a new baud rate holds from the end of its write", "[sim][register_mac
     CHECK(bench.machine.baud() == 230400);
 }
 
-TEST_CASE("FILTER_STAT is busy for its time", "[sim][register_machine]") {
+TEST_CASE("FILTER_STAT reads busy while a filter is being set", "[sim][register_machine]") {
     Bench bench;
     CHECK(bench.send({"FE 01", "86 06", "06 00"}) == "06 00 26 0D");
     bench.wait(RegisterMachine::kFilterTime);
@@ -221,7 +222,7 @@ TEST_CASE("FILTER_STAT is busy for its time", "[sim][register_machine]") {
     CHECK(bench.read("W1:06") == "000C");
 }
 
-TEST_CASE("DIAG_STAT and EA are cleared by reading it", "[sim][register_machine]") {
+TEST_CASE("reading DIAG_STAT clears it and EA", "[sim][register_machine]") {
     Bench bench;
     bench.machine.raise_diagnostics(0x0020);
     CHECK(bench.read("W0:06") == "0001");
@@ -230,8 +231,9 @@ TEST_CASE("DIAG_STAT and EA are cleared by reading it", "[sim][register_machine]
     CHECK(bench.read("W0:06") == "0000");
 }
 
-TEST_CASE("settings changed from outside leave the host's window, half a command and count alone",
-          "[sim][register_machine]") {
+TEST_CASE(
+    "settings changed from outside keep the host's window, half-sent command and command count",
+    "[sim][register_machine]") {
     const std::array changes{RegisterChange{wire::kSmplCtrl, 0x0600, wire::kHighByte},
                              RegisterChange{wire::kFilterCtrl, 0x0006, wire::kFilterSelect},
                              RegisterChange{wire::kUartCtrl, 0x0300, wire::kHighByte},
@@ -262,7 +264,7 @@ TEST_CASE("settings changed from outside leave the host's window, half a command
     }
 }
 
-TEST_CASE("settings do not change from outside while the device starts up or sleeps",
+TEST_CASE("settings cannot be changed from outside while the device starts up or sleeps",
           "[sim][register_machine]") {
     const std::array changes{RegisterChange{wire::kSmplCtrl, 0x0600, wire::kHighByte}};
     Bench bench;
@@ -277,7 +279,7 @@ TEST_CASE("settings do not change from outside while the device starts up or sle
     CHECK(bench.read("W1:04") == "0400");
 }
 
-TEST_CASE("a faulty device shows HARD_ERR after every start-up until it is healed",
+TEST_CASE("a faulty device shows HARD_ERR after every start-up until it is repaired",
           "[sim][register_machine]") {
     Bench bench;
     bench.machine.fail_tests(0x0060);

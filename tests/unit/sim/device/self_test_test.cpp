@@ -7,7 +7,7 @@
 using namespace a351::sim;
 using namespace std::chrono_literals;
 
-TEST_CASE("each test reads 1 for its time and 0 after it", "[sim][self_test]") {
+TEST_CASE("each self test reads 1 while it runs and 0 afterwards", "[sim][self_test]") {
     struct Case {
         std::string_view command;
         std::string running;
@@ -31,7 +31,8 @@ TEST_CASE("each test reads 1 for its time and 0 after it", "[sim][self_test]") {
     }
 }
 
-TEST_CASE("only acceleration, temperature and supply are tested together", "[sim][self_test]") {
+TEST_CASE("only the self tests of acceleration, temperature and supply can run together",
+          "[sim][self_test]") {
     for (const std::string_view command :
          {"83 09", "83 18", "83 30", "83 70", "83 14", "83 7F", "83 80", "83 00"}) {
         CAPTURE(command);
@@ -41,13 +42,14 @@ TEST_CASE("only acceleration, temperature and supply are tested together", "[sim
     }
 }
 
-TEST_CASE("a test that runs is not disturbed by another", "[sim][self_test]") {
+TEST_CASE("a running self test is not disturbed by another", "[sim][self_test]") {
     Bench bench;
     bench.send({"FE 01", "83 04", "83 08"});
     CHECK(bench.read("W1:02") == "0426");
 }
 
-TEST_CASE("what fails shows in DIAG_STAT after its own test only", "[sim][self_test]") {
+TEST_CASE("a failure shows in DIAG_STAT only after the self test that finds it",
+          "[sim][self_test]") {
     struct Case {
         std::string_view command, shown;
     };
@@ -64,7 +66,8 @@ TEST_CASE("what fails shows in DIAG_STAT after its own test only", "[sim][self_t
     }
 }
 
-TEST_CASE("the test of the acceleration finds a length outside 0.8 to 1.2 g", "[sim][self_test]") {
+TEST_CASE("the self test of the acceleration fails if its magnitude is outside 0.8 to 1.2 g",
+          "[sim][self_test]") {
     struct Case {
         std::int32_t z;
         std::string_view shown;
@@ -80,7 +83,7 @@ TEST_CASE("the test of the acceleration finds a length outside 0.8 to 1.2 g", "[
     }
 }
 
-TEST_CASE("a reset ends a test without a result", "[sim][self_test]") {
+TEST_CASE("a reset ends a self test without a result", "[sim][self_test]") {
     Bench bench;
     bench.machine.fail_tests(0xF000);
     bench.send({"FE 01", "83 04", "8A 80"});

@@ -9,7 +9,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// As the maker's C driver does it: data, command, poll.
+/// Writes coefficients as the maker's C driver does: data, command, poll.
 void upload(Bench& bench, std::string_view hex) {
     bench.send({"FE 01", "9B 08", "9A 00"});
     for (const std::byte byte : bytes_of(hex)) {
@@ -21,7 +21,8 @@ void upload(Bench& bench, std::string_view hex) {
 
 }  // namespace
 
-TEST_CASE("FIR_UCMD is busy for 7 ms a byte written and 0.5 ms a byte read", "[sim][user_filter]") {
+TEST_CASE("FIR_UCMD is busy for 7 ms per byte written and 0.5 ms per byte read",
+          "[sim][user_filter]") {
     Bench bench;
     bench.send({"FE 01", "98 5A"});
     const auto written = bench.now;
@@ -38,7 +39,7 @@ TEST_CASE("FIR_UCMD is busy for 7 ms a byte written and 0.5 ms a byte read", "[s
     CHECK(filter.command() == 0);
 }
 
-TEST_CASE("coefficients read back as they were written, the address going up by itself",
+TEST_CASE("coefficients read back as they were written, and the address increments by itself",
           "[sim][user_filter]") {
     Bench bench;
     upload(bench, "00 01 02 FD");
@@ -50,7 +51,7 @@ TEST_CASE("coefficients read back as they were written, the address going up by 
     CHECK(bench.read("W1:1A") == "0805");
 }
 
-TEST_CASE("while a byte is written, data, address and command are not taken",
+TEST_CASE("while a byte is being written, new data, addresses and commands are ignored",
           "[sim][user_filter]") {
     Bench bench;
     bench.send({"FE 01", "98 11", "96 02", "98 22", "9A 40", "96 01"});
@@ -79,8 +80,8 @@ TEST_CASE("a byte that cannot be read shows DATA_ERR", "[sim][user_filter]") {
 
 TEST_CASE("a selected user filter multiplies a constant by the sum of its coefficients",
           "[sim][user_filter]") {
-    // The maker's example of four taps: 0x20000000 each, an average of four; then half of it, and
-    // a coefficient of the other sign.
+    // The maker's example of four taps: 0x20000000, a quarter each, is an average of four.  With
+    // -0.75 as the last coefficient the sum is zero.
     for (const auto& [last, expected] :
          {std::pair{"00 00 00 20", "00 FF 06 24"}, {"00 00 00 A0", "00 00 00 00"}}) {
         Bench bench;

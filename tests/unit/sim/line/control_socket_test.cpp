@@ -66,7 +66,7 @@ private:
 
 }  // namespace
 
-TEST_CASE("each line is answered with ok or error, wherever it is cut", "[sim][control]") {
+TEST_CASE("each line is answered with ok or error, however it is split", "[sim][control]") {
     const auto path = socket_path("lines");
     ControlSocket socket(path, echo);
     Client client(path);
@@ -102,7 +102,7 @@ TEST_CASE("a bad client is dropped and the others are served", "[sim][control]")
     CHECK(good.hear() == "ok still there\n");
 }
 
-TEST_CASE("a client that does not read costs no more than a bounded memory", "[sim][control]") {
+TEST_CASE("a client that does not read is dropped before it costs much memory", "[sim][control]") {
     const auto path = socket_path("deaf");
     ControlSocket socket(path, echo);
     Client deaf(path);
@@ -117,20 +117,20 @@ TEST_CASE("a client that does not read costs no more than a bounded memory", "[s
     CHECK(was_dropped);
 }
 
-TEST_CASE("an answer that does not fit at once arrives whole", "[sim][control]") {
+TEST_CASE("an answer too long to be sent at once arrives complete", "[sim][control]") {
     const auto path = socket_path("whole");
     ControlSocket socket(path, echo);
     Client client(path);
     client.say("long\nlong\nlong\n");
-    std::string heard;
+    std::string decoded;
     for (int i = 0; i < 100; ++i) {
         socket.serve({});
-        heard += client.hear();
+        decoded += client.hear();
     }
-    CHECK(heard.size() == 3 * 100'004);
+    CHECK(decoded.size() == 3 * 100'004);
 }
 
-TEST_CASE("more clients than there is room for are turned away", "[sim][control]") {
+TEST_CASE("clients beyond the largest number are turned away", "[sim][control]") {
     const auto path = socket_path("many");
     ControlSocket socket(path, echo);
     std::vector<std::unique_ptr<Client>> clients;
@@ -161,7 +161,7 @@ TEST_CASE("the socket's path is removed at the end, and only if it is ours", "[s
     fs::remove(path);
 }
 
-TEST_CASE("a socket left behind is replaced, one that is listened to is not", "[sim][control]") {
+TEST_CASE("a stale socket is replaced, but one with a listener is not", "[sim][control]") {
     const auto path = socket_path("stale");
     {
         const int stale = ::socket(AF_UNIX, SOCK_STREAM, 0);

@@ -10,26 +10,27 @@ using namespace a351::sim;
 
 TEST_CASE("an empty script changes no byte", "[sim][fault]") {
     Rig rig("");
-    const Heard heard = check_report(rig);
-    CHECK(heard.bytes_skipped == 0);
+    const Decoded decoded = check_report(rig);
+    CHECK(decoded.bytes_skipped == 0);
     CHECK(rig.truth.size() > 1400);
     CHECK(rig.count(Fate::intact) == static_cast<std::int64_t>(rig.truth.size()));
 }
 
-TEST_CASE("a frame with any number of bits flipped is rejected, and it alone", "[sim][fault]") {
+TEST_CASE("a frame with any number of flipped bits is rejected, and no other frame",
+          "[sim][fault]") {
     const int bits = GENERATE(1, 2, 3, 8, 16);
     Rig rig(fault("flip_bit", "at_frame = 100\ncount = 200\nbits = " + std::to_string(bits)));
-    const Heard heard = check_report(rig);
+    const Decoded decoded = check_report(rig);
     CHECK(rig.count(Fate::damaged) == 200);
-    CHECK(heard.bytes_skipped == 200 * 24);
-    CHECK(heard.missing == 200);
+    CHECK(decoded.bytes_skipped == 200 * 24);
+    CHECK(decoded.missing == 200);
     CHECK(rig.truth[99].fate == Fate::intact);
     CHECK(rig.truth[100].fate == Fate::damaged);
     CHECK(rig.truth[299].fate == Fate::damaged);
     CHECK(rig.truth[300].fate == Fate::intact);
 }
 
-TEST_CASE("a bad checksum is a bad checksum and nothing else", "[sim][fault]") {
+TEST_CASE("a bad checksum is found as a bad checksum and as nothing else", "[sim][fault]") {
     Rig rig(fault("bad_checksum", "at_frame = 50\ncount = 3"));
     check_report(rig);
     wire::BurstDecoder decoder(wire::BurstLayout::recommended(), 80);
@@ -45,61 +46,61 @@ TEST_CASE("a bad checksum is a bad checksum and nothing else", "[sim][fault]") {
     CHECK(bad_checksums == 3);
 }
 
-TEST_CASE("dropped, inserted and missing bytes cost the frame they are in", "[sim][fault]") {
+TEST_CASE("dropped, inserted and missing bytes cost only the frame they are in", "[sim][fault]") {
     const std::string kind = GENERATE("drop_bytes", "insert_bytes", "truncate_frame");
     const int bytes = GENERATE(1, 2, 7, 100);
     CAPTURE(kind, bytes);
     const std::string keys = "at_frame = 100\ncount = 300\n";
     Rig rig(
         fault(kind, kind == "truncate_frame" ? keys : keys + "bytes = " + std::to_string(bytes)));
-    const Heard heard = check_report(rig);
+    const Decoded decoded = check_report(rig);
     CHECK(rig.count(Fate::damaged) == 300);
-    CHECK(heard.missing == 300);
+    CHECK(decoded.missing == 300);
     const FaultReport& report = rig.faults.report();
-    CHECK(static_cast<std::int64_t>(heard.bytes_skipped) ==
+    CHECK(static_cast<std::int64_t>(decoded.bytes_skipped) ==
           300 * 24 + report.bytes_inserted - report.bytes_dropped);
     if (kind == "drop_bytes") CHECK(report.bytes_dropped == 300 * std::min(bytes, 23));
     if (kind == "insert_bytes") CHECK(report.bytes_inserted == 300 * bytes);
 }
 
-TEST_CASE("garbage costs no frame", "[sim][fault]") {
+TEST_CASE("garbage between frames costs no frame", "[sim][fault]") {
     const int bytes = GENERATE(1, 23, 24, 10'000);
     Rig rig(fault("garbage", "at_s = 5\ncount = 20\nbytes = " + std::to_string(bytes)));
-    const Heard heard = check_report(rig);
-    CHECK(heard.bytes_skipped == static_cast<std::size_t>(20 * bytes));
-    CHECK(heard.missing == 0);
+    const Decoded decoded = check_report(rig);
+    CHECK(decoded.bytes_skipped == static_cast<std::size_t>(20 * bytes));
+    CHECK(decoded.missing == 0);
     CHECK(rig.faults.report().bytes_garbage == 20 * bytes);
     CHECK(rig.count(Fate::intact) == static_cast<std::int64_t>(rig.truth.size()));
 }
 
-TEST_CASE("a second copy is a duplicate", "[sim][fault]") {
+TEST_CASE("a second copy of a frame is a duplicate", "[sim][fault]") {
     Rig rig(fault("duplicate_frame", "at_frame = 100\ncount = 10"));
-    Heard heard = check_report(rig);
-    CHECK(heard.places[Kind::duplicate] == 10);
-    CHECK(heard.missing == 0);
+    Decoded decoded = check_report(rig);
+    CHECK(decoded.places[Kind::duplicate] == 10);
+    CHECK(decoded.missing == 0);
     CHECK(rig.truth[101].fate == Fate::repeated);
     CHECK(rig.truth[101].values == rig.truth[100].values);
     CHECK(rig.truth[101].utc == rig.truth[100].utc);
     CHECK(rig.line.report().frames_made == rig.line.report().frames_sent - 10);
 }
 
-TEST_CASE("frames that change places leave a gap and an anomaly", "[sim][fault]") {
+TEST_CASE("two frames in exchanged order show as one gap and one anomaly", "[sim][fault]") {
     Rig rig(fault("reorder_frames", "at_frame = 100\ncount = 2"));
-    Heard heard = check_report(rig);
-    CHECK(heard.places[Kind::anomaly] == 2);
-    CHECK(heard.places[Kind::after_gap] == 2);
-    CHECK(heard.missing == 2);
+    Decoded decoded = check_report(rig);
+    CHECK(decoded.places[Kind::anomaly] == 2);
+    CHECK(decoded.places[Kind::after_gap] == 2);
+    CHECK(decoded.missing == 2);
     CHECK(rig.truth[101].fate == Fate::misplaced);
     CHECK(rig.truth[101].utc + 20ms == rig.truth[100].utc);
 }
 
-TEST_CASE("lost frames are a gap of their number", "[sim][fault]") {
+TEST_CASE("lost frames are one gap of as many samples", "[sim][fault]") {
     const int count = GENERATE(1, 5, 700);
     Rig rig(fault("lose_frames", "at_frame = 100\ncount = " + std::to_string(count)));
-    Heard heard = check_report(rig);
-    CHECK(heard.missing == count);
-    CHECK(heard.places[Kind::after_gap] == 1);
-    CHECK(heard.bytes_skipped == 0);
+    Decoded decoded = check_report(rig);
+    CHECK(decoded.missing == count);
+    CHECK(decoded.places[Kind::after_gap] == 1);
+    CHECK(decoded.bytes_skipped == 0);
     CHECK(rig.count(Fate::lost) == count);
 }
 
@@ -117,7 +118,8 @@ TEST_CASE("a reset, a power cut and a stop end the stream in configuration mode"
     CHECK(rig.bench.send({"FE 01", "0C 00"}) == (kind == "stop" ? "0C C7 03 0D" : "0C 47 02 0D"));
 }
 
-TEST_CASE("tests fail from the next start-up on until they are healed", "[sim][fault]") {
+TEST_CASE("self tests fail from the next start-up on until the device is repaired",
+          "[sim][fault]") {
     Rig rig(fault("failing_tests", "at_frame = 50\ndiag_stat = 0x20") +
             fault("power_cycle", "at_frame = 100"));
     check_report(rig);
@@ -131,50 +133,51 @@ TEST_CASE("tests fail from the next start-up on until they are healed", "[sim][f
     CHECK(diagnostics_after_start() == "04 00 00 0D");
 }
 
-TEST_CASE("a silent device goes on counting", "[sim][fault]") {
+TEST_CASE("a silent device continues to count", "[sim][fault]") {
     Rig rig(fault("silence", "at_frame = 100\nseconds = 4"));
-    Heard heard = check_report(rig);
-    CHECK(heard.missing == 200);
+    Decoded decoded = check_report(rig);
+    CHECK(decoded.missing == 200);
     CHECK(rig.count(Fate::lost) == 200);
-    CHECK(heard.places[Kind::after_gap] == 1);
+    CHECK(decoded.places[Kind::after_gap] == 1);
 }
 
-TEST_CASE("a stall brings everything late and in one burst", "[sim][fault]") {
+TEST_CASE("after a stall everything arrives late and in one burst", "[sim][fault]") {
     Rig rig(fault("stall", "at_frame = 100\nseconds = 4"));
     rig.run_to(UtcTime(6s));
     CHECK(rig.truth.size() == 100);
-    const Heard heard = check_report(rig);
-    CHECK(heard.missing == 0);
-    CHECK(heard.bytes_skipped == 0);
+    const Decoded decoded = check_report(rig);
+    CHECK(decoded.missing == 0);
+    CHECK(decoded.bytes_skipped == 0);
 }
 
-TEST_CASE("a port that is pulled out loses what was under way", "[sim][fault]") {
+TEST_CASE("unplugging a port loses the frames until it is back", "[sim][fault]") {
     Rig rig(fault("hang_up", "at_frame = 100\nseconds = 4"));
     rig.run_to(UtcTime(10s));
     const auto hang_up = rig.faults.take_hang_up();
     REQUIRE(hang_up);
     CHECK_FALSE(rig.faults.take_hang_up());
     CHECK(hang_up->until - rig.faults.report().applied.at(0).at == 4s);
-    rig.faults.came_back(*hang_up, {rig.now, rig.bench.now});
-    Heard heard = check_report(rig);
-    CHECK(rig.count(Fate::lost) == heard.missing);
-    CHECK(rig.line.report().lost_unplugged == heard.missing);
-    CHECK(heard.missing > 300);
+    rig.faults.end_hang_up(*hang_up, {rig.now, rig.bench.now});
+    Decoded decoded = check_report(rig);
+    CHECK(rig.count(Fate::lost) == decoded.missing);
+    CHECK(rig.line.report().lost_unplugged == decoded.missing);
+    CHECK(decoded.missing > 300);
 }
 
-TEST_CASE("pulled out without power, the device comes back in configuration mode", "[sim][fault]") {
+TEST_CASE("a device that is unplugged from its power comes back in configuration mode",
+          "[sim][fault]") {
     Rig rig(fault("hang_up", "at_frame = 100\nloses_power = true"));
     rig.run_to(UtcTime(10s));
     CHECK_FALSE(rig.bench.machine.is_sampling());
     const auto hang_up = rig.faults.take_hang_up();
     REQUIRE(hang_up);
     rig.bench.now += 10s;
-    rig.faults.came_back(*hang_up, {rig.now, rig.bench.now});
+    rig.faults.end_hang_up(*hang_up, {rig.now, rig.bench.now});
     // It boots now, not when it was pulled out.
     CHECK(rig.bench.send({"FE 01", "0A 00"}) == "0A 04 00 0D");
 }
 
-TEST_CASE("another unit answers with its own number, at once or after the next hang-up",
+TEST_CASE("another unit answers with its own serial number, at once or after the next hang-up",
           "[sim][fault]") {
     const bool waits = GENERATE(false, true);
     Rig rig(fault("other_unit", "at_frame = 100\nserial_number = \"87654321\"\nwhen_unplugged = " +
@@ -190,11 +193,11 @@ TEST_CASE("another unit answers with its own number, at once or after the next h
     if (!waits) return;
     const auto hang_up = rig.faults.take_hang_up();
     REQUIRE(hang_up);
-    rig.faults.came_back(*hang_up, {rig.now, rig.bench.now});
+    rig.faults.end_hang_up(*hang_up, {rig.now, rig.bench.now});
     CHECK(serial() == "74 37 38 0D");
 }
 
-TEST_CASE("other settings come as asked for, and frames with them", "[sim][fault]") {
+TEST_CASE("changed settings take effect, and the frames follow them", "[sim][fault]") {
     Rig rig(fault("change_settings",
                   "at_frame = 100\noutput_rate_hz = 100\nfilter = \"k512_fc16\"\n"
                   "burst_ctrl = 0x0702"));
@@ -208,7 +211,7 @@ TEST_CASE("other settings come as asked for, and frames with them", "[sim][fault
     CHECK(rig.bytes.size() == 101 * 24 + (rig.truth.size() - 101) * 16);
 }
 
-TEST_CASE("another speed of the device garbles what it sends", "[sim][fault]") {
+TEST_CASE("a changed baud rate of the device garbles what it sends", "[sim][fault]") {
     Rig rig(fault("change_baud", "at_frame = 100\nbaud = 115200"));
     rig.run_to(UtcTime(2s));
     const std::size_t before = rig.arrived().size();
@@ -220,26 +223,26 @@ TEST_CASE("another speed of the device garbles what it sends", "[sim][fault]") {
     CHECK(rig.bench.machine.baud() == 115200);
     CHECK(rig.bench.machine.is_sampling());
     CHECK(rig.truth.size() > 400);
-    // Of the frames that were made at the new speed none is whole, nor is one found in the bytes.
+    // No frame made at the new speed is intact, and the decoder finds none in the bytes.
     CHECK(before < 101);
     CHECK(rig.arrived().size() == 101);
-    CHECK(rig.heard().frames == rig.arrived());
+    CHECK(rig.decoded().frames == rig.arrived());
     CHECK(rig.count(Fate::damaged) == static_cast<std::int64_t>(rig.truth.size()) - 101);
 }
 
-TEST_CASE("answers may cut a frame if asked to", "[sim][fault]") {
+TEST_CASE("an answer cuts a frame only if the script allows it", "[sim][fault]") {
     for (const bool cuts : {false, true}) {
         Rig rig(cuts ? "answers_cut_frames = true\n" : "");
         rig.run_to(UtcTime(5s));
         rig.stream.receive(bytes_of("02 00 0D"), {rig.now, rig.bench.now}, rig.faults);
-        const Heard heard = check_report(rig);
+        const Decoded decoded = check_report(rig);
         CHECK(rig.count(Fate::damaged) == (cuts ? 1 : 0));
-        CHECK(heard.missing == (cuts ? 1 : 0));
+        CHECK(decoded.missing == (cuts ? 1 : 0));
         CHECK(rig.line.report().bytes_of_answers == (cuts ? 0 : 4));
     }
 }
 
-TEST_CASE("without frames that come by themselves no answer waits for one", "[sim][fault]") {
+TEST_CASE("without automatic frames an answer does not wait for a frame", "[sim][fault]") {
     Rig rig("answers_cut_frames = true\n");
     rig.bench.send({"FE 00", "83 02", "FE 01", "88 00", "FE 00", "83 01"});  // UART_AUTO = 0.
     rig.run_to(UtcTime(5s));
@@ -249,7 +252,8 @@ TEST_CASE("without frames that come by themselves no answer waits for one", "[si
     CHECK(hex_of(rig.bytes) == "02 00 00 0D");
 }
 
-TEST_CASE("an answer that waits for a frame comes without one when sampling ends", "[sim][fault]") {
+TEST_CASE("an answer that waits for a frame is sent without one when sampling ends",
+          "[sim][fault]") {
     Rig rig("answers_cut_frames = true\n");
     rig.run_to(UtcTime(5s));
     const std::size_t before = rig.bytes.size();
@@ -270,7 +274,7 @@ TEST_CASE("an answer that waits for a frame comes without one when sampling ends
     CHECK(rig.count(Fate::damaged) == 0);
 }
 
-TEST_CASE("of faults of the line that overlap the longer one decides", "[sim][fault]") {
+TEST_CASE("if two faults of the line overlap, the line recovers at the later end", "[sim][fault]") {
     const auto kind = GENERATE("silence", "stall", "overrun", "hang_up");
     CAPTURE(kind);
     Rig rig(fault(kind, "at_s = 2\nseconds = 6") + fault(kind, "at_s = 3\nseconds = 1"));
@@ -291,7 +295,7 @@ TEST_CASE("of faults of the line that overlap the longer one decides", "[sim][fa
     if (kind == std::string("silence")) CHECK(heard_by(UtcTime(9s)) > after);
 }
 
-TEST_CASE("a frame suffers one fault, and the next one the next", "[sim][fault]") {
+TEST_CASE("a frame gets one fault, and the next frame the next fault", "[sim][fault]") {
     Rig rig(fault("flip_bit", "at_frame = 100") + fault("lose_frames", "at_frame = 100") +
             fault("duplicate_frame", "at_frame = 100"));
     check_report(rig);
@@ -301,7 +305,7 @@ TEST_CASE("a frame suffers one fault, and the next one the next", "[sim][fault]"
     CHECK(rig.truth[103].fate == Fate::repeated);
 }
 
-TEST_CASE("random faults follow their rates, and the seed alone", "[sim][fault]") {
+TEST_CASE("random faults follow their rates and depend only on the seed", "[sim][fault]") {
     const std::string toml =
         "[random]\nseed = 3\nflip_bit_per_h = 3600\ndrop_bytes_per_h = 1800\n"
         "duplicate_frame_per_h = 900\ngarbage_per_h = 900\n";
@@ -320,7 +324,8 @@ TEST_CASE("random faults follow their rates, and the seed alone", "[sim][fault]"
     check_report(rig);
 }
 
-TEST_CASE("faults that are rarer than any run is long do not happen", "[sim][fault]") {
+TEST_CASE("faults with extremely low rates do not happen, and times do not overflow",
+          "[sim][fault]") {
     const auto rate = GENERATE("1e-9", "1e-300", "5e-324");
     CAPTURE(rate);
     Rig rig("[random]\nflip_bit_per_h = " + std::string(rate) + "\n");
@@ -332,7 +337,7 @@ TEST_CASE("faults that are rarer than any run is long do not happen", "[sim][fau
     CHECK(later_by(1.0, UtcTime(1s)) == UtcTime(2s));
 }
 
-TEST_CASE("a fault of the script that cannot be had is told of and ends nothing", "[sim][fault]") {
+TEST_CASE("a scripted fault that cannot be applied is reported and ends nothing", "[sim][fault]") {
     Rig rig(fault("oven_silence", "at_s = 1"));
     rig.oven_trouble = "the link is taken";
     check_report(rig);
@@ -342,7 +347,7 @@ TEST_CASE("a fault of the script that cannot be had is told of and ends nothing"
     CHECK(rig.faults.report().applied.empty());
 }
 
-TEST_CASE("faults of the oven are handed on, unknown ones refused", "[sim][fault]") {
+TEST_CASE("faults of the oven are passed on to it, and refused without an oven", "[sim][fault]") {
     Rig rig(fault("oven_silence", "at_s = 1\ncount = -1"));
     rig.run_to(UtcTime(3s));
     CHECK(rig.oven == "oven_silence -1");
@@ -350,7 +355,7 @@ TEST_CASE("faults of the oven are handed on, unknown ones refused", "[sim][fault
     CHECK_THROWS_AS(alone.apply(parse_fault("oven_silence", rig.rules), UtcTime(0s)), InputError);
 }
 
-TEST_CASE("a fault in time happens without frames too", "[sim][fault]") {
+TEST_CASE("a fault with a set time happens even without frames", "[sim][fault]") {
     Rig rig(fault("stop", "at_s = 2") + fault("power_cycle", "at_s = 4"));
     rig.run_to(UtcTime(3s));
     CHECK_FALSE(rig.bench.machine.is_sampling());

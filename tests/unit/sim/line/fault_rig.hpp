@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A device under a fault script, and a host that takes all that comes.
+/// A device with a fault script, and a host that receives everything.
 
 #include <algorithm>
 #include <chrono>
@@ -22,7 +22,7 @@ namespace a351::sim {
 using namespace std::chrono_literals;
 using Kind = timing::Placement::Kind;
 
-/// Noise, without end.
+/// An endless source of noise.
 class NoiseSource final : public SampleSource {
 public:
     [[nodiscard]] int rate_hz() const noexcept override { return 50; }
@@ -42,8 +42,8 @@ private:
     RandomStream noise_{1, "test"};
 };
 
-/// What a host makes of the bytes.
-struct Heard {
+/// Result of decoding the bytes as a host does.
+struct Decoded {
     std::vector<wire::BurstValues> frames;
     std::map<Kind, int> places;
     std::int64_t missing = 0;
@@ -73,28 +73,28 @@ struct Rig {
         }
     }
 
-    [[nodiscard]] Heard heard() const {
-        Heard heard;
+    [[nodiscard]] Decoded decoded() const {
+        Decoded decoded;
         wire::BurstDecoder decoder(wire::BurstLayout::recommended(), 80);
         timing::SampleIndex index(80, Hertz(50));
         std::span<const std::byte> input(bytes);
         while (const auto event = decoder.next(input)) {
             if (const auto* lost = std::get_if<wire::Discarded>(&*event)) {
-                heard.bytes_skipped += lost->byte_count;
+                decoded.bytes_skipped += lost->byte_count;
                 continue;
             }
             const auto& values = std::get<wire::BurstFrame>(*event).values();
-            heard.frames.push_back(values);
-            const RawTime arrival(static_cast<std::int64_t>(heard.frames.size()) * 20ms);
+            decoded.frames.push_back(values);
+            const RawTime arrival(static_cast<std::int64_t>(decoded.frames.size()) * 20ms);
             auto place = index.place(values.count, true, arrival);
-            ++heard.places[place.kind];
-            heard.missing += place.missing;
+            ++decoded.places[place.kind];
+            decoded.missing += place.missing;
             if (place.kind != Kind::new_session) continue;
             index = timing::SampleIndex(80, Hertz(50));
             static_cast<void>(index.place(values.count, true, arrival));
         }
-        heard.bytes_skipped += decoder.pending_bytes();
-        return heard;
+        decoded.bytes_skipped += decoder.pending_bytes();
+        return decoded;
     }
 
     [[nodiscard]] std::vector<wire::BurstValues> arrived() const {
@@ -127,21 +127,22 @@ inline std::string fault(const std::string& kind, const std::string& keys) {
     return "[[fault]]\nkind = \"" + kind + "\"\n" + keys + "\n";
 }
 
-/// Frames before, fault, frames behind; what the emulator says is what a host finds.
-inline Heard check_report(Rig& rig) {
+/// Runs the rig up to 30 s and checks that the emulator's report agrees with what a host decodes.
+/// @return the result of the host
+inline Decoded check_report(Rig& rig) {
     rig.run_to(UtcTime(30s));
-    const Heard heard = rig.heard();
+    const Decoded decoded = rig.decoded();
     const LineReport& report = rig.line.report();
-    CHECK(heard.frames == rig.arrived());
-    CHECK(static_cast<std::int64_t>(heard.frames.size()) == report.frames_sent);
-    CHECK(static_cast<std::int64_t>(heard.bytes_skipped) ==
+    CHECK(decoded.frames == rig.arrived());
+    CHECK(static_cast<std::int64_t>(decoded.frames.size()) == report.frames_sent);
+    CHECK(static_cast<std::int64_t>(decoded.bytes_skipped) ==
           report.bytes_handed_over - report.bytes_of_frames);
     CHECK(report.bytes_handed_over == static_cast<std::int64_t>(rig.bytes.size()));
     CHECK(report.frames_damaged == rig.count(Fate::damaged));
     CHECK(report.frames_lost == rig.count(Fate::lost));
     CHECK(report.frames_repeated == rig.count(Fate::repeated));
     CHECK(report.frames_misplaced == rig.count(Fate::misplaced));
-    return heard;
+    return decoded;
 }
 
 }  // namespace a351::sim

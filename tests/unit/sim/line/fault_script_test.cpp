@@ -22,7 +22,7 @@ FaultScript parse(const std::string& toml) {
 
 }  // namespace
 
-TEST_CASE("every kind can be written in a script and said in words", "[sim][fault_script]") {
+TEST_CASE("every kind of fault can be given in a script and in words", "[sim][fault_script]") {
     for (const std::string_view kind : fault_kinds()) {
         CAPTURE(kind);
         if (kind == "overrun") continue;
@@ -42,7 +42,7 @@ TEST_CASE("every kind can be written in a script and said in words", "[sim][faul
     }
 }
 
-TEST_CASE("instants are seconds, UTC or frames", "[sim][fault_script]") {
+TEST_CASE("the time of a fault is given in seconds, UTC or frames", "[sim][fault_script]") {
     const FaultScript script = parse(
         "[[fault]]\nkind = \"reset\"\nat_s = 2.5\n"
         "[[fault]]\nkind = \"reset\"\nat_utc = \"2017-07-16T00:00:03Z\"\n"
@@ -53,7 +53,7 @@ TEST_CASE("instants are seconds, UTC or frames", "[sim][fault_script]") {
     CHECK_FALSE(script.planned[2].at);
 }
 
-TEST_CASE("rates and seed of random faults", "[sim][fault_script]") {
+TEST_CASE("rates and seed of random faults are read", "[sim][fault_script]") {
     const FaultScript script = parse(
         "answers_cut_frames = true\n[random]\nseed = 9\nflip_bit_per_h = 12.5\n"
         "oven_silence_per_h = 1\n");
@@ -65,7 +65,7 @@ TEST_CASE("rates and seed of random faults", "[sim][fault_script]") {
     CHECK(script.random[1].fault.name == "oven_silence");
 }
 
-TEST_CASE("what is wrong in a script is said with file, line, key, value and what is allowed",
+TEST_CASE("an error in a fault script is reported with file, line, key, value and what is allowed",
           "[sim][fault_script]") {
     const auto refused = [](const std::string& toml, std::initializer_list<const char*> parts) {
         CAPTURE(toml);
@@ -99,7 +99,7 @@ TEST_CASE("what is wrong in a script is said with file, line, key, value and wha
     refused("kind =", {"faults.toml:1", "not TOML"});
 }
 
-TEST_CASE("an overrun needs a speed at which a host gets along", "[sim][fault_script]") {
+TEST_CASE("an overrun is allowed only up to 50 times real time", "[sim][fault_script]") {
     FaultRules rules = kRules;
     rules.speed = 50.0;
     CHECK(parse_fault("overrun", rules).kind == FaultKind::overrun);
@@ -107,7 +107,7 @@ TEST_CASE("an overrun needs a speed at which a host gets along", "[sim][fault_sc
     CHECK_THROWS_WITH(parse_fault("overrun", rules), ContainsSubstring("up to 50"));
 }
 
-TEST_CASE("words that are no fault are refused in one line", "[sim][fault_script]") {
+TEST_CASE("words that are not a fault are refused in one line", "[sim][fault_script]") {
     for (const std::string words :
          {"", "  ", "melt", "flip_bit 3", "flip_bit count", "flip_bit count=", "flip_bit =3",
           "flip_bit count=3 count=4", "flip_bit count=x", "flip_bit count=[1]",
@@ -133,17 +133,17 @@ TEST_CASE("the example script is read", "[sim][fault_script]") {
     CHECK(script.random.size() > 1);
 }
 
-TEST_CASE("orders of the control socket do what they say", "[sim][control]") {
+TEST_CASE("each order of the control socket starts its action", "[sim][control]") {
     std::string done;
     const ControlActions actions{[] { return std::string("{}"); }, [&done] { done = "edge"; },
                                  [&done] { done = "quit"; },
                                  [&done](const Fault& fault) { done = fault.name; }};
-    CHECK(obey("status", actions, kRules) == "{}");
-    CHECK(obey("edge", actions, kRules).empty());
+    CHECK(execute("status", actions, kRules) == "{}");
+    CHECK(execute("edge", actions, kRules).empty());
     CHECK(done == "edge");
-    CHECK(obey("quit", actions, kRules).empty());
+    CHECK(execute("quit", actions, kRules).empty());
     CHECK(done == "quit");
-    CHECK(obey("lose_frames count=3", actions, kRules).empty());
+    CHECK(execute("lose_frames count=3", actions, kRules).empty());
     CHECK(done == "lose_frames");
-    CHECK_THROWS_AS(obey("explode", actions, kRules), InputError);
+    CHECK_THROWS_AS(execute("explode", actions, kRules), InputError);
 }

@@ -36,8 +36,8 @@ std::size_t bits_apart(const Bytes& a, const Bytes& b) {
 
 }  // namespace
 
-TEST_CASE("however a frame is spoilt, it is not in there any more", "[sim][frame_damage]") {
-    // 200 000 draws: each place and value of one byte is met 30 times, such as a second end marker.
+TEST_CASE("a damaged frame does not contain the original frame", "[sim][frame_damage]") {
+    // 200 000 draws: each place and value of one byte is tried 30 times, also a second end marker.
     const Bytes whole = frame();
     RandomStream random(1, "test");
     for (int i = 0; i < 200'000; ++i) {
@@ -53,7 +53,7 @@ TEST_CASE("however a frame is spoilt, it is not in there any more", "[sim][frame
     }
 }
 
-TEST_CASE("as many bits as asked for are flipped, in one word or marker", "[sim][frame_damage]") {
+TEST_CASE("the requested number of bits is flipped, in one word or marker", "[sim][frame_damage]") {
     const Bytes whole = frame();
     RandomStream random(1, "test");
     for (int i = 0; i < 5000; ++i) {
@@ -67,7 +67,7 @@ TEST_CASE("as many bits as asked for are flipped, in one word or marker", "[sim]
     }
 }
 
-TEST_CASE("a bad checksum leaves the rest alone", "[sim][frame_damage]") {
+TEST_CASE("a bad checksum leaves the rest of the frame unchanged", "[sim][frame_damage]") {
     const Bytes whole = frame();
     REQUIRE(has_right_checksum(whole));
     RandomStream random(1, "test");
@@ -79,7 +79,8 @@ TEST_CASE("a bad checksum leaves the rest alone", "[sim][frame_damage]") {
     }
 }
 
-TEST_CASE("without a checksum, a million bytes more hold no frame either", "[sim][frame_damage]") {
+TEST_CASE("even without a checksum, a million inserted bytes contain no frame",
+          "[sim][frame_damage]") {
     wire::BurstValues values;
     values.temperature = 2466;
     values.axes = {-203896, 604794, 16713252};
@@ -105,7 +106,7 @@ TEST_CASE("without a checksum, a million bytes more hold no frame either", "[sim
         garbage.insert(garbage.end(), whole.begin(), whole.end());
         CHECK(frames_in(garbage) == 1);
     }
-    // Markers wherever one looks: a frame is left at any place, and it ends all the same.
+    // With markers everywhere a whole frame cannot be avoided.  The function must still end.
     Bytes markers(whole.size(), wire::kStartByte);
     std::fill(markers.begin() + 10, markers.end(), wire::kEndByte);
     CHECK(with_more_bytes(markers, 1, random).size() == markers.size() + 1);

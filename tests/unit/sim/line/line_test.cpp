@@ -42,10 +42,11 @@ TEST_CASE("a frame counts as sent once its last byte has gone", "[sim][line]") {
     CHECK(line.is_empty());
 }
 
-TEST_CASE("the steady lateness is the least of fifty frames where that is largest", "[sim][line]") {
+TEST_CASE("the steady lateness is the largest of the minima over blocks of fifty frames",
+          "[sim][line]") {
     Line line({}, 1, UtcTime(0s), [](const TruthRecord&) {});
     for (std::uint32_t i = 0; i < 175; ++i) {
-        // 0 to 9 ms; of the second fifty 4 to 13, and of the last, no fifty, 900 and more.
+        // 0 to 9 ms; in the second block 4 to 13 ms; in the last, incomplete block 900 ms and more.
         const auto late = (i % 10 + (i / 50 == 1 ? 4 : i / 50 == 3 ? 900 : 0)) * 1ms;
         const TruthRecord frame = frame_of(i);
         line.send(kFrame, UtcTime(i * 2s), &frame);
@@ -55,7 +56,7 @@ TEST_CASE("the steady lateness is the least of fifty frames where that is larges
     CHECK(line.report().largest_lateness == 909ms);
 }
 
-TEST_CASE("bytes leave in the order in which they came, answers among them", "[sim][line]") {
+TEST_CASE("bytes leave in the order in which they came, including answers", "[sim][line]") {
     for (const bool is_bytewise : {false, true}) {
         LineParameters parameters;
         parameters.latency_timer_ms = 16.0;
@@ -85,7 +86,7 @@ TEST_CASE("bytes leave in the order in which they came, answers among them", "[s
     }
 }
 
-TEST_CASE("every frame has one fate, wherever an overrun or a plug cuts the stream",
+TEST_CASE("every frame has one fate, wherever an overrun or unplugging cuts the stream",
           "[sim][line]") {
     for (std::size_t cut = 0; cut <= 3 * 24; ++cut) {
         for (const bool is_overrun : {true, false}) {
@@ -117,7 +118,7 @@ TEST_CASE("every frame has one fate, wherever an overrun or a plug cuts the stre
     }
 }
 
-TEST_CASE("what is sent while nothing is plugged in is lost, and nothing after", "[sim][line]") {
+TEST_CASE("frames sent while unplugged are lost, and none after plugging in", "[sim][line]") {
     std::vector<Fate> fates;
     Line line({}, 1, UtcTime(0s),
               [&fates](const TruthRecord& record) { fates.push_back(record.fate); });
@@ -136,7 +137,7 @@ TEST_CASE("what is sent while nothing is plugged in is lost, and nothing after",
     CHECK(line.report().bytes_handed_over == 24);
 }
 
-TEST_CASE("what was lost on purpose is not lost by the plug or the terminal as well",
+TEST_CASE("frames lost on purpose are not counted again as lost by unplugging or overrun",
           "[sim][line]") {
     for (const bool is_overrun : {true, false}) {
         Line line({}, 1, UtcTime(0s), [](const TruthRecord&) {});
@@ -155,7 +156,7 @@ TEST_CASE("what was lost on purpose is not lost by the plug or the terminal as w
     }
 }
 
-TEST_CASE("at the end each frame has a fate, wherever the host had come to", "[sim][line]") {
+TEST_CASE("at the end each frame has a fate, wherever the host stopped reading", "[sim][line]") {
     for (std::size_t cut = 0; cut <= 3 * 24; ++cut) {
         CAPTURE(cut);
         std::vector<Fate> fates;
@@ -180,7 +181,7 @@ TEST_CASE("at the end each frame has a fate, wherever the host had come to", "[s
     }
 }
 
-TEST_CASE("a frame without bytes is settled in its turn", "[sim][line]") {
+TEST_CASE("a lost frame without bytes is settled in its turn", "[sim][line]") {
     std::vector<std::uint32_t> settled;
     Line line({}, 1, UtcTime(0s),
               [&settled](const TruthRecord& record) { settled.push_back(record.grid_index); });
@@ -197,7 +198,7 @@ TEST_CASE("a frame without bytes is settled in its turn", "[sim][line]") {
     CHECK(settled == std::vector<std::uint32_t>{1, 2, 3});
 }
 
-TEST_CASE("at different speeds no frame arrives", "[sim][line]") {
+TEST_CASE("no frame arrives if device and host have different speeds", "[sim][line]") {
     Line line({}, 1, UtcTime(0s), [](const TruthRecord&) {});
     line.set_speeds(460800, 115200);
     const TruthRecord record = frame_of(1);
@@ -209,7 +210,7 @@ TEST_CASE("at different speeds no frame arrives", "[sim][line]") {
     CHECK(line.report().frames_sent == 0);
 }
 
-TEST_CASE("paced bytes are seen one by one as they end on the wire", "[sim][line]") {
+TEST_CASE("paced bytes arrive one by one, each when it ends on the wire", "[sim][line]") {
     LineParameters parameters;
     parameters.is_paced = true;
     Line line(parameters, 1, UtcTime(0s), [](const TruthRecord&) {});
@@ -225,7 +226,7 @@ TEST_CASE("paced bytes are seen one by one as they end on the wire", "[sim][line
     }
 }
 
-TEST_CASE("runs of sampling are counted apart", "[sim][line]") {
+TEST_CASE("runs of sampling are counted separately", "[sim][line]") {
     Line line({}, 1, UtcTime(0s), [](const TruthRecord&) {});
     for (const auto& [index, run] : {std::pair{7, 1}, {8, 1}, {1008, 2}, {1009, 2}, {1010, 2}}) {
         const TruthRecord record =

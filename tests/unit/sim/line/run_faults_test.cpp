@@ -23,45 +23,45 @@ void order(Rig& rig, std::string_view words) {
 
 }  // namespace
 
-TEST_CASE("a counter that jumps by whole samples is a gap, by others an anomaly and a new session",
+TEST_CASE("a counter jump by whole samples is a gap, any other jump an anomaly and a new session",
           "[sim][fault]") {
     const int count = GENERATE(1, 10, 400);
     Rig whole(fault("counter_jump", "at_frame = 100\ncount = " + std::to_string(count)));
     CHECK(check_report(whole).missing == count);
     CHECK(whole.count(Fate::misplaced) == 0);
     Rig part(fault("counter_jump", "at_frame = 100\nticks = 7"));
-    Heard heard = check_report(part);
-    CHECK(heard.places[Kind::anomaly] == 1);
-    CHECK(heard.places[Kind::new_session] == 1);
+    Decoded decoded = check_report(part);
+    CHECK(decoded.places[Kind::anomaly] == 1);
+    CHECK(decoded.places[Kind::new_session] == 1);
     CHECK(part.truth[101].fate == Fate::misplaced);
     CHECK(part.count(Fate::misplaced) == 1);
 }
 
-TEST_CASE("a counter that stands still repeats itself and is right afterwards", "[sim][fault]") {
+TEST_CASE("a stuck counter repeats its value and is right afterwards", "[sim][fault]") {
     const int count = GENERATE(1, 2, 30);
     Rig rig(fault("counter_stuck", "at_frame = 100\ncount = " + std::to_string(count)));
-    Heard heard = check_report(rig);
-    CHECK(heard.places[Kind::duplicate] == count);
-    CHECK(heard.missing == count);
+    Decoded decoded = check_report(rig);
+    CHECK(decoded.places[Kind::duplicate] == count);
+    CHECK(decoded.missing == count);
     CHECK(rig.count(Fate::repeated) == count);
     const auto last = static_cast<std::size_t>(100 + count);
     CHECK(rig.truth[last].values.count == rig.truth[100].values.count);
     CHECK(rig.truth[last + 1].values.count == 80 * (last + 2) % 65536);
 }
 
-TEST_CASE("a counter that starts anew is an anomaly, then a new session", "[sim][fault]") {
+TEST_CASE("a counter that starts again is an anomaly, then a new session", "[sim][fault]") {
     Rig rig(fault("counter_reset", "at_frame = 100"));
-    Heard heard = check_report(rig);
+    Decoded decoded = check_report(rig);
     CHECK(rig.truth[101].values.count == 80);
-    CHECK(heard.places[Kind::anomaly] == 1);
-    CHECK(heard.places[Kind::new_session] == 1);
+    CHECK(decoded.places[Kind::anomaly] == 1);
+    CHECK(decoded.places[Kind::new_session] == 1);
 }
 
-TEST_CASE("error flags stand in as many frames as asked for", "[sim][fault]") {
+TEST_CASE("error flags are in as many frames as requested", "[sim][fault]") {
     Rig rig(fault("error_flags", "at_frame = 100\ncount = 7\ndiag_stat = 0x20"));
-    const Heard heard = check_report(rig);
-    for (std::size_t i = 0; i < heard.frames.size(); ++i) {
-        REQUIRE((heard.frames[i].flag & wire::kFlagError) == (i > 100 && i <= 107 ? 1 : 0));
+    const Decoded decoded = check_report(rig);
+    for (std::size_t i = 0; i < decoded.frames.size(); ++i) {
+        REQUIRE((decoded.frames[i].flag & wire::kFlagError) == (i > 100 && i <= 107 ? 1 : 0));
     }
     CHECK(rig.line.report().frames_flagged == 7);
 }
@@ -81,7 +81,7 @@ TEST_CASE("a counter fault outside sampling begins with the next frame", "[sim][
               std::vector<std::uint16_t>{80, 80, 80, 80, 400, 480});
         CHECK(rig.line.report().frames_repeated == 3);
     }
-    SECTION("reset: the frame behind the first shows the first one's COUNT") {
+    SECTION("reset: the second frame shows the COUNT of the first") {
         order(rig, "counter_reset");
         rig.bench.send({"83 01"});
         check_report(rig);
@@ -94,7 +94,7 @@ TEST_CASE("a counter fault outside sampling begins with the next frame", "[sim][
     }
 }
 
-TEST_CASE("the end of sampling ends what stands still in it", "[sim][fault]") {
+TEST_CASE("the end of sampling ends a stuck counter", "[sim][fault]") {
     const bool is_seen = GENERATE(false, true);
     Rig rig(fault("counter_stuck", "at_frame = 50\ncount = 1000"));
     rig.run_to(UtcTime(5s));
@@ -109,18 +109,19 @@ TEST_CASE("the end of sampling ends what stands still in it", "[sim][fault]") {
     }
 }
 
-TEST_CASE("a jump that the end of sampling overtakes misplaces nothing", "[sim][fault]") {
+TEST_CASE("a counter jump that is overtaken by the end of sampling happens in the next run",
+          "[sim][fault]") {
     Rig rig(fault("counter_jump", "at_frame = 50\nticks = 7") + fault("stop", "at_frame = 50"));
     rig.run_to(UtcTime(3s));
     rig.bench.send({"83 01"});
     check_report(rig);
     CHECK(counts_of(rig, 2).at(0) == 80);
-    // It waited for a frame that has a successor.
+    // The jump waited for a frame that has a successor.
     CHECK(counts_of(rig, 2).at(1) == 80 + 87);
     CHECK(rig.line.report().frames_misplaced == 1);
 }
 
-TEST_CASE("flags of a start-up are not taken for those asked for", "[sim][fault]") {
+TEST_CASE("error flags of a start-up are not counted as requested ones", "[sim][fault]") {
     Rig rig(fault("error_flags", "at_frame = 50\ncount = 1000\ndiag_stat = 0x20") +
             fault("reset", "at_frame = 80") + fault("failing_tests", "at_s = 4\ndiag_stat = 0x20") +
             fault("reset", "at_s = 5"));
@@ -135,7 +136,8 @@ TEST_CASE("flags of a start-up are not taken for those asked for", "[sim][fault]
     CHECK(rig.line.report().frames_flagged > 1000);  // Genuine ones.
 }
 
-TEST_CASE("once the host has read DIAG_STAT, later errors are their own", "[sim][fault]") {
+TEST_CASE("after the host has read DIAG_STAT, later error flags are not counted for the fault",
+          "[sim][fault]") {
     Rig rig(fault("error_flags", "at_frame = 50\ncount = 1000\ndiag_stat = 0x20"));
     rig.run_to(UtcTime(3s));
     const auto flagged = rig.line.report().frames_flagged;
@@ -147,7 +149,7 @@ TEST_CASE("once the host has read DIAG_STAT, later errors are their own", "[sim]
     CHECK(rig.line.report().frames_flagged > flagged + 1000);
 }
 
-TEST_CASE("flags that no frame carries are not counted", "[sim][fault]") {
+TEST_CASE("error flags that no frame carries are not counted", "[sim][fault]") {
     Rig rig(fault("error_flags", "at_frame = 50\ncount = 20"));
     rig.bench.send({"83 02", "FE 01", "8D 47", "FE 00", "83 01"});  // Without FLAG.
     rig.run_to(UtcTime(10s));

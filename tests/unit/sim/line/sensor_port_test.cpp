@@ -97,7 +97,7 @@ struct Served {
           }) {}
     ~Served() { end(); }
 
-    /// Done by the emulator's own thread, some time later.
+    /// Requests a fault, which the emulator's thread applies some time later.
     void apply(std::string_view words, UtcTime at) {
         const std::lock_guard lock(mutex);
         fault = parse_fault(words, {profile, 50.0});
@@ -204,7 +204,7 @@ TEST_CASE("the terminal is raw: every byte value passes both ways", "[sim][pty]"
     CHECK(got == all);
 }
 
-TEST_CASE("a host may come and go", "[sim][pty]") {
+TEST_CASE("a host can open and close the terminal repeatedly", "[sim][pty]") {
     const auto link = link_path("come_and_go");
     Pty pty(link);
     for (int visit = 0; visit < 3; ++visit) {
@@ -216,7 +216,7 @@ TEST_CASE("a host may come and go", "[sim][pty]") {
     CHECK(pty.read().empty());
 }
 
-TEST_CASE("the link goes with the device and takes the place of one left behind", "[sim][pty]") {
+TEST_CASE("the link is removed with the device and replaces a stale one", "[sim][pty]") {
     const auto link = link_path("link");
     std::filesystem::create_symlink("/dev/pts/987654", link);
     {
@@ -226,7 +226,7 @@ TEST_CASE("the link goes with the device and takes the place of one left behind"
     CHECK_FALSE(std::filesystem::exists(std::filesystem::symlink_status(link)));
 }
 
-TEST_CASE("a path that is not ours is refused and stays", "[sim][pty]") {
+TEST_CASE("a path that belongs to somebody else is refused and left in place", "[sim][pty]") {
     const auto link = link_path("foreign");
     const auto refused = [&link] {
         CHECK_THROWS_AS(Pty(link), InputError);
@@ -278,7 +278,8 @@ TEST_CASE("a terminal that hangs up comes back under another name", "[sim][pty]"
     CHECK(pty.baud() == 115200);
 }
 
-TEST_CASE("at another speed nothing is understood, at the right one all is", "[sim][sensor_port]") {
+TEST_CASE("nothing is understood at a wrong speed, and everything at the right one",
+          "[sim][sensor_port]") {
     Served served("speed", 1.0);
     Host host(served.link);
     host.set_speed(B115200);
@@ -291,7 +292,7 @@ TEST_CASE("at another speed nothing is understood, at the right one all is", "[s
     CHECK(hex_of(host.receive(4)) == "6A 33 41 0D");
 }
 
-TEST_CASE("an overrun loses what the receiver has no room for and says exactly how much",
+TEST_CASE("an overrun loses the frames that do not fit and reports their exact number",
           "[sim][sensor_port]") {
     Served served("overrun", 50.0);
     served.apply("overrun", served.scenario.start());
@@ -313,7 +314,7 @@ TEST_CASE("an overrun loses what the receiver has no room for and says exactly h
     served.end();
     while (host.is_readable()) read(1);
     const LineReport& report = served.line.report();
-    // 4095 bytes are 170 frames; some pass the kernel's own buffer unseen.
+    // 4095 bytes are 170 frames; the kernel's own buffer lets some more pass.
     CHECK(report.lost_by_overrun > 700);
     CHECK(report.frames_lost == report.lost_by_overrun);
     CHECK(report.frames_sent == frames);
@@ -321,7 +322,7 @@ TEST_CASE("an overrun loses what the receiver has no room for and says exactly h
     CHECK(served.truth.size() == static_cast<std::size_t>(report.frames_made));
 }
 
-TEST_CASE("at the end every frame has its place, and every unread byte", "[sim][sensor_port]") {
+TEST_CASE("at the end every frame and every unread byte is accounted for", "[sim][sensor_port]") {
     Served served("settled", 1000.0);
     Host host(served.link);
     host.send(kStartLogging);
@@ -345,7 +346,7 @@ TEST_CASE("at the end every frame has its place, and every unread byte", "[sim][
           (is_reading ? 0 : static_cast<std::size_t>(report.bytes_handed_over)));
 }
 
-TEST_CASE("where something has taken the link's place the port stays out, says so and waits",
+TEST_CASE("if a file has taken the link's place the port stays unplugged, reports it and waits",
           "[sim][sensor_port]") {
     Served served("taken", 50.0);
     const auto gone = [&served](bool is_gone) {

@@ -16,7 +16,7 @@ struct Passage {
     UtcTime arrives, shown;
 };
 
-/// Frames at 50 Hz, each fetched as soon as it is shown.
+/// Carries frames at 50 Hz and fetches each as soon as it is shown.
 std::vector<Passage> carry(const LineParameters& parameters, int frames, std::uint64_t seed = 1) {
     Transport transport(parameters, seed, UtcTime(0s));
     std::vector<Passage> passages;
@@ -43,11 +43,11 @@ std::vector<double> delays_ms(const std::vector<Passage>& passages) {
 
 }  // namespace
 
-TEST_CASE("without parameters bytes are there when they arrive", "[sim][transport]") {
+TEST_CASE("without parameters bytes are shown when they arrive", "[sim][transport]") {
     for (const Passage& each : carry({}, 100)) CHECK(each.shown == each.arrives);
 }
 
-TEST_CASE("bytes never come early, nor before those sent before", "[sim][transport]") {
+TEST_CASE("bytes are never shown early or out of order", "[sim][transport]") {
     LineParameters parameters;
     parameters.latency_timer_ms = 16.0;
     parameters.latency_timer_ppm = 30.0;
@@ -62,7 +62,7 @@ TEST_CASE("bytes never come early, nor before those sent before", "[sim][transpo
     }
 }
 
-TEST_CASE("a 16 ms timer delays a 20 ms stream by four values in turn", "[sim][transport]") {
+TEST_CASE("a 16 ms timer delays a 20 ms stream by four values that repeat", "[sim][transport]") {
     // 16 ms and 20 ms share 4 ms: the delay repeats every four frames (locked beat).
     LineParameters parameters;
     parameters.latency_timer_ms = 16.0;
@@ -78,7 +78,7 @@ TEST_CASE("a 16 ms timer delays a 20 ms stream by four values in turn", "[sim][t
     CHECK((mean > 5.9 && mean < 10.1));
 }
 
-TEST_CASE("a timer that drifts runs through all delays", "[sim][transport]") {
+TEST_CASE("a timer that drifts gives all delays", "[sim][transport]") {
     LineParameters parameters;
     parameters.latency_timer_ms = 16.0;
     parameters.latency_timer_ppm = 30.0;
@@ -95,7 +95,7 @@ TEST_CASE("a timer that drifts runs through all delays", "[sim][transport]") {
     CHECK(most > 15.98);
 }
 
-TEST_CASE("polls are a grid, jitter stays below its limit", "[sim][transport]") {
+TEST_CASE("polls lie on a grid, and jitter stays below its limit", "[sim][transport]") {
     LineParameters parameters;
     parameters.usb_poll_ms = 1.0;
     const auto polled = carry(parameters, 1000);
@@ -114,7 +114,7 @@ TEST_CASE("polls are a grid, jitter stays below its limit", "[sim][transport]") 
     CHECK(sum / 5000 == Approx(1.0).margin(0.05));  // 6 sigma of a uniform mean.
 }
 
-TEST_CASE("stalls are as frequent and as long as asked for", "[sim][transport]") {
+TEST_CASE("stalls have the requested rate and length", "[sim][transport]") {
     LineParameters parameters;
     parameters.stall_per_h = 30.0;
     parameters.stall_s = {1.0, 2.0};
@@ -155,7 +155,7 @@ TEST_CASE("held bytes come in one burst", "[sim][transport]") {
     CHECK(transport.shown(UtcTime(4s)) == kFrame);
 }
 
-TEST_CASE("the delays are a function of the seed", "[sim][transport]") {
+TEST_CASE("the delays depend only on the seed", "[sim][transport]") {
     LineParameters parameters;
     parameters.latency_timer_ms = 16.0;
     parameters.jitter_ms = 2.0;

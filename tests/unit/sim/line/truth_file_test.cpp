@@ -11,7 +11,8 @@
 using namespace a351;
 using namespace a351::sim;
 
-TEST_CASE("a truth file replaces its own kind and nothing of anybody else", "[sim][truth]") {
+TEST_CASE("a truth file replaces an empty file or a truth file, and no other file",
+          "[sim][truth]") {
     const auto file =
         std::filesystem::temp_directory_path() / ("a351_truth_" + std::to_string(::getpid()));
     const auto write = [&file](std::string_view text) { std::ofstream(file) << text; };

@@ -4,7 +4,7 @@
 
 namespace a351::sim {
 
-/// An oven that stands still and shows what it is told.
+/// An oven without dynamics: it shows the values that a test sets.
 class FakeOven final : public OvenPlant {
 public:
     DegC reading{42.5};

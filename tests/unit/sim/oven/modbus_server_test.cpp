@@ -27,7 +27,7 @@ Bytes bytes_of(const std::string& hex) {
     return bytes;
 }
 
-/// A server and the time it lives in.
+/// A server and its clock.
 struct Bench {
     FakeOven oven;
     OvenController controller{oven};
@@ -36,7 +36,7 @@ struct Bench {
 
     explicit Bench(const ServerOptions& options = {}) : server(controller, options) {}
 
-    /// What comes back within 300 ms, the time-out of a patient host.
+    /// Sends a request.  @return the bytes that come within 300 ms, the time-out of a patient host
     Bytes ask(const Bytes& request) {
         server.receive(request, now);
         return wait(300ms);
@@ -52,10 +52,10 @@ struct Bench {
     }
 };
 
-/// Everything that the report knows of.
+/// Returns the number of requests in the report: each one raises one of these counters.
 std::int64_t total(const OvenReport& report) {
     return report.answers + report.answers_lost + report.resets + report.broadcasts +
-           report.for_other_units + report.unreadable + report.unheard +
+           report.for_other_units + report.unreadable + report.ignored +
            std::accumulate(report.faults.begin(), report.faults.end(), std::int64_t{0});
 }
 
@@ -64,7 +64,7 @@ const Bytes kPv = bytes_of("01 03 02 01 A9 79 AA");
 
 }  // namespace
 
-TEST_CASE("the golden conversation comes out byte for byte", "[sim][modbus_server]") {
+TEST_CASE("the golden conversation is answered byte for byte", "[sim][modbus_server]") {
     std::ifstream file(A351_GOLDEN "/oven/frames.txt");
     REQUIRE(file);
     Bench bench;
@@ -93,7 +93,7 @@ TEST_CASE("the golden conversation comes out byte for byte", "[sim][modbus_serve
     CHECK(requests == 41);
 }
 
-TEST_CASE("request and answer take their time, and between them lies the wait",
+TEST_CASE("an answer is due after the line time of request and answer and a wait of 20 ms",
           "[sim][modbus_server]") {
     Bench bench;
     const Nanoseconds start = bench.now;
@@ -106,7 +106,8 @@ TEST_CASE("request and answer take their time, and between them lies the wait",
     CHECK(bench.server.next_due() == std::nullopt);
 }
 
-TEST_CASE("a request in pieces is understood while the pauses are short", "[sim][modbus_server]") {
+TEST_CASE("a request in pieces is understood if the pauses are below 3.5 characters",
+          "[sim][modbus_server]") {
     // 3.5 characters at 9600 baud are 4.01 ms.
     for (const auto& [pause, is_understood] :
          {std::pair{Nanoseconds(4ms), true}, {4100us, false}}) {
@@ -123,7 +124,7 @@ TEST_CASE("a request in pieces is understood while the pauses are short", "[sim]
     }
 }
 
-TEST_CASE("after noise nothing is heard until there was silence", "[sim][modbus_server]") {
+TEST_CASE("after noise no request is received until there was silence", "[sim][modbus_server]") {
     Bench bench;
     bench.server.receive(bytes_of("01 03 FF 00 00 FF 00 55"), bench.now);
     bench.server.receive(kReadPv, bench.now + 1ms);
@@ -132,20 +133,20 @@ TEST_CASE("after noise nothing is heard until there was silence", "[sim][modbus_
     CHECK(bench.ask(kReadPv) == kPv);
 }
 
-TEST_CASE("while an answer is due nothing is heard", "[sim][modbus_server]") {
+TEST_CASE("while an answer is due requests are ignored and counted", "[sim][modbus_server]") {
     Bench bench;
     bench.server.receive(kReadPv, bench.now);
     bench.server.receive(kReadPv, bench.now + 10ms);
     CHECK(bench.wait(300ms) == kPv);
-    CHECK(bench.server.report().unheard == 1);
+    CHECK(bench.server.report().ignored == 1);
     Bytes twice = kReadPv;
     twice.insert(twice.end(), kReadPv.begin(), kReadPv.end());
     CHECK(bench.ask(twice) == kPv);
-    CHECK(bench.server.report().unheard == 2);
+    CHECK(bench.server.report().ignored == 2);
     CHECK(bench.server.report().answers == 2);
 }
 
-TEST_CASE("what comes while nothing is heard counts once, however it is cut",
+TEST_CASE("bytes that are ignored in one run count once, however they are split",
           "[sim][modbus_server]") {
     // A byte takes 1.1 ms at 9600 baud; the answer is due after 37 ms.
     for (const std::size_t piece : {std::size_t{1}, std::size_t{3}, kReadPv.size()}) {
@@ -161,20 +162,20 @@ TEST_CASE("what comes while nothing is heard counts once, however it is cut",
         };
         bench.server.receive(kReadPv, bench.now);
         send_in_pieces();
-        CHECK(bench.server.report().unheard == 1);
+        CHECK(bench.server.report().ignored == 1);
         bench.now += 5ms;
         send_in_pieces();  // Another one, after a silence.
-        CHECK(bench.server.report().unheard == 2);
+        CHECK(bench.server.report().ignored == 2);
         CHECK(bench.wait(300ms) == kPv);
         bench.server.restart(bench.now);
         send_in_pieces();
-        CHECK(bench.server.report().unheard == 3);
+        CHECK(bench.server.report().ignored == 3);
         CHECK(bench.server.report().answers == 1);
         CHECK(total(bench.server.report()) == 4);
     }
 }
 
-TEST_CASE("an answer is counted when it leaves", "[sim][modbus_server]") {
+TEST_CASE("an answer is counted when it leaves or is lost", "[sim][modbus_server]") {
     Bench bench;
     bench.server.receive(kReadPv, bench.now);
     CHECK(total(bench.server.report()) == 0);
@@ -196,17 +197,17 @@ TEST_CASE("an answer is counted when it leaves", "[sim][modbus_server]") {
     CHECK(total(bench.server.report()) == 3);
 }
 
-TEST_CASE("half a request that a loss of power cuts is one unheard run", "[sim][modbus_server]") {
+TEST_CASE("a request cut by a loss of power counts once as ignored", "[sim][modbus_server]") {
     Bench bench;
     bench.server.receive(std::span(kReadPv).first(5), bench.now);
     bench.server.restart(bench.now);
     bench.server.receive(std::span(kReadPv).subspan(5), bench.now + 1ms);
     CHECK(bench.wait(300ms).empty());
-    CHECK(bench.server.report().unheard == 1);
+    CHECK(bench.server.report().ignored == 1);
     CHECK(total(bench.server.report()) == 1);
 }
 
-TEST_CASE("a software reset is counted as one, and leaves the faults to real answers",
+TEST_CASE("a software reset is counted once, and requested faults wait for real answers",
           "[sim][modbus_server]") {
     Bench bench;
     REQUIRE(bench.controller.operate(0, 1) == std::nullopt);
@@ -215,7 +216,7 @@ TEST_CASE("a software reset is counted as one, and leaves the faults to real ans
     reset_and_more.insert(reset_and_more.end(), kReadPv.begin(), kReadPv.end());
     CHECK(bench.ask(reset_and_more).empty());
     CHECK(bench.server.report().resets == 1);
-    CHECK(bench.server.report().unheard == 1);
+    CHECK(bench.server.report().ignored == 1);
     CHECK(total(bench.server.report()) == 2);
     bench.now += 5s;
     CHECK(bench.ask(kReadPv) == bytes_of("01 03 02"));
@@ -223,7 +224,7 @@ TEST_CASE("a software reset is counted as one, and leaves the faults to real ans
     CHECK(total(bench.server.report()) == 4);
 }
 
-TEST_CASE("each fault spoils as many answers as asked for, in its own way",
+TEST_CASE("each fault spoils the requested number of answers in its own way",
           "[sim][modbus_server]") {
     Bench bench;
     const auto spoilt = [&bench](OvenFault fault) {
@@ -246,7 +247,7 @@ TEST_CASE("each fault spoils as many answers as asked for, in its own way",
     CHECK_FALSE(is_sealed(babble));
 }
 
-TEST_CASE("a delayed answer is right, but later than a host waits", "[sim][modbus_server]") {
+TEST_CASE("a delayed answer is right, but comes later than a host waits", "[sim][modbus_server]") {
     Bench bench;
     bench.server.fail_next(OvenFault::delay, 1);
     CHECK(bench.ask(kReadPv).empty());
@@ -254,7 +255,7 @@ TEST_CASE("a delayed answer is right, but later than a host waits", "[sim][modbu
     CHECK(bench.ask(kReadPv) == kPv);
 }
 
-TEST_CASE("a fault without end is ended by zero", "[sim][modbus_server]") {
+TEST_CASE("a fault without a limit is ended by a count of zero", "[sim][modbus_server]") {
     Bench bench;
     bench.server.fail_next(OvenFault::silence, -1);
     for (int i = 0; i < 20; ++i) CHECK(bench.ask(kReadPv).empty());
@@ -262,7 +263,7 @@ TEST_CASE("a fault without end is ended by zero", "[sim][modbus_server]") {
     CHECK(bench.ask(kReadPv) == kPv);
 }
 
-TEST_CASE("a spoilt write: silence has not executed it, a lost answer has",
+TEST_CASE("a write lost in silence is not executed, a write with a spoilt answer is",
           "[sim][modbus_server]") {
     Bench bench;
     REQUIRE(bench.controller.operate(0, 1) == std::nullopt);
@@ -275,7 +276,8 @@ TEST_CASE("a spoilt write: silence has not executed it, a lost answer has",
     CHECK(bench.oven.target == DegC(43.0));
 }
 
-TEST_CASE("a software reset is not answered, and takes its time", "[sim][modbus_server]") {
+TEST_CASE("a software reset is not answered, and the controller needs time to restart",
+          "[sim][modbus_server]") {
     Bench bench;
     REQUIRE(bench.controller.operate(0, 1) == std::nullopt);
     CHECK(bench.ask(sealed(bytes_of("01 06 00 00 06 00"))).empty());
@@ -286,7 +288,7 @@ TEST_CASE("a software reset is not answered, and takes its time", "[sim][modbus_
     CHECK((bench.controller.status() & oven_status::kWritingEnabled) != 0);
 }
 
-TEST_CASE("a controller set back to another protocol says nothing more", "[sim][modbus_server]") {
+TEST_CASE("a controller set to another protocol answers no more", "[sim][modbus_server]") {
     Bench bench;
     REQUIRE(bench.controller.operate(0, 1) == std::nullopt);
     const Bytes setup = sealed(bytes_of("01 06 00 00 07 00"));
@@ -310,10 +312,10 @@ TEST_CASE("every request is counted once", "[sim][modbus_server]") {
     CHECK(report.answers == 2);
     CHECK(report.exceptions == 1);
     CHECK(report.unreadable == 2);
-    CHECK(report.unheard == 0);
+    CHECK(report.ignored == 0);
 }
 
-TEST_CASE("a sealed frame of a known function that is too short for it is unreadable",
+TEST_CASE("a frame with a valid CRC that is too short for its function is unreadable",
           "[sim][modbus_server]") {
     for (const char* begin : {"01 03", "01 10", "01 10 20", "01 10 21 03", "01 08 00 00 00"}) {
         CAPTURE(begin);
@@ -325,7 +327,7 @@ TEST_CASE("a sealed frame of a known function that is too short for it is unread
     }
 }
 
-TEST_CASE("sealed frames of any length and function count once, however they are cut",
+TEST_CASE("frames with a valid CRC and any length and function count once, however they are split",
           "[sim][modbus_server]") {
     std::mt19937 random(7);
     Bench bench;
@@ -348,7 +350,8 @@ TEST_CASE("sealed frames of any length and function count once, however they are
         for (unsigned function = 0; function < 256; ++function) {
             Bytes frame(length - 2);
             for (std::byte& byte : frame) byte = static_cast<std::byte>(random() & 0xFF);
-            frame[0] = static_cast<std::byte>(random() % 3);  // All units, this one, another.
+            // 0: all units, 1: this one, 2: another.
+            frame[0] = static_cast<std::byte>(random() % 3);
             frame[1] = static_cast<std::byte>(function);
             frame = sealed(std::move(frame));
             deliver(frame, length, 1);

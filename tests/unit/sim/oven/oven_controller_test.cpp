@@ -13,14 +13,14 @@ namespace {
 
 using Words = std::vector<std::uint16_t>;
 
-/// One register, as a signed number.
+/// Returns one register as a signed number.
 int shown(const OvenController& controller, std::uint16_t address) {
     const auto result = controller.read(address, 1);
     REQUIRE(std::holds_alternative<Words>(result));
     return static_cast<std::int16_t>(std::get<Words>(result).at(0));
 }
 
-/// Two registers of four-byte mode, as a signed number.
+/// Returns two registers of four-byte mode as a signed number.
 std::int32_t shown_long(const OvenController& controller, std::uint16_t address) {
     const auto result = controller.read(address, 2);
     REQUIRE(std::holds_alternative<Words>(result));
@@ -102,7 +102,8 @@ TEST_CASE("nothing is written before communication writing is on", "[sim][oven_c
     CHECK(oven.target == DegC(43.0));
 }
 
-TEST_CASE("of several reasons to refuse, the lowest number is given", "[sim][oven_controller]") {
+TEST_CASE("if there are several reasons to refuse, the lowest code is given",
+          "[sim][oven_controller]") {
     FakeOven oven;
     OvenController controller(oven);  // Communication writing is off throughout: reason 04.
     CHECK(put(controller, 0x2103, 425) == Refusal::operation);
@@ -111,7 +112,8 @@ TEST_CASE("of several reasons to refuse, the lowest number is given", "[sim][ove
     CHECK(controller.operate(0x1F, 0x00) == Refusal::data);
 }
 
-TEST_CASE("what does not exist is refused as an address", "[sim][oven_controller]") {
+TEST_CASE("an address that does not exist or is read-only is refused as an address",
+          "[sim][oven_controller]") {
     FakeOven oven;
     OvenController controller(oven);
     enable_writing(controller);
@@ -166,7 +168,7 @@ TEST_CASE("the set point stays within its limits", "[sim][oven_controller]") {
     CHECK(oven.target == DegC(20.0));
 }
 
-TEST_CASE("stopped, the oven gets no heat", "[sim][oven_controller]") {
+TEST_CASE("a stopped controller does not heat the oven", "[sim][oven_controller]") {
     FakeOven oven;
     OvenController controller(oven);
     enable_writing(controller);
@@ -179,7 +181,7 @@ TEST_CASE("stopped, the oven gets no heat", "[sim][oven_controller]") {
     CHECK((controller.status() & oven_status::kStopped) == 0);
 }
 
-TEST_CASE("an open sensor shows as input error and the end of the range",
+TEST_CASE("a broken sensor shows as an input error and as the end of the range",
           "[sim][oven_controller]") {
     FakeOven oven;
     const OvenController controller(oven);
@@ -193,7 +195,7 @@ TEST_CASE("an open sensor shows as input error and the end of the range",
     CHECK(shown(controller, 0x2000) == 425);
 }
 
-TEST_CASE("alarm 1 comes at its distance above the set point", "[sim][oven_controller]") {
+TEST_CASE("alarm 1 is raised at its distance above the set point", "[sim][oven_controller]") {
     FakeOven oven;
     const OvenController controller(oven);
     oven.reading = DegC(52.4);
@@ -202,7 +204,7 @@ TEST_CASE("alarm 1 comes at its distance above the set point", "[sim][oven_contr
     CHECK((controller.status() & oven_status::kAlarm1) != 0);
 }
 
-TEST_CASE("what was written to RAM only is forgotten in a restart", "[sim][oven_controller]") {
+TEST_CASE("values written to RAM only are lost in a restart", "[sim][oven_controller]") {
     FakeOven oven;
     OvenController controller(oven);
     enable_writing(controller);
@@ -212,17 +214,17 @@ TEST_CASE("what was written to RAM only is forgotten in a restart", "[sim][oven_
     const std::uint32_t both = oven_status::kRamMode | oven_status::kRamDiffers;
     CHECK((controller.status() & both) == both);
 
-    SECTION("forgotten") {
+    SECTION("not saved") {
         controller.restart();
         CHECK(oven.target == DegC(42.5));
     }
-    SECTION("unless it was saved") {
+    SECTION("saved by command") {
         CHECK(controller.operate(0x05, 0x00) == std::nullopt);
         CHECK((controller.status() & both) == oven_status::kRamMode);
         controller.restart();
         CHECK(oven.target == DegC(44.0));
     }
-    SECTION("unless backup mode came back") {
+    SECTION("saved by the return to backup mode") {
         CHECK(controller.operate(0x04, 0x00) == std::nullopt);
         CHECK((controller.status() & both) == 0);
         controller.restart();
@@ -231,7 +233,7 @@ TEST_CASE("what was written to RAM only is forgotten in a restart", "[sim][oven_
     CHECK((controller.status() & both) == 0);
 }
 
-TEST_CASE("initial settings are written in setup area 1 only, where control stands still",
+TEST_CASE("initial settings can be written in setup area 1 only, where control is stopped",
           "[sim][oven_controller]") {
     FakeOven oven;
     OvenController controller(oven);
@@ -250,7 +252,8 @@ TEST_CASE("initial settings are written in setup area 1 only, where control stan
     CHECK(oven.kind == ControllerKind::on_off);
 }
 
-TEST_CASE("in setup area 1 the sensor's bits keep their last values", "[sim][oven_controller]") {
+TEST_CASE("in setup area 1 the status bits of the sensor keep their last values",
+          "[sim][oven_controller]") {
     FakeOven oven;
     OvenController controller(oven);
     enable_writing(controller);
@@ -279,7 +282,7 @@ TEST_CASE("input type 5 shows whole degrees", "[sim][oven_controller]") {
     CHECK(oven.target == DegC(425.0));
 }
 
-TEST_CASE("P and I reach the oven", "[sim][oven_controller]") {
+TEST_CASE("the settings of P and I reach the oven", "[sim][oven_controller]") {
     FakeOven oven;
     OvenController controller(oven);
     enable_writing(controller);
@@ -289,7 +292,7 @@ TEST_CASE("P and I reach the oven", "[sim][oven_controller]") {
     CHECK(put(controller, 0x2A00, 0) == Refusal::data);
 }
 
-TEST_CASE("what is not written is not touched", "[sim][oven_controller]") {
+TEST_CASE("set point and tuning that are not written stay unchanged", "[sim][oven_controller]") {
     FakeOven oven;
     oven.target = DegC(42.53);
     oven.pi = {5.0, 133.333};
@@ -301,7 +304,7 @@ TEST_CASE("what is not written is not touched", "[sim][oven_controller]") {
     CHECK(oven.tuning_writes == 0);
 }
 
-TEST_CASE("initialising the parameters ends the conversation", "[sim][oven_controller]") {
+TEST_CASE("initialising the parameters ends the Modbus communication", "[sim][oven_controller]") {
     FakeOven oven;
     OvenController controller(oven);
     enable_writing(controller);
@@ -312,8 +315,7 @@ TEST_CASE("initialising the parameters ends the conversation", "[sim][oven_contr
     CHECK_FALSE(controller.speaks_modbus());
 }
 
-TEST_CASE("commands that this controller cannot follow are refused, not obeyed",
-          "[sim][oven_controller]") {
+TEST_CASE("commands that this controller cannot execute are refused", "[sim][oven_controller]") {
     struct Case {
         std::uint8_t command, parameter;
         std::optional<Refusal> refusal;

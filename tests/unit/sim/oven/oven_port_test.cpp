@@ -20,9 +20,9 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr Nanoseconds kNoAnswer = 300ms;  ///< Of waiting where none is expected.
+constexpr Nanoseconds kNoAnswer = 300ms;  ///< Time to wait if no answer is expected.
 
-/// The port of a standing oven, attended to in a thread of its own.
+/// The port of a fake oven, served by a thread of its own.
 class RunningOven {
 public:
     FakeOven oven;
@@ -42,14 +42,14 @@ public:
         });
     }
 
-    /// Also makes everything readable that the thread has written.
+    /// Stops the thread.  Everything that it has written can then be read.
     void stop() {
         stop_ = true;
         if (thread_.joinable()) thread_.join();
         stop_ = false;
     }
 
-    /// While stopped.
+    /// Returns the port, for use while the thread is stopped.
     OvenPort& port() { return port_; }
 
 private:
@@ -58,14 +58,14 @@ private:
     std::thread thread_;
 };
 
-/// libmodbus as a master, which is nobody's friend here.
+/// libmodbus as the master: an implementation independent of ours.
 class Master {
 public:
     explicit Master(const std::filesystem::path& link, int unit = 1)
         : context_(modbus_new_rtu(link.c_str(), 9600, 'N', 8, 1), modbus_free) {
         REQUIRE(context_);
         REQUIRE(modbus_set_slave(context_.get(), unit) == 0);
-        wait_at_most(5s);  // An answer takes 50 to 300 ms, and a busy machine its time.
+        wait_at_most(5s);  // An answer takes 50 to 300 ms, longer on a busy machine.
         REQUIRE(modbus_connect(context_.get()) == 0);
     }
     ~Master() { modbus_close(context_.get()); }
@@ -77,14 +77,14 @@ public:
         REQUIRE(modbus_set_response_timeout(get(), us / 1'000'000, us % 1'000'000) == 0);
     }
 
-    /// Waits for an answer that comes when nobody wants it any more, and throws it away.
+    /// Waits for an answer that comes too late, and discards it.
     void await_late_answer() {
         pollfd watched{modbus_get_socket(get()), POLLIN, 0};
         REQUIRE(::poll(&watched, 1, 10'000) == 1);
         modbus_flush(get());
     }
 
-    /// -1 stands for an answer that did not come, or was none; errno says which.
+    /// Reads one register.  @return -1 without a valid answer; errno has the reason
     int read(int address) {
         std::uint16_t word = 0;
         return modbus_read_registers(get(), address, 1, &word) == 1 ? word : -1;
@@ -136,7 +136,7 @@ TEST_CASE("libmodbus reads and writes the oven", "[sim][oven_port]") {
     CHECK(running.port().report().unreadable == 0);
 }
 
-TEST_CASE("libmodbus as the master of another unit hears nothing", "[sim][oven_port]") {
+TEST_CASE("libmodbus gets no answer if it asks another unit", "[sim][oven_port]") {
     RunningOven running;
     running.start();
     Master master(running.link, 2);
@@ -145,7 +145,7 @@ TEST_CASE("libmodbus as the master of another unit hears nothing", "[sim][oven_p
     CHECK(errno == ETIMEDOUT);
 }
 
-TEST_CASE("libmodbus sees each fault for what it is, and the next answer is good",
+TEST_CASE("libmodbus reports each fault correctly, and the next answer is good",
           "[sim][oven_port]") {
     struct Case {
         std::string_view kind;
@@ -179,7 +179,7 @@ TEST_CASE("libmodbus gives up on silence and on a late answer", "[sim][oven_port
     CHECK(master.read(0x2000) == 425);
 }
 
-TEST_CASE("the sensor opens and is mended by name", "[sim][oven_port]") {
+TEST_CASE("the oven sensor is broken and repaired by the name of the fault", "[sim][oven_port]") {
     RunningOven running;
     CHECK_FALSE(running.port().apply_fault("oven_fire", 1));
     for (const std::string_view kind : OvenPort::fault_kinds()) {
@@ -197,7 +197,7 @@ TEST_CASE("the sensor opens and is mended by name", "[sim][oven_port]") {
     CHECK(master.read(0x2001) == 0x0100);
 }
 
-TEST_CASE("after a power cycle the oven takes its time to answer", "[sim][oven_port]") {
+TEST_CASE("after a power cycle the oven answers only after its restart time", "[sim][oven_port]") {
     OvenOptions options;
     options.server.restart_time = 2s;
     RunningOven running(options);
@@ -239,7 +239,7 @@ TEST_CASE("an oven unplugged and plugged in again is found under its link", "[si
     CHECK(master.read(0x2000) == 425);
 }
 
-TEST_CASE("an answer that was due when the oven was unplugged is lost, not given",
+TEST_CASE("an answer that was due when the oven was unplugged is lost, not sent",
           "[sim][oven_port]") {
     RunningOven running;
     Master master(running.link);

@@ -20,13 +20,13 @@ using namespace std::chrono_literals;
 const UtcTime kStart = *parse_rfc3339("2026-03-01T12:00:00Z");
 constexpr Nanoseconds kPeriod = 20ms;
 
-/// The values of sample k: x, y, z, temperature.
+/// Returns the values of sample k: x, y, z, temperature.
 std::array<std::int32_t, 4> values_of(int k) { return {k, -7 * k, 16'777'216 + k % 11, -1981 - k}; }
 
 /// A small archive: one file per channel, in records of a few samples.
 class Archive {
 public:
-    /// Appends samples [first, end) of the channel of `field`, sample k at kStart + k periods + late.
+    /// Appends samples [first, end) of channel `field`, sample k at kStart + k periods + late.
     void add(std::size_t field, int first, int end, Nanoseconds late = 0ns, bool is_run = false) {
         static constexpr std::array<const char*, 4> kChannels{"BN1", "BN2", "BNZ", "BK1"};
         record::RecordHeader header;
@@ -88,7 +88,7 @@ std::vector<wire::BurstValues> frames_of(const SentPieces& line, wire::BurstLayo
 
 }  // namespace
 
-TEST_CASE("an archive gives its samples back, joined over channels by time", "[sim][replay]") {
+TEST_CASE("an archive gives its samples back, with the channels joined by time", "[sim][replay]") {
     Archive archive;
     archive.add_all(0, 500);
     ArchiveSource source = archive.source();
@@ -105,12 +105,12 @@ TEST_CASE("an archive gives its samples back, joined over channels by time", "[s
     CHECK(source.incomplete() == 0);
 }
 
-TEST_CASE("a gap of an archive is a jump of the index, exact after 100 s at 10 ppm",
+TEST_CASE("a gap in an archive is an exact jump of the index, even after 100 s at 10 ppm",
           "[sim][replay]") {
     Archive archive;
     archive.add_all(0, 100);
     archive.add_all(150, 200);
-    archive.add_all(5200, 5300, 1ms);  // The device's clock gained on the header's rate.
+    archive.add_all(5200, 5300, 1ms);  // The device's rate is 10 ppm off the header's.
     ArchiveSource source = archive.source();
     const auto samples = all_of(source);
     REQUIRE(samples.size() == 250);
@@ -121,7 +121,7 @@ TEST_CASE("a gap of an archive is a jump of the index, exact after 100 s at 10 p
     CHECK(samples.back().index == 5299);
 }
 
-TEST_CASE("a slow drift of record starts against the header's rate makes no gap", "[sim][replay]") {
+TEST_CASE("a slow drift of record starts against the header's rate is not a gap", "[sim][replay]") {
     Archive archive;
     // 20 ppm over an hour: 72 ms, several samples.
     for (int k = 0; k < 180'000; k += 1000) {
@@ -133,7 +133,7 @@ TEST_CASE("a slow drift of record starts against the header's rate makes no gap"
     CHECK(samples.back().index == 179'999);
 }
 
-TEST_CASE("an instant that one channel lacks is left out, and the index tells", "[sim][replay]") {
+TEST_CASE("a sample that one channel lacks is left out, and the index jumps", "[sim][replay]") {
     Archive archive;
     for (const std::size_t field : {0U, 1U, 3U}) archive.add(field, 0, 300);
     archive.add(2, 0, 120);
@@ -147,7 +147,7 @@ TEST_CASE("an instant that one channel lacks is left out, and the index tells", 
     CHECK(source.incomplete() == 40);
 }
 
-TEST_CASE("damage in a day file is passed over and told of", "[sim][replay]") {
+TEST_CASE("damage in a day file is skipped and reported", "[sim][replay]") {
     Archive archive;
     archive.add_all(0, 300);
     auto bytes = test::read_bytes(archive.file(1));
@@ -160,7 +160,7 @@ TEST_CASE("damage in a day file is passed over and told of", "[sim][replay]") {
     CHECK(source.damage().front().byte_count == 100);
 }
 
-TEST_CASE("archives of two stations, or without an axis, are refused", "[sim][replay]") {
+TEST_CASE("an archive without an axis, or with unknown axes, is refused", "[sim][replay]") {
     Archive archive;
     archive.add(3, 0, 10);
     CHECK_THROWS_WITH(archive.open(), ContainsSubstring("no axis among the files"));
@@ -170,7 +170,7 @@ TEST_CASE("archives of two stations, or without an axis, are refused", "[sim][re
                       ContainsSubstring("BN1: not of the axes N,E,Z; allowed: --axes"));
 }
 
-TEST_CASE("an archive is sent in the layout that the host configures, transient or not",
+TEST_CASE("an archive is sent from its first sample in the layout that the host configures",
           "[sim][replay]") {
     Archive archive;
     archive.add_all(0, 200);
@@ -199,7 +199,7 @@ TEST_CASE("an archive is sent in the layout that the host configures, transient 
     CHECK_FALSE(device.next_due());
 }
 
-TEST_CASE("a run of sampling in an archive is a session that the host starts", "[sim][replay]") {
+TEST_CASE("each run of sampling in an archive waits for the host to start it", "[sim][replay]") {
     Archive archive;
     for (std::size_t field = 0; field < 4; ++field) {
         archive.add(field, 0, 100, 0ns, true);
@@ -223,8 +223,7 @@ TEST_CASE("a run of sampling in an archive is a session that the host starts", "
     CHECK_FALSE(device.next_due());
 }
 
-TEST_CASE("samples of an archive leave the device by its delay after their instants",
-          "[sim][replay]") {
+TEST_CASE("samples of an archive leave the device after its delay", "[sim][replay]") {
     Archive archive;
     archive.add_all(0, 3);
     ReplayDevice device(archive.open(), ReplayTiming::as_recorded, Nanoseconds(0));

@@ -33,14 +33,14 @@ record::JournalHeader header_of(std::uint8_t session, Nanoseconds since_start = 
     return header;
 }
 
-/// One read of `text` at that time since the start.
+/// Returns one read of `text`, received `since_start`.
 record::RxChunk read_of(const std::string& text, Nanoseconds since_start) {
     const auto bytes = test::bytes_of(text);
     return {{bytes.begin(), bytes.end()},
             {{static_cast<std::uint32_t>(text.size()), kRawStart + since_start}}};
 }
 
-/// A directory of segments, and what comes of replaying them.
+/// A directory of segments, and the device that replays them.
 class Recorded {
 public:
     std::filesystem::path segment(const std::vector<record::JournalChunk>& chunks) {
@@ -75,7 +75,8 @@ constexpr const char* kProfile = "A352AD10";
 
 }  // namespace
 
-TEST_CASE("the device of a journal has the recorded unit's identity", "[sim][replay]") {
+TEST_CASE("a device that replays a journal has the identity of the recorded unit",
+          "[sim][replay]") {
     Recorded recorded;
     recorded.segment({header_of(1), read_of("a", 5s)});
     ReplayDevice device = recorded.device();
@@ -87,7 +88,7 @@ TEST_CASE("the device of a journal has the recorded unit's identity", "[sim][rep
     CHECK(device.baud() == 460800);
 }
 
-TEST_CASE("the device of a journal comes up at the recorded baud rate", "[sim][replay]") {
+TEST_CASE("a device that replays a journal starts at the recorded baud rate", "[sim][replay]") {
     Recorded recorded;
     auto header = header_of(1);
     header.baud = 115200;
@@ -99,7 +100,7 @@ TEST_CASE("the device of a journal comes up at the recorded baud rate", "[sim][r
     CHECK(device.baud() == 115200);
 }
 
-TEST_CASE("recorded bytes leave at their recorded instants, and not before the host samples",
+TEST_CASE("recorded bytes leave at their recorded times, and not before the host starts sampling",
           "[sim][replay]") {
     Recorded recorded;
     recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
@@ -119,11 +120,11 @@ TEST_CASE("recorded bytes leave at their recorded instants, and not before the h
     CHECK_FALSE(device.next_due());
 }
 
-TEST_CASE("reads of one chunk keep their own instants", "[sim][replay]") {
+TEST_CASE("reads of one chunk keep their own times", "[sim][replay]") {
     Recorded recorded;
     record::RxChunk chunk = read_of("abcdef", 5s);
     chunk.reads = {{2, kRawStart + 5s}, {3, kRawStart + 5500ms}, {6, kRawStart + 7s}};
-    // A journal of no clock of this world: what follows stays behind.
+    // Raw time goes back to 6 s, as no real clock does: the order of the reads is kept.
     recorded.segment({header_of(1), chunk, read_of("earlier", 6s)});
     ReplayDevice device = recorded.device();
     ReplayHost host(device, kStart);
@@ -136,7 +137,7 @@ TEST_CASE("reads of one chunk keep their own instants", "[sim][replay]") {
     CHECK(host.line.pieces[3].leaves == kStart + 7s);
 }
 
-TEST_CASE("a host that comes late is sent at once what it missed, and then the rest in time",
+TEST_CASE("a host that starts late gets the missed bytes at once and the rest on time",
           "[sim][replay]") {
     Recorded recorded;
     recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
@@ -164,7 +165,7 @@ TEST_CASE("without a shared clock the recording begins when the host begins", "[
     CHECK(host.line.pieces[1].leaves == kStart + 25h + 1s);
 }
 
-TEST_CASE("as fast as it is read means whenever the line takes more", "[sim][replay]") {
+TEST_CASE("a replay as fast as it is read sends whenever the line accepts more", "[sim][replay]") {
     Recorded recorded;
     recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 600s), read_of("3", 700s)});
     ReplayDevice device = recorded.device(ReplayTiming::as_fast_as_read);
@@ -194,7 +195,7 @@ TEST_CASE("segments of a session follow each other without a break", "[sim][repl
     CHECK_FALSE(device.next_due());
 }
 
-TEST_CASE("segments of one identifier but of two boots, or earlier on raw time, are two sessions",
+TEST_CASE("segments with one session id are two sessions if the boot differs or raw time goes back",
           "[sim][replay]") {
     Recorded recorded;
     recorded.segment({header_of(1, 10s), read_of("one", 15s)});
@@ -224,7 +225,7 @@ TEST_CASE("a session ends in configuration mode, and the next waits for a new st
           "[sim][replay]") {
     Recorded recorded;
     recorded.segment({header_of(1), read_of("one", 5s)});
-    recorded.segment({header_of(2, 6s)});  // begun, and nothing came
+    recorded.segment({header_of(2, 6s)});  // A session without a byte.
     auto third = header_of(3, 20s);
     third.serial_number = GENERATE("T0000007", "T0000008");
     recorded.segment({third, read_of("three", 25s)});
@@ -245,7 +246,7 @@ TEST_CASE("a session ends in configuration mode, and the next waits for a new st
     CHECK_FALSE(device.next_due());
 }
 
-TEST_CASE("a host that stops and starts again goes on with the next recorded byte",
+TEST_CASE("a host that stops and starts again continues with the next recorded byte",
           "[sim][replay]") {
     Recorded recorded;
     recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
@@ -263,7 +264,7 @@ TEST_CASE("a host that stops and starts again goes on with the next recorded byt
     CHECK(device.report().sessions == 1);
 }
 
-TEST_CASE("a step of the recording host's clock within a boot is not replayed, nor one back",
+TEST_CASE("a clock step of the recording host is not replayed within a boot, a step back never",
           "[sim][replay]") {
     Recorded recorded;
     recorded.segment({header_of(1), read_of("one", 5s)});
@@ -317,7 +318,7 @@ TEST_CASE("settings other than the recorded ones are refused in one line", "[sim
     CHECK(refusal() == "the host asks for 50 Hz, user512, BURST_CTRL 0xC703" + recorded_with);
 }
 
-TEST_CASE("a damaged tail is left out and told of; what is good before and behind it is replayed",
+TEST_CASE("a damaged tail is left out and reported, and good data before and after it are replayed",
           "[sim][replay]") {
     Recorded recorded;
     const auto file =

@@ -76,13 +76,14 @@ TEST_CASE("a file that cannot be replayed is refused with its name and what is a
         if (field == 2) header.burst_ctrl = 0x0003;
         if (field == 3) header.baud = 9600;
         CAPTURE(field);
-        CHECK(with(segment_of({header})).find("settings that profile A351 has not") !=
+        CHECK(with(segment_of({header})).find("settings that profile A351 does not have") !=
               std::string::npos);
     }
     CHECK(with(good_segment()) == "accepted");
 }
 
-TEST_CASE("a directory stands for its segments in the order of their numbers", "[sim][replay]") {
+TEST_CASE("a directory is replayed as its segments in the order of their numbers",
+          "[sim][replay]") {
     const test::TemporaryDirectory directory;
     CHECK(refusal({directory.path()}) ==
           directory.path().string() +
@@ -98,8 +99,7 @@ TEST_CASE("a directory stands for its segments in the order of their numbers", "
               .identity.firmware == 3);
 }
 
-TEST_CASE("of a directory, segments without a header are passed over and told of",
-          "[sim][replay]") {
+TEST_CASE("in a directory, segments without a header are skipped and reported", "[sim][replay]") {
     const test::TemporaryDirectory directory;
     auto torn = good_segment();
     torn.resize(60);
@@ -120,17 +120,17 @@ TEST_CASE("of a directory, segments without a header are passed over and told of
     CHECK(recording->damage()[1].file == torn_file);
     CHECK(recording->damage()[1].byte_count == 60);
     CHECK(recording->damage()[1].reason == "torn chunk");
-    // Named by itself such a file is a mistake.
+    // A file without a header is an error if it is named itself.
     CHECK(refusal({directory.path() / "00000001_x.a351j", empty_file})
               .starts_with(empty_file.string() + ": empty"));
 }
 
-TEST_CASE("journal and other files are not mixed", "[sim][replay]") {
+TEST_CASE("journal segments and other files cannot be mixed", "[sim][replay]") {
     const test::TemporaryDirectory directory;
     test::write_bytes(directory.path() / "a.a351j", good_segment());
     test::write_bytes(directory.path() / "b", test::bytes_of("000001D "));
     CHECK(refusal({directory.path() / "a.a351j", directory.path() / "b"})
-              .starts_with((directory.path() / "b").string() + ": no journal segment, beside one"));
+              .starts_with((directory.path() / "b").string() + ": not a journal segment, "));
 }
 
 }  // namespace a351::sim

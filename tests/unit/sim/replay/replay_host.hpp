@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A host for tests of the replay: configures the device by the handshake, then takes what comes.
+/// A host for tests of the replay: configures the device by the handshake, then receives bytes.
 
 #include <stdexcept>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace a351::sim {
 
-/// What a device sent, piece by piece.
+/// A line that keeps the bytes of a device, piece by piece.
 class SentPieces final : public LineSink {
 public:
     struct Piece {
@@ -36,12 +36,12 @@ public:
     std::size_t capacity = SIZE_MAX;
 };
 
-/// Both clocks stand at `now` and move only when told to.
+/// A host whose clocks move only in the test's calls.  Simulated time begins at `now`.
 class ReplayHost {
 public:
     ReplayHost(ReplayDevice& device, UtcTime now) : device_(device) { now_.simulated = now; }
 
-    /// The daemon's handshake, without waiting.  @throws std::runtime_error  its failure.
+    /// Runs the daemon's handshake without waiting.  @throws std::runtime_error  if it fails
     wire::DeviceIdentity configure(const wire::SensorSettings& settings = {},
                                    const char* profile = "A351") {
         wire::Handshake handshake(*wire::find_profile(profile), settings);
@@ -80,7 +80,7 @@ public:
     }
     void wait(Nanoseconds duration) { wait_until(now_.simulated + duration); }
 
-    /// From one piece to the next, until the session is over.
+    /// Receives piece after piece until the session is over, that is, nothing is due for an hour.
     void listen() {
         wait(Nanoseconds(0));
         while (const auto due = device_.next_due()) {

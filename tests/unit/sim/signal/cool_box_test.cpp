@@ -23,13 +23,13 @@ std::vector<double> air_degc(const Scenario& scenario, std::uint64_t seed, int s
 
 }  // namespace
 
-TEST_CASE("with the lid closed the air keeps its course", "[sim][cool_box]") {
+TEST_CASE("with the lid closed the air keeps its listed temperature", "[sim][cool_box]") {
     for (const double degc : air_degc(day(""), 1, 3600)) CHECK(degc == 25.0);
 }
 
-TEST_CASE("with the lid open the air tends to the outside, and back when it is closed",
+TEST_CASE("with the lid open the air approaches the outside temperature, and returns afterwards",
           "[sim][cool_box]") {
-    // The record starts at 20:42:12; open for 10 min from 00:18 h on.
+    // The record starts at 20:42:12; the lid is open for 10 min, from 18 min after that.
     const Scenario scenario =
         day("[[lid_open]]\nfrom_utc = \"2017-07-15T21:00:12Z\"\nto_utc = \"2017-07-15T21:10:12Z\"\n"
             "outside_degc = 35\n");
@@ -61,7 +61,7 @@ TEST_CASE("a lid left open at a stay is open from its start to its end", "[sim][
     CHECK(air[second(plan[3].end) + 60] < air[second(plan[3].end) + 2]);
 }
 
-TEST_CASE("the walk of the air grows with the root of time", "[sim][cool_box]") {
+TEST_CASE("the random walk of the air grows with the square root of time", "[sim][cool_box]") {
     const Scenario scenario = day("[cool_box]\nwalk_degc_per_sqrt_h = 0.5\n");
     constexpr int kSeeds = 400;
     double hour = 0.0, four_hours = 0.0;

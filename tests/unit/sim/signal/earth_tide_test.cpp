@@ -7,8 +7,8 @@
 
 using namespace a351;
 
-TEST_CASE("the tide meets a worked value of Longman's formulas", "[sim][tide]") {
-    // Computed apart from this code: 40.7914 N, 282.1414 E, 370 m, 2015-04-23 00:00 UT, factor
+TEST_CASE("the tide agrees with a worked example of Longman's formulas", "[sim][tide]") {
+    // Computed without this code: 40.7914 N, 282.1414 E, 370 m, 2015-04-23 00:00 UT, factor
     // 1.1575: 0.00354 mGal upward.
     const UtcTime time = *parse_rfc3339("2015-04-23T00:00:00Z");
     const MilliGal tide =

@@ -18,7 +18,7 @@ double rms(const std::vector<double>& values) {
     return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// Power of one periodogram ordinate, frequency in cycles per step.
+/// Returns the power of one periodogram ordinate; frequency in cycles per step.
 double power(const std::vector<double>& values, double frequency) {
     const std::complex<double> step = std::polar(1.0, -2.0 * std::numbers::pi * frequency);
     std::complex<double> phase = 1.0, sum = 0.0;
@@ -29,7 +29,7 @@ double power(const std::vector<double>& values, double frequency) {
     return std::norm(sum) / static_cast<double>(values.size());
 }
 
-/// Mean over neighbouring frequencies, which are nearly independent.
+/// Returns the mean power over neighbouring frequencies, which are nearly independent.
 double mean_power(const std::vector<double>& values, double low, double high, int points) {
     double sum = 0.0;
     for (int i = 0; i < points; ++i) {
@@ -40,7 +40,7 @@ double mean_power(const std::vector<double>& values, double low, double high, in
 
 }  // namespace
 
-TEST_CASE("flicker noise has its rms and falls by 3 dB an octave", "[sim][noise]") {
+TEST_CASE("flicker noise has the requested rms and falls by 3 dB per octave", "[sim][noise]") {
     FlickerNoise noise(RandomStream(2, "flicker"), 1.5, 40.0, 4000.0, 1.0);
     std::vector<double> values(200'000);
     for (double& value : values) value = noise.next();
@@ -52,7 +52,7 @@ TEST_CASE("flicker noise has its rms and falls by 3 dB an octave", "[sim][noise]
     CHECK(slow / fast == Approx(8.0).epsilon(0.35));
 }
 
-TEST_CASE("resonant noise has its rms and its power around the centre", "[sim][noise]") {
+TEST_CASE("resonant noise has the requested rms and its power around the centre", "[sim][noise]") {
     ResonantNoise noise(RandomStream(2, "resonant"), 1.4, 900.0, 2.0, 1.0);
     std::vector<double> values(400'000);
     for (double& value : values) value = noise.next();
@@ -68,7 +68,7 @@ TEST_CASE("resonant noise has its rms and its power around the centre", "[sim][n
     CHECK(centre / power_at(2.6) == Approx(4.0 * 34.9).epsilon(0.4));
 }
 
-TEST_CASE("a noise of no strength is silent", "[sim][noise]") {
+TEST_CASE("a noise of zero rms is zero", "[sim][noise]") {
     FlickerNoise flicker(RandomStream(2, "flicker"), 0.0, 40.0, 36000.0, 1.0);
     ResonantNoise resonant(RandomStream(2, "resonant"), 0.0, 900.0, 2.0, 1.0);
     for (int i = 0; i < 100; ++i) {
@@ -77,7 +77,7 @@ TEST_CASE("a noise of no strength is silent", "[sim][noise]") {
     }
 }
 
-TEST_CASE("ground noise has its rms and leaves minute means alone", "[sim][noise]") {
+TEST_CASE("ground noise has the requested rms and hardly changes minute means", "[sim][noise]") {
     BandNoise noise(20.0, 1.0, 20.0, 50.0);
     RandomStream stream(5, "ground");
     std::vector<double> values(300'000);

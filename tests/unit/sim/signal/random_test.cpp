@@ -7,7 +7,7 @@
 using a351::sim::normal_quantile;
 using a351::sim::RandomStream;
 
-TEST_CASE("the same seed and name give the same draws, another of either gives others",
+TEST_CASE("the same seed and name give the same draws, another seed or name gives others",
           "[sim][random]") {
     RandomStream first(7, "ground"), again(7, "ground"), other_seed(8, "ground"),
         other_name(7, "white");
@@ -54,7 +54,7 @@ TEST_CASE("normal draws have the moments of the normal distribution and no corre
     CHECK(std::abs(product / kCount) < error);
 }
 
-TEST_CASE("exponential draws have the mean of the wait for a Poisson event", "[sim][random]") {
+TEST_CASE("exponential draws have the mean waiting time of a Poisson event", "[sim][random]") {
     constexpr int kCount = 100'000;
     RandomStream stream(3, "waits");
     double sum = 0.0;

@@ -35,7 +35,7 @@ TEST_CASE("every named scenario loads under its own name", "[sim][scenario]") {
     }
 }
 
-TEST_CASE("a scenario overrides only what it names of its base", "[sim][scenario]") {
+TEST_CASE("a scenario overrides only those values of its base that it names", "[sim][scenario]") {
     const Scenario base = load_scenario("tsukuba");
     const Scenario tilted = load_scenario("tilted");
     CHECK(base.sensor.horizontal_bias_max_mgal == 0.0);
@@ -89,7 +89,8 @@ TEST_CASE("sites and occupations are those of the published tables", "[sim][scen
     }
 }
 
-TEST_CASE("ambient is linear between the occupations and constant outside", "[sim][scenario]") {
+TEST_CASE("the ambient temperature is linear between the occupations and constant outside",
+          "[sim][scenario]") {
     const Scenario scenario = load_scenario("tsukuba");
     const auto knots = scenario.ambient_knots();
     const auto& first = scenario.occupations[0];
@@ -101,11 +102,11 @@ TEST_CASE("ambient is linear between the occupations and constant outside", "[si
     CHECK(ambient_at(knots, scenario.end() + std::chrono::hours(5)).value() == Approx(29.2));
 }
 
-TEST_CASE("listed knots of the ambient stand for those of the occupations", "[sim][scenario]") {
+TEST_CASE("listed ambient temperatures replace those of the occupations", "[sim][scenario]") {
     const Scenario scenario = parse_scenario(
         "base = \"tsukuba\"\nname = \"x\"\n"
         "[[ambient]]\nat_h = 1.0\ndegc = 20.0\n"
-        "[[ambient]]\nat_utc = \"2017-07-15T23:42:12Z\"\ndegc = 30.0\n",  // Three hours in.
+        "[[ambient]]\nat_utc = \"2017-07-15T23:42:12Z\"\ndegc = 30.0\n",  // 3 h after the start.
         "x.toml");
     const auto knots = scenario.ambient_knots();
     const auto after = [&](double hours) {
@@ -141,7 +142,7 @@ TEST_CASE("a record without occupations has its own limits, one site and no sche
     CHECK(survey.ambient_knots().size() == 3);
 }
 
-TEST_CASE("what does not fit into the record is refused in one line", "[sim][scenario]") {
+TEST_CASE("a scenario that contradicts itself is refused in one line", "[sim][scenario]") {
     const auto refused = [](const std::string& text, const std::string& part) {
         CAPTURE(text, part);
         CHECK_THROWS_WITH(
@@ -195,8 +196,7 @@ TEST_CASE("what does not fit into the record is refused in one line", "[sim][sce
         "base = \"tsukuba\"\nname = \"x\"\n[sensor]\npower_on_before_start_h = 2\n", "x.toml"));
 }
 
-TEST_CASE("the air around the oven is refused from the scenario's own set point on",
-          "[sim][scenario]") {
+TEST_CASE("air around the oven that is not below its set point is refused", "[sim][scenario]") {
     const auto parse = [](const std::string& text) {
         return parse_scenario("base = \"tsukuba\"\nname = \"x\"\n" + text, "x.toml");
     };
@@ -216,8 +216,9 @@ TEST_CASE("the air around the oven is refused from the scenario's own set point 
                       ContainsSubstring("set_point_degc") && ContainsSubstring("34.4 degC"));
 }
 
-TEST_CASE("an oven whose step would be unstable is refused with its bound; at the bound it is calm",
-          "[sim][scenario]") {
+TEST_CASE(
+    "an oven with an unstable time step is refused with the bound, and is stable at the bound",
+    "[sim][scenario]") {
     const auto parse = [](const std::string& oven) {
         return parse_scenario("base = \"tsukuba\"\nname = \"x\"\n[oven]\n" + oven, "x.toml");
     };
@@ -235,7 +236,7 @@ TEST_CASE("an oven whose step would be unstable is refused with its bound; at th
     CHECK(plant.body().value() < 50.0);
 }
 
-TEST_CASE("set-ups are measured by the shortest stay that can be drawn", "[sim][scenario]") {
+TEST_CASE("set-ups must fit into the shortest stay that can be drawn", "[sim][scenario]") {
     const auto parse = [](const std::string& text) {
         return parse_scenario("base = \"tsukuba\"\nname = \"x\"\n[schedule]\n" + text, "x.toml");
     };
@@ -255,7 +256,7 @@ TEST_CASE("set-ups are measured by the shortest stay that can be drawn", "[sim][
                       ContainsSubstring("setups") && ContainsSubstring("No.1 (1)"));
 }
 
-TEST_CASE("a stay that the one before leaves no time for is refused", "[sim][survey_plan]") {
+TEST_CASE("a stay is refused if the one before leaves no time for it", "[sim][survey_plan]") {
     const auto plan_of = [](const std::string& second) {
         return plan_survey(
             parse_scenario("base = \"tsukuba\"\nname = \"x\"\n[schedule]\nlead_out_min = 90\n"
@@ -307,7 +308,7 @@ TEST_CASE("several set-ups share an occupation without a gap, each with its own 
     }
 }
 
-TEST_CASE("listed angles are those of the set-ups", "[sim][survey_plan]") {
+TEST_CASE("listed angles are used for the set-ups", "[sim][survey_plan]") {
     const auto plan = plan_survey(load_scenario("tilt-series"), 5);
     REQUIRE(plan.size() == 12);
     const double two_degrees_rad = 2.0 * 3.14159265358979 / 180.0;
@@ -317,7 +318,7 @@ TEST_CASE("listed angles are those of the set-ups", "[sim][survey_plan]") {
     CHECK(plan[6].number == 2);
 }
 
-TEST_CASE("a unit's numbers lie within the scatter, the same for a seed, others for another",
+TEST_CASE("a unit's parameters lie within the scatter and depend on the seed",
           "[sim][survey_plan]") {
     const Scenario scenario = parse_scenario(
         "base = \"tsukuba\"\nname = \"x\"\n[temperature_error]\nunit_scatter = 0.25\n", "x.toml");

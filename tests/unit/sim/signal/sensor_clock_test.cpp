@@ -13,7 +13,7 @@ namespace {
 const UtcTime kStart = *parse_rfc3339("2017-07-16T00:00:00Z");
 constexpr DegC kReference{42.5};
 
-/// Seconds from the start to the start of second n, at a temperature constant from the first on.
+/// Returns the true time from the start to the begin of second n, in s, at a constant temperature.
 double seconds_at(SensorClock clock, int n, DegC temperature) {
     for (int i = 0; i <= n; ++i) clock.begin_second(temperature);
     return seconds_between(kStart, clock.at(0.0));
@@ -35,7 +35,8 @@ TEST_CASE("a fast clock counts more seconds than pass", "[sim][sensor_clock]") {
     CHECK(seconds_at(clock, 36'000, kReference) == Approx(36'000.0 / 1.0001).epsilon(1e-12));
 }
 
-TEST_CASE("the rate follows the temperature from its reference", "[sim][sensor_clock]") {
+TEST_CASE("the clock rate follows the difference of the temperature from its reference",
+          "[sim][sensor_clock]") {
     ClockParameters parameters;
     parameters.temperature_ppm_per_degc = -2.0;
     const SensorClock clock(parameters, kReference, kStart, 1);
@@ -43,7 +44,7 @@ TEST_CASE("the rate follows the temperature from its reference", "[sim][sensor_c
     CHECK(seconds_at(clock, 10'000, DegC(43.0)) == Approx(10'000.0 / (1.0 - 1e-6)).epsilon(1e-12));
 }
 
-TEST_CASE("the rate wanders with the root of time", "[sim][sensor_clock]") {
+TEST_CASE("the clock rate wanders with the square root of time", "[sim][sensor_clock]") {
     ClockParameters parameters;
     parameters.wander_ppm_per_sqrt_h = 3.0;
     constexpr int kSeeds = 300;
@@ -58,7 +59,7 @@ TEST_CASE("the rate wanders with the root of time", "[sim][sensor_clock]") {
     CHECK(square == Approx(expected_s2).epsilon(0.25));
 }
 
-TEST_CASE("the clock moves the instants of the samples and not their values",
+TEST_CASE("the clock changes the times of the samples and not their values",
           "[sim][sensor_clock]") {
     const Scenario truth = load_scenario("tsukuba");
     const Scenario fast = parse_scenario(
@@ -72,7 +73,7 @@ TEST_CASE("the clock moves the instants of the samples and not their values",
         const TimedSample expected = steady.next(), sample = moved.next();
         REQUIRE(sample.values == expected.values);
         REQUIRE(sample.index == expected.index);
-        // Evenly spaced but for rounding to 1 ns; 20 ms less 50 ppm, that is 1 us.
+        // Evenly spaced except for rounding to 1 ns: 20 ms less 50 ppm, which is 1 us.
         REQUIRE(std::abs(seconds_between(before, sample.instant) - 0.02) < 1.1e-6);
         before = sample.instant;
     }

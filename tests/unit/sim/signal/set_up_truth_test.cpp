@@ -11,7 +11,7 @@ using namespace a351::sim;
 
 namespace {
 
-/// Mean norm of the samples of each set-up without its first and last minute.
+/// Returns the mean norm of the samples of each set-up without its first and last minute.
 std::vector<double> mean_norms_mgal(const Scenario& scenario, std::uint64_t seed) {
     const wire::DeviceProfile& profile = *wire::find_profile("A351");
     SignalSource source(scenario, profile, seed);
@@ -49,7 +49,7 @@ double sum_of(const text::CsvTable& table, std::size_t row) {
 
 }  // namespace
 
-TEST_CASE("the truth's terms add up to what the samples' norm reads", "[sim][truth]") {
+TEST_CASE("the terms of the truth add up to the mean norm of the samples", "[sim][truth]") {
     // Everything at once: axis biases, two set-ups, traffic without pause, drift, an open lid.
     const Scenario scenario = parse_scenario(
         "base = \"tilted\"\nname = \"x\"\n"
@@ -73,15 +73,16 @@ TEST_CASE("the truth's terms add up to what the samples' norm reads", "[sim][tru
             CAPTURE(seed, row);
             CHECK(table.number(row, "set_up") == static_cast<double>(row % 2 + 1));
             CHECK(table.number(row, "rectification_mgal") > 0.09);  // 300^2 / g alone.
-            // The mean of 12 000 samples of ground noise, which has little power below 1 Hz; the
-            // cross terms of noise and axis bias; means by the second instead of by the sample.
+            // The margin covers the mean of 12 000 samples of ground noise, which has little power
+            // below 1 Hz, the cross terms of noise and axis bias, and means by the second.
             CHECK(norms[row] == Approx(sum_of(table, row)).margin(0.15));
         }
     }
 }
 
-TEST_CASE("each term of the truth is what the samples' norm shows of it", "[sim][truth]") {
-    // Of an ideal day, one thing at a time: its size in the truth, and that of the norm, to 0.01.
+TEST_CASE("each term of the truth agrees with its effect on the norm of the samples",
+          "[sim][truth]") {
+    // An ideal day with one effect at a time: truth and norm must agree to 0.01 mGal.
     struct Case {
         const char* column;
         const char* toml;
@@ -104,7 +105,7 @@ TEST_CASE("each term of the truth is what the samples' norm shows of it", "[sim]
          "[vibration]\nvehicles_per_h = 60\nvehicle_gal = [20, 20]\nvehicle_hz = [9, 11]\n", 0.5},
     }));
     const auto truth_and_norms = [](const std::string& more) {
-        // A day and hour of tide above 0.1 mGal: new moon of 23 July 2017, Moon and Sun high.
+        // A day and hour with a tide above 0.1 mGal: new moon of 23 July 2017, Moon and Sun high.
         const Scenario scenario = parse_scenario(
             "base = \"ideal\"\nname = \"x\"\n[schedule]\nlead_in_h = 0.2\njitter_s = 0\n" + more +
                 "[[occupation]]\nsite = \"No.5\"\ncentre_utc = \"2017-07-23T03:00:00Z\"\n"
@@ -144,8 +145,8 @@ TEST_CASE("tilting by two degrees to each side shows the axis bias", "[sim][trut
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const auto truth = set_up_truth(scenario, plan_survey(scenario, seed), seed);
         const auto bias_mgal = axis_bias_mgal(scenario, seed);
-        // Gravity's share across the axis acts on the norm by its share of the norm, which has the
-        // bias of axis z in it.
+        // An axis bias acts on the norm in proportion to the share of the norm along that axis.
+        // The norm includes the bias of axis z.
         const double gravity_mgal = scenario.sites.front().gravity->value();
         const double sine = std::sin(2.0 * 3.14159265358979 / 180.0) * gravity_mgal /
                             (gravity_mgal + scenario.sensor.bias_mgal);

@@ -13,7 +13,7 @@ namespace {
 
 const wire::DeviceProfile& a351_profile() { return *wire::find_profile("A351"); }
 
-/// Length of the acceleration vector.
+/// Returns the length of the acceleration vector.
 double norm_mgal(const SensorSample& sample) {
     double square = 0.0;
     for (const std::int32_t axis : sample.axes_counts) {
@@ -28,7 +28,7 @@ struct Means {
     double norm_rms_mgal = 0.0;  ///< Scatter of single samples.
 };
 
-/// Over the inner part of each occupation, from the mean vector of each second.
+/// Returns the means over each occupation without its first and last minute.
 std::vector<Means> occupation_means(const std::string& name, std::uint64_t seed) {
     const Scenario scenario = load_scenario(name);
     SignalSource source(scenario, a351_profile(), seed);
@@ -86,7 +86,7 @@ TEST_CASE("an ideal day reads gravity, tide and bias and nothing else", "[sim][s
     }
 }
 
-TEST_CASE("counts end with the range of their type", "[sim][signal_source]") {
+TEST_CASE("counts are limited to the range of their type", "[sim][signal_source]") {
     CHECK(to_counts(2.5) == 3);
     CHECK(to_counts(-2.5) == -2);
     CHECK(to_counts(1e12) == std::numeric_limits<std::int32_t>::max());
@@ -114,7 +114,7 @@ TEST_CASE("the bias of axis z stays on it when the box is turned", "[sim][signal
           Approx(std::sqrt(0.75) * gravity_mgal + scenario.sensor.bias_mgal).margin(0.33));
 }
 
-TEST_CASE("a tilted unit misreads by the horizontal bias, differently at each levelling",
+TEST_CASE("a tilted unit has an error from its horizontal bias that differs at each levelling",
           "[sim][signal_source]") {
     std::vector<Means> tilted = occupation_means("tilted", 3);
     const std::vector<Means> upright = occupation_means("tsukuba", 3);

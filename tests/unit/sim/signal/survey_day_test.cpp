@@ -1,5 +1,5 @@
-/// The simulated survey day and the simulated night indoors against the published ones.  The long form
-/// with more seeds and with EEMD is plant_statistics_bench.
+/// Compares the simulated survey day and the simulated night indoors with the published ones.  The
+/// long form with more seeds and with EEMD is plant_statistics_bench.
 
 #include <cmath>
 #include <numbers>
@@ -23,7 +23,7 @@ void check(const std::vector<Figure>& figures) {
     }
 }
 
-/// Amplitude of what the band pass leaves of a sine of amplitude 1, away from the ends.
+/// Returns the gain of the band pass for a sine of that period, away from the ends.
 double gain(double period_s) {
     std::vector<double> sine(4000);
     for (std::size_t i = 0; i < sine.size(); ++i) {
@@ -33,14 +33,14 @@ double gain(double period_s) {
     double in = 0.0, out = 0.0;
     for (std::size_t i = 1000; i < 3000; ++i) {
         in += sine[i] * sine[i];
-        out += sine[i] * passed[i];  // In phase: the filter has none.
+        out += sine[i] * passed[i];  // In phase, because the filter shifts no phase.
     }
     return out / in;
 }
 
 }  // namespace
 
-TEST_CASE("the simulated day passes through the published temperatures", "[sim][survey_day]") {
+TEST_CASE("the simulated day has the published temperatures", "[sim][survey_day]") {
     const Scenario scenario = load_scenario("tsukuba");
     const text::CsvTable rows = text::read_csv(A351_GOLDEN "/tsukuba/observations.csv");
     constexpr int kSeeds = 10;
@@ -57,7 +57,7 @@ TEST_CASE("the simulated day passes through the published temperatures", "[sim][
     }
 }
 
-TEST_CASE("the simulated day has the published day's line, scatter and misfits",
+TEST_CASE("the simulated day has the published day's regression line, scatter and misfits",
           "[sim][survey_day]") {
     check(survey_day_figures(20));
 }
@@ -67,7 +67,7 @@ TEST_CASE("the simulated night has the published night's cycle, slopes and delay
     check(indoor_figures(10));
 }
 
-TEST_CASE("the band pass of the statistics has gain 1 inside, 1/2 at its corners, no phase",
+TEST_CASE("the band pass of the statistics has gain 1 inside and 1/2 at its corners, without phase",
           "[sim][survey_day]") {
     CHECK(gain(600.0) == Approx(0.5).margin(0.005));
     CHECK(gain(1500.0) == Approx(0.5).margin(0.005));

@@ -17,7 +17,7 @@ using namespace a351::sim;
 
 namespace {
 
-/// Body temperature once a second at constant ambient, after the limit cycle has established.
+/// Returns the body temperature once a second at constant ambient, in the settled limit cycle.
 std::vector<double> limit_cycle_degc(double ambient_degc,
                                      ControllerKind kind = ControllerKind::pi) {
     OvenParameters oven = load_scenario("tsukuba").oven;
@@ -42,8 +42,8 @@ struct Cycle {
     double period_s, swing_degc;
 };
 
-/// Of a series of one value per second: mean time between rises through the mean, and the peak to
-/// peak of the sine with the same variance.
+/// Returns the cycle of a series with one value per second: mean time between rises through the
+/// mean, and peak-to-peak swing of the sine with the same variance.
 Cycle cycle_of(const std::vector<double>& values) {
     const double middle = mean(values);
     double square = 0.0;
@@ -56,7 +56,7 @@ Cycle cycle_of(const std::vector<double>& values) {
     return {seconds / rising, 2.0 * std::sqrt(2.0 * square / seconds)};
 }
 
-/// Complex gain of the temperature error at a period, in mGal per degC.
+/// Returns the complex gain of the temperature error at a period, in mGal per degC.
 std::complex<double> response(double period_s) {
     const TemperatureErrorParameters parameters = load_scenario("tsukuba").error;
     constexpr double kStep = 1.0;
@@ -78,7 +78,7 @@ std::complex<double> response(double period_s) {
 
 }  // namespace
 
-TEST_CASE("heat flows balance in equilibrium, with a controller that sees no steps",
+TEST_CASE("heat flows balance in equilibrium if the controller has a fine resolution",
           "[sim][thermal_plant]") {
     OvenParameters oven = load_scenario("tsukuba").oven;
     oven.resolution_degc = 1e-6;
@@ -95,7 +95,7 @@ TEST_CASE("the body follows ambient by the ratio of the resistances", "[sim][the
     CHECK(rise_degc / 10.0 == Approx(5.0 / 83.0).margin(0.002));
 }
 
-TEST_CASE("coarse steps make a limit cycle with the published period and swing",
+TEST_CASE("a coarse resolution makes a limit cycle with the published period and swing",
           "[sim][thermal_plant]") {
     // Matsuda et al.: 10-15 min and about 0.02 degC peak to peak.
     for (const double ambient_degc : {24.0, 29.0, 34.0}) {
@@ -108,9 +108,9 @@ TEST_CASE("coarse steps make a limit cycle with the published period and swing",
     }
 }
 
-TEST_CASE("an on/off controller cycles faster and wider", "[sim][thermal_plant]") {
-    // Not published: periods and swings from a script that integrates the same equations apart from
-    // this code.  Half the dead time would give 240-360 s and 0.055 degC.
+TEST_CASE("an on/off controller cycles faster and with a larger swing", "[sim][thermal_plant]") {
+    // Not published: periods and swings are from a script that integrates the same equations
+    // independently of this code.  Half the dead time would give 240-360 s and 0.055 degC.
     struct Row {
         double ambient_degc, period_s, swing_degc;
     };
@@ -123,7 +123,7 @@ TEST_CASE("an on/off controller cycles faster and wider", "[sim][thermal_plant]"
     }
 }
 
-TEST_CASE("the kind of controller is a key of the scenario", "[sim][thermal_plant]") {
+TEST_CASE("the scenario selects the kind of controller", "[sim][thermal_plant]") {
     const auto kind_of = [](const std::string& line) {
         return parse_scenario("base = \"tsukuba\"\nname = \"own\"\n[oven]\n" + line, "own.toml")
             .oven.controller;
@@ -140,7 +140,8 @@ TEST_CASE("the oven follows its set point", "[sim][oven_plant]") {
     CHECK(plant.controller_reading().value() == Approx(44.0).margin(0.11));
 }
 
-TEST_CASE("stopped or without its sensor the oven cools, and comes back", "[sim][oven_plant]") {
+TEST_CASE("an oven that is stopped or without its sensor cools, and recovers afterwards",
+          "[sim][oven_plant]") {
     const bool is_stop = GENERATE(true, false);
     CAPTURE(is_stop);
     ThermalPlant plant(load_scenario("tsukuba").oven, DegC(26.0));
@@ -159,7 +160,8 @@ TEST_CASE("stopped or without its sensor the oven cools, and comes back", "[sim]
     CHECK(plant.controller_reading().value() == Approx(42.5).margin(0.11));
 }
 
-TEST_CASE("P and I as a band and a time are the gains of the scenario", "[sim][oven_plant]") {
+TEST_CASE("proportional band and integral time give the gains of the scenario",
+          "[sim][oven_plant]") {
     ThermalPlant plant(load_scenario("tsukuba").oven, DegC(26.0));
     CHECK(plant.tuning().proportional_band_degc == Approx(5.0));
     CHECK(plant.tuning().integral_time_s == Approx(0.2 / 0.0015));
@@ -172,7 +174,7 @@ TEST_CASE("P and I as a band and a time are the gains of the scenario", "[sim][o
     }
 }
 
-TEST_CASE("a written set point changes the samples from then on, a look changes none",
+TEST_CASE("writing a set point changes the samples from then on, and reading it changes none",
           "[sim][oven_plant]") {
     const Scenario scenario = load_scenario("tsukuba");
     const wire::DeviceProfile& profile = *wire::find_profile("A351");
@@ -194,7 +196,7 @@ TEST_CASE("a written set point changes the samples from then on, a look changes 
 
 TEST_CASE("the temperature error has the gain and phase of its transfer function",
           "[sim][temperature_error]") {
-    // H(s) = rA - kA s tauA / (1 + s tauA) + rC / (1 + s tauC), evaluated apart from this code.
+    // H(s) = rA - kA s tauA / (1 + s tauA) + rC / (1 + s tauC), computed without this code.
     struct Row {
         double period_s, gain, phase_deg;
     };
@@ -208,7 +210,7 @@ TEST_CASE("the temperature error has the gain and phase of its transfer function
     }
 }
 
-TEST_CASE("a constant temperature gives the static slope", "[sim][temperature_error]") {
+TEST_CASE("a constant temperature difference gives the static slope", "[sim][temperature_error]") {
     const TemperatureErrorParameters parameters = load_scenario("tsukuba").error;
     TemperatureError cold(parameters, DegC(42.5), 1.0);
     TemperatureError warm(parameters, DegC(43.5), 1.0);
@@ -216,7 +218,7 @@ TEST_CASE("a constant temperature gives the static slope", "[sim][temperature_er
     CHECK(difference.value() == Approx(-32.0));
 }
 
-TEST_CASE("the warm-up decays from power-on", "[sim][temperature_error]") {
+TEST_CASE("the warm-up error decays from power-on", "[sim][temperature_error]") {
     const TemperatureErrorParameters parameters = load_scenario("tsukuba").error;
     TemperatureError error(parameters, DegC(42.5), 1.0);
     CHECK(error.next(DegC(42.5), 0.0).value() == Approx(36.0));

@@ -20,7 +20,7 @@ using namespace a351::sim;
 
 namespace {
 
-/// A data root that is gone afterwards.
+/// A temporary data root, which is removed at the end.
 class Root {
 public:
     Root()
@@ -37,7 +37,7 @@ private:
     std::filesystem::path path_;
 };
 
-/// Two stations within half an hour.
+/// Returns a scenario with two stations within half an hour.
 Scenario brief_day(const std::string& name = "brief", const std::string& date = "2017-07-16",
                    const std::string& more = "") {
     return parse_scenario("base = \"ideal\"\nname = \"" + name +
@@ -72,8 +72,8 @@ TEST_CASE("a day written to a data root reads back as the truth", "[sim][direct_
     REQUIRE(channel.segments[0].counts.size() == truth.size());
     for (std::size_t i = 0; i < truth.size(); ++i) {
         REQUIRE(channel.segments[0].counts[i] == truth[i].values.axes[2]);
-        // Arrivals carry no delay but the device's own, of which the archive need not know the
-        // internal 0.43 ms.
+        // Arrivals have only the device's own delay.  The archive need not know its internal part,
+        // 0.43 ms.
         REQUIRE(std::abs(seconds_between(truth[i].utc, channel.segments[0].time_of(i))) < 1e-4);
     }
 
@@ -89,7 +89,8 @@ TEST_CASE("a day written to a data root reads back as the truth", "[sim][direct_
     CHECK_FALSE(std::filesystem::exists(root / "partial"));
 }
 
-TEST_CASE("a day is not written beside any part of another", "[sim][direct_survey]") {
+TEST_CASE("a day is not written to a directory that has any part of another",
+          "[sim][direct_survey]") {
     const Root directory;
     for (const char* name : {"journal", "archive", "events", "metadata", "truth.bin", "sites.csv",
                              "schedule.csv", "truth.csv", "survey.toml", "partial"}) {
@@ -101,13 +102,13 @@ TEST_CASE("a day is not written beside any part of another", "[sim][direct_surve
         std::filesystem::remove_all(directory.path() / name);
     }
     CHECK(std::filesystem::is_empty(directory.path()));
-    // An empty directory may be there.
+    // An empty directory is accepted.
     static_cast<void>(write_survey(brief_day(), *wire::find_profile("A351"), 1, directory.path()));
     CHECK(std::filesystem::exists(directory.path() / "journal"));
     CHECK(std::filesystem::exists(directory.path() / "survey.toml"));
 }
 
-TEST_CASE("a day that cannot be written whole leaves nothing behind", "[sim][direct_survey]") {
+TEST_CASE("a day that cannot be written completely leaves no files", "[sim][direct_survey]") {
     const Root directory;
     rlimit limit{};
     REQUIRE(::getrlimit(RLIMIT_FSIZE, &limit) == 0);
@@ -127,7 +128,7 @@ TEST_CASE("a day that cannot be written whole leaves nothing behind", "[sim][dir
     CHECK(std::filesystem::is_empty(directory.path()));
 }
 
-TEST_CASE("each day is a session of its own: of its scenario, start, profile and seed",
+TEST_CASE("the session id of a day depends on its scenario, start, profile and seed",
           "[sim][direct_survey]") {
     const auto header_of = [](const Scenario& scenario, const char* profile, std::uint64_t seed) {
         const Root directory;
@@ -153,7 +154,7 @@ TEST_CASE("each day is a session of its own: of its scenario, start, profile and
     CHECK(header_of(brief_day(), "A351", 1).session == headers.front().session);
 }
 
-TEST_CASE("with a clock that is wrong, events and tables are in true time",
+TEST_CASE("events and tables are in true time, even if the clock of the sensor is wrong",
           "[sim][direct_survey]") {
     const Root directory;
     const Scenario scenario = brief_day("brief", "2017-07-16", "[clock]\nerror_ppm = 100\n");
@@ -175,14 +176,14 @@ TEST_CASE("with a clock that is wrong, events and tables are in true time",
         CHECK(seconds_between(listed, events[i].utc) > -0.001);
         CHECK(seconds_between(listed, events[i].utc) < 0.021);
         CHECK(rows.cell(i / 2, column) == schedule.cell(i / 2, column));
-        // The sensor is ahead: what it counts as a second is shorter.
+        // The sensor's clock is fast: its seconds are shorter.
         CHECK(seconds_between(listed, counted) ==
               Approx(1e-4 * seconds_between(scenario.start(), listed)).margin(0.001));
     }
     CHECK(1e-4 * seconds_between(scenario.start(), scenario.end()) > 0.1);
 }
 
-TEST_CASE("further set-ups stand in the event log and in the tables", "[sim][direct_survey]") {
+TEST_CASE("further set-ups are in the event log and in the tables", "[sim][direct_survey]") {
     const Root directory;
     const Scenario scenario = parse_scenario(
         "base = \"ideal\"\nname = \"short\"\n"
