@@ -1,0 +1,11 @@
+// Law: a serial port has one owner, which closes it.
+#include "daemon/source/tty_port.hpp"
+
+void use(a351::daemon::TtyPort& port) {
+#ifdef A351_LEGAL
+    a351::daemon::TtyPort& same = port;
+#else
+    a351::daemon::TtyPort same = port;
+#endif
+    static_cast<void>(same);
+}
