@@ -14,18 +14,17 @@
 #include <ctime>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "daemon/config/config.hpp"
-#include "daemon/config/recorded_settings.hpp"
-#include "daemon/live/archived_past.hpp"
+#include "daemon/live/live_record.hpp"
 #include "daemon/page/server.hpp"
 #include "daemon/service/service_notice.hpp"
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/oven_link.hpp"
+#include "daemon/source/port.hpp"
 #include "daemon/source/read_queue.hpp"
 #include "daemon/source/sensor_link.hpp"
-#include "daemon/source/serial_ports.hpp"
-#include "daemon/status/assess.hpp"
 #include "daemon/status/status.hpp"
 #include "daemon/status/status_log.hpp"
 #include "daemon/store/store.hpp"
@@ -56,9 +55,6 @@ std::shared_ptr<spdlog::logger> make_log() {
 
 /// Writes all log lines before the program ends, however it ends.
 struct LogEnd {
-    LogEnd() = default;
-    LogEnd(const LogEnd&) = delete;
-    LogEnd& operator=(const LogEnd&) = delete;
     ~LogEnd() { spdlog::shutdown(); }
 };
 
@@ -92,15 +88,15 @@ Status snapshot(const Config& config, const HostClock& clock, const SensorLink& 
     status.now = reading.realtime;
     status.leap = reading.leap;
     status.verdict = live.verdict(status.now);
-    status.profile = config.sensor.profile->name;
-    status.is_profile_verified = config.sensor.profile->is_verified;
-    status.filter = config.sensor.filter;
-    status.output_rate_hz = config.sensor.settings.output_rate_hz;
+    status.profile = config.station.profile;
+    status.is_profile_verified = config.station.is_profile_verified;
+    status.filter = config.station.filter;
+    status.output_rate_hz = config.station.output_rate_hz;
     status.declared_rate_hz = config.storage.declared_rate_hz;
     if (const auto& unit = config.survey.calibration)
         status.calibrated_serial_number = unit->serial_number;
     fill(status, link.status());
-    if (oven) fill(status, oven->status());
+    if (oven) status.oven = oven->status();
     store.fill(status);
     assess(status);
     return status;
@@ -166,7 +162,7 @@ VerdictOptions thresholds_of(const Config& config, const HostClock& clock) {
     return options;
 }
 
-Occupations::Options occupation_options(const Config& config) {
+OccupationOptions occupation_options(const Config& config) {
     return {.planned = config.survey.planned, .target = MilliGal(config.verdict.target_mgal)};
 }
 
@@ -191,12 +187,12 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
                const sigset_t& signals, StatusLog& status_log) {
     ServiceNotice notice = ServiceNotice::from_environment();
     ReadQueue reads;
-    LiveRecord live(*config.sensor.profile, config.sensor.settings.output_rate_hz,
+    LiveRecord live(*config.sensor.profile, config.station.output_rate_hz,
                     thresholds_of(config, clock));
     std::atomic<bool> is_recovered{false};
     Store store(record::posix_files(),
                 {.root = config.storage.root,
-                 .station = station_description(config),
+                 .station = config.station,
                  .keeper = {.keep_days = config.storage.journal_keep_days},
                  .recovered =
                      [&](const auto& report) {
@@ -207,14 +203,10 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
                  .sample = [&](const record::Sample& sample,
                                UtcTime time) { live.take(placed(sample, time)); }},
                 clock, reads);
-    SensorLink link({.address = config.sensor.address,
-                     .baud = config.sensor.baud,
-                     .profile = config.sensor.profile,
-                     .settings = config.sensor.settings,
-                     .expected_serial_number = config.sensor.serial_number,
-                     .header = journal_header(config, clock),
-                     .known = store.known_stream()},
-                    clock, reads);
+    LinkOptions sensor = config.sensor;
+    sensor.header = journal_header(config, clock);
+    sensor.known = store.known_stream();
+    SensorLink link(std::move(sensor), clock, reads);
     std::optional<OvenLink> oven;
     if (config.oven) {
         oven.emplace(*config.oven, clock, [&](record::OvenChunk poll) {
@@ -308,9 +300,9 @@ int main(int argc, char** argv) {
         if (!clock_text.empty()) {
             scale = parse_clock_scale(clock_text, host_realtime());
             if (!scale) {
-                return complain_and_end(kBadUsage, "--clock = " + clock_text +
-                                                       ": not a clock scale; allowed: "
-                                                       "scaled:FACTOR@UTC[,HOST]");
+                return complain_and_end(
+                    kBadUsage, "--clock = " + clock_text +
+                                   ": not a clock scale; allowed: scaled:FACTOR@UTC[,HOST]");
             }
         }
         const Config config = read_config(config_file);

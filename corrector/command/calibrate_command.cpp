@@ -1,25 +1,22 @@
-#include "corrector/command/calibrate_command.hpp"
+#include <fmt/core.h>
 
-#include <unistd.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <iostream>
+#include <map>
 #include <memory>
 
 #include "corrector/command/calibrate_records.hpp"
 #include "corrector/command/calibration_origin.hpp"
-#include "corrector/command/counted_readings.hpp"
-#include "corrector/command/option_values.hpp"
-#include "corrector/command/output_option.hpp"
+#include "corrector/command/commands.hpp"
+#include "corrector/command/options.hpp"
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/job/survey_readings.hpp"
 #include "corrector/model/tilt_series.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
-#include "protocol/text/input_file.hpp"
 #include "protocol/text/write_together.hpp"
 
 namespace a351::corrector {
@@ -42,36 +39,61 @@ SurveyFile series_file(const std::filesystem::path& path) {
     return survey;
 }
 
-std::vector<std::string> of_archive(const std::vector<text::InputFile>& inputs,
-                                    const std::vector<std::string>& sha256) {
-    std::vector<std::string> chosen;
-    for (std::size_t i = 0; i < inputs.size(); ++i)
-        if (inputs[i].role == "archive") chosen.push_back(sha256[i]);
-    return chosen;
-}
+/// The readings that a calibration is measured from, each counted once.  Counted twice they would
+/// make errors smaller by the square root of two.
+class CountedReadings {
+public:
+    /// @param archive_sha256  of the archive's files that the rows were read from.
+    /// @param file            the series as the user calls it.
+    /// @throws InputError  a row's interval overlaps one of a series before, from the same file.
+    void add(const std::vector<SurveyRow>& rows, const std::vector<std::string>& archive_sha256,
+             const std::string& file) {
+        std::vector<Counted> added;
+        for (const SurveyRow& row : rows)
+            added.push_back({row.start.value_or(row.time), row.end.value_or(row.time), file});
+        for (const std::string& sha256 : archive_sha256) {
+            std::vector<Counted>& before = of_archive_file_[sha256];
+            for (const Counted& one : added)
+                for (const Counted& other : before)
+                    if (one.start <= other.end && other.start <= one.end)
+                        throw InputError(fmt::format(
+                            "{}: the readings at {} are those of {} again; allowed: each reading "
+                            "once",
+                            file, to_rfc3339(one.start), other.file));
+            before.insert(before.end(), added.begin(), added.end());
+        }
+    }
+
+private:
+    struct Counted {
+        UtcTime start, end;
+        std::string file;
+    };
+    std::map<std::string, std::vector<Counted>> of_archive_file_;
+};
 
 std::string series_text(const TiltSeries& series, const std::string& name) {
-    std::string text =
-        name + ": " + std::to_string(series.set_ups) + " set-ups, temperature within " +
-        text::fixed(series.temperature_range_degc, 3) + " degC, set-ups scatter by " +
-        text::fixed(series.placement_mgal, 2) + " mGal\n";
+    std::string lines =
+        fmt::format("{}: {} set-ups, temperature within {} degC, set-ups scatter by {} mGal\n",
+                    name, series.set_ups, text::fixed(series.temperature_range_degc, 3),
+                    text::fixed(series.placement_mgal, 2));
     for (const std::size_t axis : {0U, 1U}) {
         const auto k = static_cast<Eigen::Index>(axis);
-        text += std::string("  ") + (axis == 0 ? "x" : "y") + " tilted from " +
-                text::fixed(series.least_tilt_deg.at(axis), 2) + " to " +
-                text::fixed(series.greatest_tilt_deg.at(axis), 2) + " deg: bias " +
-                text::fixed(series.bias.values(k), 1) + " +- " +
-                text::fixed(std::sqrt(series.bias.covariance(k, k)), 1) + " mGal\n";
+        lines += fmt::format("  {} tilted from {} to {} deg: bias {} +- {} mGal\n",
+                             axis == 0 ? "x" : "y", text::fixed(series.least_tilt_deg.at(axis), 2),
+                             text::fixed(series.greatest_tilt_deg.at(axis), 2),
+                             text::fixed(series.bias.values(k), 1),
+                             text::fixed(std::sqrt(series.bias.covariance(k, k)), 1));
     }
-    return text;
+    return lines;
 }
 
 /// Adds parts that this run has not measured, with the data they come from.
 void take_over(Calibration& calibration, const std::string& file) {
     const Calibration other = read_calibration(file);
     if (other.serial_number != calibration.serial_number)
-        throw InputError(file + ": serial_number = " + other.serial_number +
-                         ": another unit; allowed: " + calibration.serial_number);
+        throw InputError(fmt::format("{}: serial_number = {}: another unit; allowed: {}", file,
+                                     other.serial_number, calibration.serial_number));
     if (!calibration.axis_bias) calibration.axis_bias = other.axis_bias;
     if (!calibration.thermal) calibration.thermal = other.thermal;
     if (!calibration.warm_up) calibration.warm_up = other.warm_up;
@@ -85,16 +107,14 @@ void calibrate_from_tilt(Calibration& calibration, const std::vector<std::string
     CountedReadings counted;
     for (const std::string& file : files) {
         const SurveyFile survey = series_file(file);
-        ProgressBar bar(std::cerr, ::isatty(STDERR_FILENO) == 1, survey.name);
-        const OccupationRows read = read_survey(
-            survey, [&bar](std::size_t done, std::size_t total) { bar.show(done, total); });
+        ProgressBar bar(survey.name);
+        const OccupationRows read = read_survey(survey, std::ref(bar));
         for (const std::string& warning : read.warnings)
             std::cerr << "a351-correct: " << survey.name << ": " << warning << '\n';
         all.push_back(measure_axis_bias(read, file));
-        const std::vector<std::string> sha256 = note_origin(
-            calibration, read.serial_number,
-            read.rows.front().start.value_or(read.rows.front().time), read.inputs, file);
-        counted.add(read.rows, of_archive(read.inputs, sha256), file);
+        const UtcTime start = read.rows.front().start.value_or(read.rows.front().time);
+        counted.add(read.rows,
+                    note_origin(calibration, read.serial_number, start, read.inputs, file), file);
         std::cout << series_text(all.back(), survey.name);
     }
     calibration.axis_bias = combine(all);
@@ -126,9 +146,9 @@ void calibrate(const CalibrateOptions& options) {
         calibration.valid_to = instant_option("--valid-to", options.valid_to);
     if (calibration.valid_to && *calibration.valid_to <= calibration.valid_from)
         throw InputError(
-            (options.valid_to.empty() ? options.merge + ": valid_to_utc" : "--valid-to") + " = " +
-            to_rfc3339(*calibration.valid_to) + ": not after " +
-            to_rfc3339(calibration.valid_from) + "; allowed: a later instant, by --valid-to");
+            fmt::format("{} = {}: not after {}; allowed: a later instant, by --valid-to",
+                        options.valid_to.empty() ? options.merge + ": valid_to_utc" : "--valid-to",
+                        to_rfc3339(*calibration.valid_to), to_rfc3339(calibration.valid_from)));
     const std::filesystem::path out = std::filesystem::absolute(options.out);
     text::write_together(out.parent_path(), {{out.filename().string(), to_toml(calibration)}});
     std::cout << "unit " << calibration.serial_number << ": written to " << options.out << '\n';
@@ -141,46 +161,26 @@ void add_calibrate_command(CLI::App& program) {
         "calibrate",
         "Measures properties of one unit before a survey and writes them to a calibration file.");
     const auto options = std::make_shared<CalibrateOptions>();
-    command
-        .add_option("FILE", options->records,
-                    "Long records at one point, for the response to temperature: data roots, day "
-                    "files of their archives, or CSV files")
-        ->type_name("")
+    add_option(command, "FILE", "", options->records,
+               "Long records at one point, for the response to temperature: data roots, day files "
+               "of their archives, or CSV files")
         ->check(CLI::ExistingPath);
-    command
-        .add_option("--tilt", options->tilt,
-                    "Tilt series at one point, for the biases of the horizontal axes: survey files "
-                    "(TOML) or data roots with a sites.csv")
-        ->type_name("FILE");
-    CLI::Option* within =
-        command
-            .add_option(
-                "--within", options->within_mgal,
-                "The unit counts as warmed up when its reading is within this many mGal of the "
-                "final value (0.001-1000)")
-            ->type_name("MGAL")
-            ->capture_default_str();
-    command
-        .add_option("--power-on", options->power_on,
-                    "Instant at which the sensor was switched on (RFC 3339), at most half an "
-                    "hour before a record begins")
-        ->type_name("UTC");
-    command.add_option("--out", options->out, "Calibration to write (TOML)")
-        ->type_name("FILE")
-        ->required();
-    command
-        .add_option(
-            "--merge", options->merge,
-            "Calibration of the same unit; parts that are not measured now are taken from it")
-        ->type_name("FILE");
-    command
-        .add_option("--valid-from", options->valid_from,
-                    "Start of the validity (RFC 3339; default: the first reading)")
-        ->type_name("UTC");
-    command
-        .add_option("--valid-to", options->valid_to,
-                    "End of the validity (RFC 3339; default: until a newer calibration)")
-        ->type_name("UTC");
+    add_option(command, "--tilt", "FILE", options->tilt,
+               "Tilt series at one point, for the biases of the horizontal axes: survey files "
+               "(TOML) or data roots with a sites.csv");
+    CLI::Option* within = add_with_default(command, "--within", "MGAL", options->within_mgal,
+                                           "The unit counts as warmed up when its reading is "
+                                           "within this many mGal of the final value (0.001-1000)");
+    add_option(command, "--power-on", "UTC", options->power_on,
+               "Instant at which the sensor was switched on (RFC 3339), at most half an hour "
+               "before a record begins");
+    add_required(command, "--out", "FILE", options->out, "Calibration to write (TOML)");
+    add_option(command, "--merge", "FILE", options->merge,
+               "Calibration of the same unit; parts that are not measured now are taken from it");
+    add_option(command, "--valid-from", "UTC", options->valid_from,
+               "Start of the validity (RFC 3339; default: the first reading)");
+    add_option(command, "--valid-to", "UTC", options->valid_to,
+               "End of the validity (RFC 3339; default: until a newer calibration)");
     command.callback([options, within] {
         options->is_within_given = within->count() > 0;
         calibrate(*options);

@@ -1,5 +1,7 @@
 #include "corrector/command/calibrate_records.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "corrector/command/calibration_origin.hpp"
@@ -56,25 +58,27 @@ std::string unit_of(const LongRecord& record, const std::string& file) {
         return stretch.serial_number != unit;
     });
     if (other == record.stretches.end()) return unit;
-    throw InputError(file + ": from " + to_rfc3339(other->times.front()) + " on of unit '" +
-                     other->serial_number + "', before of '" + unit + "'; allowed: one unit");
+    throw InputError(fmt::format("{}: from {} on of unit '{}', before of '{}'; allowed: one unit",
+                                 file, to_rfc3339(other->times.front()), other->serial_number,
+                                 unit));
 }
 
-std::string slope_line(const PooledThermal& pooled) {
-    return "  static slope, both paths: " + text::fixed(pooled.static_slope, 1) + " +- " +
-           text::fixed(pooled.static_slope_error, 1) + " mGal/degC" +
-           (pooled.is_static_slope_determined ? "" : "; not determined") + '\n';
+std::string value_text(const FittedParameter& parameter) {
+    return fmt::format("{}: {} +- {} {}", parameter.name, text::fixed(parameter.value, 1),
+                       text::fixed(parameter.standard_error, 1), parameter.unit);
 }
 
 std::string thermal_text(const PooledThermal& pooled) {
     std::string text;
     for (const FittedParameter& parameter : pooled.parameters) {
-        text += "  " + parameter.name + ": " + text::fixed(parameter.value, 1) + " +- " +
-                text::fixed(parameter.standard_error, 1) + " " + parameter.unit +
-                (parameter.is_determined ? "" : "; not determined, needed: " + parameter.needed) +
-                '\n';
+        text += fmt::format(
+            "  {}{}\n", value_text(parameter),
+            parameter.is_determined ? "" : "; not determined, needed: " + parameter.needed);
     }
-    text += slope_line(pooled);
+    text +=
+        fmt::format("  static slope, both paths: {} +- {} mGal/degC{}\n",
+                    text::fixed(pooled.static_slope, 1), text::fixed(pooled.static_slope_error, 1),
+                    pooled.is_static_slope_determined ? "" : "; not determined");
     if (pooled.agreement_p < kContradiction)
         text +=
             "  the records contradict each other (probability of chance below 1 %). The unit may "
@@ -86,9 +90,7 @@ std::string refusal(const PooledThermal& pooled, const std::string& file) {
     std::string message = file + ": the response to temperature is not determined";
     for (const FittedParameter& parameter : pooled.parameters)
         if (!parameter.needed.empty())
-            message += "; " + parameter.name + ": " + text::fixed(parameter.value, 1) + " +- " +
-                       text::fixed(parameter.standard_error, 1) + " " + parameter.unit +
-                       ", needed: " + parameter.needed;
+            message += fmt::format("; {}, needed: {}", value_text(parameter), parameter.needed);
     return message;
 }
 
@@ -114,34 +116,39 @@ std::string calibrate_from_records(Calibration& calibration,
                                        hours_of(segment, record.step_s), within_mgal);
             segment = without_begin(std::move(segment), record.step_s);
         }
-        const std::string name = text::fixed(hours_of(segment, record.step_s), 1) + " h from " +
-                                 to_rfc3339(segment.start);
+        const std::string name =
+            fmt::format("{} h from {}", text::fixed(hours_of(segment, record.step_s), 1),
+                        to_rfc3339(segment.start));
         const std::string lack =
             segment.size() < SegmentOptions{}.shortest
-                ? "too short for the response to temperature; needed: 3 h that begin " +
-                      text::fixed(kSettled_h, 0) + " h after power-on or later"
+                ? fmt::format(
+                      "too short for the response to temperature; needed: 3 h that begin "
+                      "{} h after power-on or later",
+                      text::fixed(kSettled_h, 0))
                 : reason_against_two_paths(segment.temperature_degc, segment.acceleration_mgal,
                                            record.step_s);
         if (!lack.empty()) {
-            lacks.emplace_back(name).append(": ").append(lack);
+            lacks.push_back(fmt::format("{}: {}", name, lack));
             text += lacks.back() + '\n';
             continue;
         }
         fits.push_back(fitted(segment, record.step_s));
-        text += name + ", residual " + text::fixed(fits.back().residual_rms_mgal, 2) + " mGal" +
-                (fits.back().unexplained.empty() ? ""
-                                                 : ", which still depends on the temperature: the "
-                                                   "model does not describe all of it") +
-                '\n';
+        text += fmt::format("{}, residual {} mGal{}\n", name,
+                            text::fixed(fits.back().residual_rms_mgal, 2),
+                            fits.back().unexplained.empty()
+                                ? ""
+                                : ", which still depends on the temperature: the model does not "
+                                  "describe all of it");
     }
-    if (fits.empty()) throw InputError(file + ": " + lacks.front());
+    if (fits.empty()) throw InputError(fmt::format("{}: {}", file, lacks.front()));
     const PooledThermal pooled = pool_thermal(fits);
     if (!pooled.response) throw InputError(refusal(pooled, file));
     if (options.within_mgal && !warm_up.guidance)
-        throw InputError("--within = " + text::fixed(within_mgal, 3) + ": " + warm_up.words);
+        throw InputError(
+            fmt::format("--within = {}: {}", text::fixed(within_mgal, 3), warm_up.words));
     calibration.thermal = pooled.response;
     calibration.warm_up = warm_up.guidance;
-    return text + thermal_text(pooled) + "  " + warm_up.words + '\n';
+    return fmt::format("{}{}  {}\n", text, thermal_text(pooled), warm_up.words);
 }
 
 }  // namespace a351::corrector

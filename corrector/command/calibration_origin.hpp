@@ -13,7 +13,7 @@ void list_data(Calibration& calibration, const CalibrationData& data);
 
 /// Notes where numbers of a calibration come from: unit, files, the time of the first reading.
 /// @param serial_number  of the record; empty if the metadata have none.
-/// @return  SHA-256 of every input.
+/// @return  SHA-256 of every file of the archive.
 /// @throws InputError  no serial number, or not the one of the inputs before.
 std::vector<std::string> note_origin(Calibration& calibration, const std::string& serial_number,
                                      UtcTime start, const std::vector<text::InputFile>& inputs,

@@ -1,8 +1,5 @@
-#include "corrector/command/decimate_command.hpp"
+#include <fmt/core.h>
 
-#include <unistd.h>
-
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <fstream>
 #include <iostream>
@@ -10,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "corrector/command/commands.hpp"
 #include "corrector/command/csv_output.hpp"
-#include "corrector/command/option_values.hpp"
-#include "corrector/command/output_option.hpp"
+#include "corrector/command/options.hpp"
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/command/sample_column.hpp"
 #include "protocol/core/input_error.hpp"
@@ -62,14 +59,14 @@ private:
 };
 
 /// Returns the largest memory of this process; getrusage() would include its parent's.
-std::string peak_memory() {
+std::size_t peak_memory_kib() {
     std::ifstream status("/proc/self/status");
     std::string key;
     std::size_t kibibytes = 0;
     while (status >> key) {
         if (key == "VmHWM:") status >> kibibytes;
     }
-    return std::to_string(kibibytes) + " KiB";
+    return kibibytes;
 }
 
 void write_decimated(const DecimateOptions& options) {
@@ -82,7 +79,7 @@ void write_decimated(const DecimateOptions& options) {
     CsvOutput output(options.output);
     DecimatedRows rows(output);
     Decimator decimator(filter, options.stages);
-    ProgressBar bar(std::cerr, ::isatty(STDERR_FILENO) == 1, "decimate, MB");
+    ProgressBar bar("decimate, MB");
 
     std::vector<double> samples;
     std::vector<double> decimated;
@@ -92,21 +89,23 @@ void write_decimated(const DecimateOptions& options) {
         rows.add(decimated);
         // Nothing is written before the record is known to be long enough.
         if (static_cast<double>(column.count()) >= least) rows.flush();
-        bar.show(column.bytes_read() / 1'000'000, column.byte_count() / 1'000'000);
+        bar(column.bytes_read() / 1'000'000, column.byte_count() / 1'000'000);
     }
     if (static_cast<double>(column.count()) < least) {
-        throw InputError(options.input + ": " + options.column + ": " +
-                         std::to_string(column.count()) + " rows are too short; allowed: " +
-                         text::shortest(least) + " or more for this factor and these stages");
+        throw InputError(fmt::format(
+            "{}: {}: {} rows are too short; allowed: {} or more for this factor and these stages",
+            options.input, options.column, column.count(), text::shortest(least)));
     }
     decimated.clear();
     decimator.finish(decimated);
     rows.add(decimated);
     rows.flush();
     output.finish();
-    std::cerr << "a351-correct: decimate: " << column.count() << " samples ("
-              << column.missing_count() << " missing) to " << rows.count() << " values ("
-              << rows.valid_count() << " valid); peak memory " << peak_memory() << '\n';
+    std::cerr << fmt::format(
+        "a351-correct: decimate: {} samples ({} missing) to {} values ({} valid); peak memory {} "
+        "KiB\n",
+        column.count(), column.missing_count(), rows.count(), rows.valid_count(),
+        peak_memory_kib());
 }
 
 }  // namespace
@@ -118,25 +117,11 @@ void add_decimate_command(CLI::App& program) {
         "8 M + 3 taps. Writes CSV index,value,valid. Output row k is centred on input row "
         "k M^stages. Memory does not grow with the input.");
     const auto options = std::make_shared<DecimateOptions>();
-    command
-        .add_option("--input", options->input,
-                    "Table with a header line; a column time, time_utc or time_s must ascend in "
-                    "equal steps")
-        ->type_name("CSV")
-        ->required();
-    command
-        .add_option("--column", options->column,
-                    "Column to read; an empty cell is a missing sample")
-        ->type_name("NAME")
-        ->required();
-    command.add_option("--factor", options->factor, "Factor of each stage, 2-1000")
-        ->type_name("M")
-        ->required();
-    command.add_option("--stages", options->stages, "Number of stages, 1-9")
-        ->type_name("K")
-        ->capture_default_str();
-    command.add_option("--output", options->output, "File to write instead of standard output")
-        ->type_name("CSV");
+    add_column_options(command, options->input, options->column);
+    add_required(command, "--factor", "M", options->factor, "Factor of each stage, 2-1000");
+    add_with_default(command, "--stages", "K", options->stages, "Number of stages, 1-9");
+    add_option(command, "--output", "CSV", options->output,
+               "File to write instead of standard output");
     command.callback([options] { write_decimated(*options); });
 }
 

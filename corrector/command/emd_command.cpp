@@ -1,17 +1,13 @@
-#include "corrector/command/emd_command.hpp"
+#include <fmt/core.h>
 
-#include <unistd.h>
-
-#include <CLI/CLI.hpp>
 #include <cstdint>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "corrector/command/commands.hpp"
 #include "corrector/command/csv_output.hpp"
-#include "corrector/command/option_values.hpp"
-#include "corrector/command/output_option.hpp"
+#include "corrector/command/options.hpp"
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/eemd/eemd.hpp"
 #include "protocol/core/input_error.hpp"
@@ -49,8 +45,8 @@ EemdOptions decomposition(const EmdCommandOptions& options) {
     number_option("--sifts", options.sifts, 1, kMaxSifts);
     eemd_options.stopping = FixedSifts{options.sifts};
     if (options.s_number) {
-        number_option("--s-number", *options.s_number, 1, SNumber{}.max_sifts);
-        eemd_options.stopping = SNumber{*options.s_number, SNumber{}.max_sifts};
+        number_option("--s-number", *options.s_number, 1, kMostSNumberSifts);
+        eemd_options.stopping = SNumber{*options.s_number};
     }
     eemd_options.finish =
         options.finish == "always" ? FinishRule::always : FinishRule::at_most_two_extrema;
@@ -58,8 +54,8 @@ EemdOptions decomposition(const EmdCommandOptions& options) {
     eemd_options.reflect_ends = options.ends == "reflect";
     eemd_options.complementary_pairs = options.pairs;
     if (options.pairs && options.ensemble % 2 != 0) {
-        throw InputError("--ensemble = " + std::to_string(options.ensemble) +
-                         "; allowed with --pairs: an even number");
+        throw InputError(
+            fmt::format("--ensemble = {}; allowed with --pairs: an even number", options.ensemble));
     }
     eemd_options.seed = options.seed;
     number_option("--threads", options.threads, 1, kMostThreads);
@@ -69,8 +65,7 @@ EemdOptions decomposition(const EmdCommandOptions& options) {
 
 std::string to_csv(const EemdResult& result) {
     std::string csv;
-    for (std::size_t k = 0; k < result.modes.size(); ++k)
-        csv += "imf" + std::to_string(k + 1) + ',';
+    for (std::size_t k = 1; k <= result.modes.size(); ++k) csv += fmt::format("imf{},", k);
     csv += "residue\n";
     for (std::size_t i = 0; i < result.residue.values.size(); ++i) {
         for (const Component& mode : result.modes) csv += text::shortest(mode.values[i]) + ',';
@@ -83,14 +78,14 @@ std::string to_csv(const EemdResult& result) {
 std::string report_csv(const EemdResult& result) {
     std::string csv = "component,extrema,mean_period_samples,energy_share,standard_error\n";
     const auto add = [&](const std::string& name, const Component& component) {
-        csv += name + ',' + std::to_string(component.extrema_count) + ',';
-        if (component.extrema_count > 0) csv += text::shortest(component.mean_period_samples);
-        csv += ',' + text::shortest(component.energy_share) + ',';
-        if (component.standard_error) csv += text::shortest(*component.standard_error);
-        csv += '\n';
+        csv += fmt::format(
+            "{},{},{},{},{}\n", name, component.extrema_count,
+            component.extrema_count > 0 ? text::shortest(component.mean_period_samples) : "",
+            text::shortest(component.energy_share),
+            component.standard_error ? text::shortest(*component.standard_error) : "");
     };
     for (std::size_t k = 0; k < result.modes.size(); ++k) {
-        add("imf" + std::to_string(k + 1), result.modes[k]);
+        add(fmt::format("imf{}", k + 1), result.modes[k]);
     }
     add("residue", result.residue);
     return csv;
@@ -105,9 +100,9 @@ void write_modes(const EmdCommandOptions& options) {
     for (std::size_t row = 0; row < table.row_count(); ++row) {
         signal.push_back(table.number(row, options.column, -1e300, 1e300));
     }
-    ProgressBar bar(std::cerr, ::isatty(STDERR_FILENO) == 1, options.column);
+    ProgressBar bar(options.column);
     eemd_options.progress = [&bar](int done, int members) {
-        bar.show(static_cast<std::size_t>(done), static_cast<std::size_t>(members));
+        bar(static_cast<std::size_t>(done), static_cast<std::size_t>(members));
         return true;
     };
     const EemdResult result = eemd(signal, eemd_options);
@@ -124,70 +119,40 @@ void add_emd_command(CLI::App& program) {
         "residue, by ensemble empirical mode decomposition (EEMD). Prints the extrema, period, "
         "share of energy and standard error of each component.");
     const auto options = std::make_shared<EmdCommandOptions>();
-    command.add_option("--input", options->input, "Table with a header line")
-        ->type_name("CSV")
-        ->required();
-    command.add_option("--column", options->column, "Column to read; no cell may be empty")
-        ->type_name("NAME")
-        ->required();
-    command
-        .add_option("--modes", options->modes,
-                    "Number of modes without the residue, 0-64 (default: floor(log2 n) - 1 for "
-                    "n samples)")
-        ->type_name("K");
-    command
-        .add_option("--ensemble", options->ensemble,
-                    "Number of noise realisations that are averaged")
-        ->type_name("N")
-        ->capture_default_str();
-    command
-        .add_option(
-            "--noise", options->noise,
-            "Standard deviation of the noise, divided by that of the column; 0 is plain EMD")
-        ->type_name("RATIO")
-        ->capture_default_str();
+    add_required(command, "--input", "CSV", options->input, "Table with a header line");
+    add_required(command, "--column", "NAME", options->column,
+                 "Column to read; no cell may be empty");
+    add_option(
+        command, "--modes", "K", options->modes,
+        "Number of modes without the residue, 0-64 (default: floor(log2 n) - 1 for n samples)");
+    add_with_default(command, "--ensemble", "N", options->ensemble,
+                     "Number of noise realisations that are averaged");
+    add_with_default(
+        command, "--noise", "RATIO", options->noise,
+        "Standard deviation of the noise, divided by that of the column; 0 is plain EMD");
     CLI::Option* const sifts =
-        command.add_option("--sifts", options->sifts, "Number of sifts per mode")
-            ->type_name("S")
-            ->capture_default_str();
-    command
-        .add_option(
-            "--s-number", options->s_number,
-            "Stop when the number of extrema has not changed for S consecutive sifts (at most "
-            "50 sifts)")
-        ->type_name("S")
+        add_with_default(command, "--sifts", "S", options->sifts, "Number of sifts per mode");
+    add_option(command, "--s-number", "S", options->s_number,
+               "Stop when the number of extrema has not changed for S consecutive sifts (at most "
+               "50 sifts)")
         ->excludes(sifts);
-    command
-        .add_option(
-            "--finish", options->finish,
-            "extrema: a remainder with two extrema or fewer is the residue; always: sift every "
-            "mode")
-        ->type_name("RULE")
-        ->check(CLI::IsMember({"extrema", "always"}))
-        ->capture_default_str();
-    command
-        .add_option(
-            "--ends", options->ends,
-            "Support of the envelopes at the ends. line: the end sample or the line through the "
-            "two nearest extrema; mirror: reflected extrema; reflect: the record "
-            "reflected about its ends")
-        ->type_name("RULE")
-        ->check(CLI::IsMember({"line", "mirror", "reflect"}))
-        ->capture_default_str();
+    add_with_default(
+        command, "--finish", "RULE", options->finish,
+        "extrema: a remainder with two extrema or fewer is the residue; always: sift every mode")
+        ->check(CLI::IsMember({"extrema", "always"}));
+    add_with_default(
+        command, "--ends", "RULE", options->ends,
+        "Support of the envelopes at the ends. line: the end sample or the line through the two "
+        "nearest extrema; mirror: reflected extrema; reflect: the record reflected about its ends")
+        ->check(CLI::IsMember({"line", "mirror", "reflect"}));
     command.add_flag(
         "--pairs", options->pairs,
         "Use every noise realisation twice, once negated, so that none remains in the sum");
-    command.add_option("--seed", options->seed, "Seed of the noise generator")
-        ->type_name("N")
-        ->capture_default_str();
-    command
-        .add_option("--threads", options->threads,
-                    "Number of threads; the result does not depend on it")
-        ->type_name("T")
-        ->capture_default_str();
-    command.add_option("--output", options->output, "Table to write: imf1, imf2, ..., residue")
-        ->type_name("CSV")
-        ->required();
+    add_with_default(command, "--seed", "N", options->seed, "Seed of the noise generator");
+    add_with_default(command, "--threads", "T", options->threads,
+                     "Number of threads; the result does not depend on it");
+    add_required(command, "--output", "CSV", options->output,
+                 "Table to write: imf1, imf2, ..., residue");
     command.callback([options] { write_modes(*options); });
 }
 

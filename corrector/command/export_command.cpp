@@ -1,11 +1,10 @@
-#include "corrector/command/export_command.hpp"
+#include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
-#include "corrector/command/option_values.hpp"
-#include "corrector/command/output_option.hpp"
+#include "corrector/command/commands.hpp"
+#include "corrector/command/options.hpp"
 #include "corrector/export/export.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/new_file.hpp"
@@ -24,7 +23,8 @@ void run(Texts texts) {
     options.to = instant_option("--to", texts.to);
     options.format = texts.format == "csv" ? ExportFormat::csv : ExportFormat::mseed;
     if (options.from >= options.to)
-        throw InputError("--to = " + texts.to + ": not after --from; allowed: a later instant");
+        throw InputError(
+            fmt::format("--to = {}: not after --from; allowed: a later instant", texts.to));
     require_file_option("--out", texts.out);
     text::NewFile file(texts.out);
     const ExportReport report =
@@ -33,8 +33,8 @@ void run(Texts texts) {
     file.publish();
     for (const record::ArchiveDamage& damage : report.damage)
         std::cerr << "a351-correct: " << to_text(damage) << '\n';
-    std::cout << texts.out << ": " << report.values << " values of " << options.channel << " at "
-              << options.rate_hz << " Hz in " << report.runs << " runs without a gap\n";
+    std::cout << fmt::format("{}: {} values of {} at {} Hz in {} runs without a gap\n", texts.out,
+                             report.values, options.channel, options.rate_hz, report.runs);
 }
 
 }  // namespace
@@ -46,25 +46,15 @@ void add_export_command(CLI::App& program) {
         "interpolation between the sensor's own sample instants. The result is a product "
         "(location code 10), not the record.");
     const auto texts = std::make_shared<Texts>();
-    command.add_option("ROOT", texts->options.root, "Data root")->type_name("DIR")->required();
-    command.add_option("--from", texts->from, "First instant (RFC 3339)")
-        ->type_name("UTC")
-        ->required();
-    command.add_option("--to", texts->to, "End of the interval, not included (RFC 3339)")
-        ->type_name("UTC")
-        ->required();
-    command.add_option("--channel", texts->options.channel, "Channel, for example BNZ")
-        ->type_name("NAME")
-        ->required();
-    command.add_option("--rate", texts->options.rate_hz, "Values per second, an integer")
-        ->type_name("HZ")
-        ->required()
+    add_required(command, "ROOT", "DIR", texts->options.root, "Data root");
+    add_required(command, "--from", "UTC", texts->from, "First instant (RFC 3339)");
+    add_required(command, "--to", "UTC", texts->to, "End of the interval, not included (RFC 3339)");
+    add_required(command, "--channel", "NAME", texts->options.channel, "Channel, for example BNZ");
+    add_required(command, "--rate", "HZ", texts->options.rate_hz, "Values per second, an integer")
         ->check(CLI::Range(1, 1000));
-    command.add_option("--format", texts->format, "Format of the file")
-        ->type_name("NAME")
-        ->required()
+    add_required(command, "--format", "NAME", texts->format, "Format of the file")
         ->check(CLI::IsMember({"csv", "mseed"}));
-    command.add_option("--out", texts->out, "File to write")->type_name("FILE")->required();
+    add_required(command, "--out", "FILE", texts->out, "File to write");
     command.callback([texts] { run(*texts); });
 }
 

@@ -6,16 +6,7 @@
 #include <exception>
 #include <iostream>
 
-#include "corrector/command/calibrate_command.hpp"
-#include "corrector/command/decimate_command.hpp"
-#include "corrector/command/emd_command.hpp"
-#include "corrector/command/export_command.hpp"
-#include "corrector/command/record_command.hpp"
-#include "corrector/command/retime_command.hpp"
-#include "corrector/command/smooth_command.hpp"
-#include "corrector/command/survey_command.hpp"
-#include "corrector/command/table_command.hpp"
-#include "corrector/command/tide_command.hpp"
+#include "corrector/command/commands.hpp"
 #include "protocol/core/input_error.hpp"
 
 namespace {

@@ -1,5 +1,10 @@
 #include "corrector/command/progress_bar.hpp"
 
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <iostream>
+
 namespace a351::corrector {
 namespace {
 
@@ -8,24 +13,22 @@ constexpr std::size_t kBarWidth = 30;
 
 }  // namespace
 
-ProgressBar::ProgressBar(std::ostream& out, bool is_terminal, std::string label)
-    : out_(out),
-      is_terminal_(is_terminal),
-      label_(std::move(label)),
+ProgressBar::ProgressBar(std::string label)
+    : label_(std::move(label)),
+      is_terminal_(::isatty(STDERR_FILENO) == 1),
       start_(std::chrono::steady_clock::now()) {}
 
 ProgressBar::~ProgressBar() {
-    if (width_ > 0) out_ << '\r' << std::string(width_, ' ') << '\r' << std::flush;
+    if (width_ > 0) std::cerr << '\r' << std::string(width_, ' ') << '\r' << std::flush;
 }
 
-void ProgressBar::show(std::size_t done, std::size_t total) {
+void ProgressBar::operator()(std::size_t done, std::size_t total) {
     if (!is_terminal_ || std::chrono::steady_clock::now() - start_ < kSilence) return;
     const std::size_t filled = total == 0 ? kBarWidth : kBarWidth * done / total;
-    const std::string line = label_ + " [" + std::string(filled, '#') +
-                             std::string(kBarWidth - filled, ' ') + "] " + std::to_string(done) +
-                             "/" + std::to_string(total);
+    const std::string line = fmt::format("{} [{}{}] {}/{}", label_, std::string(filled, '#'),
+                                         std::string(kBarWidth - filled, ' '), done, total);
     width_ = line.size();
-    out_ << '\r' << line << std::flush;
+    std::cerr << '\r' << line << std::flush;
 }
 
 }  // namespace a351::corrector

@@ -1,24 +1,21 @@
-#include "corrector/command/record_command.hpp"
+#include <fmt/core.h>
 
-#include <unistd.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "corrector/command/figures_option.hpp"
-#include "corrector/command/option_values.hpp"
-#include "corrector/command/output_option.hpp"
+#include "corrector/command/commands.hpp"
+#include "corrector/command/options.hpp"
 #include "corrector/command/progress_bar.hpp"
-#include "corrector/command/record_apply.hpp"
 #include "corrector/command/record_input.hpp"
 #include "corrector/long_record/joined_record.hpp"
 #include "corrector/long_record/record_result.hpp"
-#include "corrector/report/long_record_page.hpp"
+#include "corrector/report/report.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/input_file.hpp"
 #include "protocol/text/write_together.hpp"
 
 namespace a351::corrector {
@@ -40,7 +37,7 @@ LongRecord read_record(const RecordCommandOptions& options) {
     if (!options.from.empty()) window.from = instant_option("--from", options.from);
     if (!options.to.empty()) window.to = instant_option("--to", options.to);
     if (window.from && window.to && *window.from >= *window.to)
-        throw InputError("--to = " + options.to + "; allowed: an instant after --from");
+        throw InputError(fmt::format("--to = {}; allowed: an instant after --from", options.to));
     return joined_record(read_records(options.files, window));
 }
 
@@ -58,17 +55,55 @@ RecordResult analysed(const RecordCommandOptions& options) {
     segments.shortest =
         std::max(segments.shortest, least_record_length(options.cycle_s, result.record.step_s));
     result.parts = divide_or_refuse(result.record, segments, options.files.front());
-    const auto longest = std::max_element(
-        result.parts.segments.begin(), result.parts.segments.end(),
-        [](const RecordSegment& a, const RecordSegment& b) { return a.size() < b.size(); });
+    const auto longest = std::ranges::max_element(result.parts.segments, {}, &RecordSegment::size);
     result.analysed = static_cast<std::size_t>(longest - result.parts.segments.begin());
-    ProgressBar bar(std::cerr, ::isatty(STDERR_FILENO) == 1, "decompose");
-    result.options.progress = [&bar](std::size_t done, std::size_t total) {
-        bar.show(done, total);
-    };
+    ProgressBar bar("decompose");
+    result.options.progress = std::ref(bar);
     result.analysis = analyse_record(result.segment(), result.record.step_s, result.options);
     result.options.progress = nullptr;
     return result;
+}
+
+/// Returns true if the calibration was measured from a file of the record, metadata aside.
+bool is_in_sample(const LongRecord& record, const Calibration& calibration) {
+    return std::ranges::any_of(record.inputs, [&](const text::InputFile& input) {
+        return input.role != "metadata" &&
+               std::ranges::any_of(calibration.data, [&](const CalibrationData& data) {
+                   return data.name == input.name &&
+                          data.sha256 == text::sha256_of_file(input.path);
+               });
+    });
+}
+
+/// Applies the thermal part of a calibration to the analysed segment, and notes whether the
+/// calibration was measured from this record.
+/// @throws InputError  the file is not a calibration, has no thermal part, or is of another unit.
+void apply_to(RecordResult& result, const std::string& file) {
+    const Calibration calibration = read_calibration(file);
+    const std::string& unit = result.segment().serial_number;
+    if (!unit.empty() && unit != calibration.serial_number)
+        throw InputError(fmt::format(
+            "{0}: serial_number = {1}: the record is of unit {2}; allowed: a calibration of {2}",
+            file, calibration.serial_number, unit));
+    if (!calibration.thermal)
+        throw InputError(file + ": thermal is missing; allowed: a calibration from a long record");
+    AppliedCalibration applied =
+        apply_calibration(*calibration.thermal, result.segment(), result.analysis,
+                          longest_of_band_s(result.options.cycle_s));
+    applied.origin = fmt::format(
+        "calibration of unit {} ({}, from {}), {}", calibration.serial_number, calibration.program,
+        to_rfc3339(calibration.valid_from),
+        is_in_sample(result.record, calibration) ? "in sample: it was measured from this record"
+                                                 : "measured from other records");
+    if (unit.empty())
+        applied.remarks.emplace_back(
+            "the record has no serial number: it was not checked that the calibration belongs to "
+            "this unit");
+    const UtcTime end = calibration.valid_to.value_or(UtcTime::max());
+    if (result.segment().start < calibration.valid_from || result.segment().end > end)
+        applied.remarks.emplace_back("the record is not within the calibration's validity");
+    result.record.inputs.push_back(text::describe_input("calibration", file));
+    result.applied = std::move(applied);
 }
 
 void analyse(const RecordCommandOptions& options) {
@@ -101,45 +136,24 @@ void add_record_command(CLI::App& program) {
                                                 "Analyses hours to weeks at one point: how the "
                                                 "acceleration follows the temperature.");
     const auto options = std::make_shared<RecordCommandOptions>();
-    command
-        .add_option("FILE", options->files,
-                    "Data roots, day files of their archives (each means its whole root), or CSV "
-                    "files")
-        ->type_name("")
-        ->required()
+    add_required(
+        command, "FILE", "", options->files,
+        "Data roots, day files of their archives (each means its whole root), or CSV files")
         ->check(CLI::ExistingPath);
-    command
-        .add_option("--from", options->from,
-                    "First instant (RFC 3339; default: the start of the record)")
-        ->type_name("UTC");
-    command
-        .add_option("--to", options->to,
-                    "End of the interval, not included (RFC 3339; default: the end of the record)")
-        ->type_name("UTC");
-    command
-        .add_option("--apply", options->apply,
-                    "Correct the record with this calibration of the unit, in two ways")
-        ->type_name("FILE")
+    add_option(command, "--from", "UTC", options->from,
+               "First instant (RFC 3339; default: the start of the record)");
+    add_option(command, "--to", "UTC", options->to,
+               "End of the interval, not included (RFC 3339; default: the end of the record)");
+    add_option(command, "--apply", "FILE", options->apply,
+               "Correct the record with this calibration of the unit, in two ways")
         ->check(CLI::ExistingFile);
-    command.add_option("--out", options->out, "Folder of the result")
-        ->type_name("DIR")
-        ->capture_default_str();
-    command.add_option("--cycle", options->cycle_s, "Cycle of the oven, 200-7200 s")
-        ->type_name("S")
-        ->capture_default_str();
-    command
-        .add_option("--shift", options->shift_s,
-                    "Time by which the acceleration is moved earlier, as published")
-        ->type_name("S")
-        ->capture_default_str();
-    command
-        .add_option("--ensemble", options->ensemble,
-                    "Number of noise realisations that are averaged")
-        ->type_name("N")
-        ->capture_default_str();
-    command.add_option("--seed", options->seed, "Seed of the noise generator")
-        ->type_name("N")
-        ->capture_default_str();
+    add_with_default(command, "--out", "DIR", options->out, "Folder of the result");
+    add_with_default(command, "--cycle", "S", options->cycle_s, "Cycle of the oven, 200-7200 s");
+    add_with_default(command, "--shift", "S", options->shift_s,
+                     "Time by which the acceleration is moved earlier, as published");
+    add_with_default(command, "--ensemble", "N", options->ensemble,
+                     "Number of noise realisations that are averaged");
+    add_with_default(command, "--seed", "N", options->seed, "Seed of the noise generator");
     add_figures_option(command, options->figures);
     command.callback([options] { analyse(*options); });
 }

@@ -1,9 +1,10 @@
 #include "corrector/command/record_input.hpp"
 
-#include <unistd.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 
 #include "corrector/command/progress_bar.hpp"
@@ -32,17 +33,14 @@ std::vector<LongRecord> read_records(const std::vector<std::string>& files,
     std::vector<std::filesystem::path> roots;
     std::vector<LongRecord> records;
     {
-        ProgressBar bar(std::cerr, ::isatty(STDERR_FILENO) == 1, "read");
-        const Progress progress = [&bar](std::size_t done, std::size_t total) {
-            bar.show(done, total);
-        };
+        ProgressBar bar("read");
         for (const std::string& file : files) {
             const std::filesystem::path root = root_of(file);
             if (root.empty()) {
-                records.push_back(read_csv_record(file, window, progress));
+                records.push_back(read_csv_record(file, window, std::ref(bar)));
             } else if (std::find(roots.begin(), roots.end(), root) == roots.end()) {
                 roots.push_back(root);
-                records.push_back(read_archive_record(root, window, progress));
+                records.push_back(read_archive_record(root, window, std::ref(bar)));
             }
         }
     }
@@ -58,11 +56,10 @@ RecordSegments divide_or_refuse(const LongRecord& record, const SegmentOptions& 
     if (!parts.segments.empty()) return parts;
     std::string message = name + ": no part can be analysed";
     for (const RefusedPart& part : parts.refused)
-        message += "; from " + to_rfc3339(part.start) + " " + part.reason;
+        message += fmt::format("; from {} {}", to_rfc3339(part.start), part.reason);
+    const double shortest_h = static_cast<double>(options.shortest) * record.step_s / 3600.0;
     throw InputError(
-        message + "; allowed: " +
-        text::fixed(static_cast<double>(options.shortest) * record.step_s / 3600.0, 1) +
-        " h or more in one piece");
+        fmt::format("{}; allowed: {} h or more in one piece", message, text::fixed(shortest_h, 1)));
 }
 
 }  // namespace a351::corrector

@@ -1,10 +1,11 @@
-#include "corrector/command/retime_command.hpp"
+#include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 
+#include "corrector/command/commands.hpp"
+#include "corrector/command/options.hpp"
 #include "protocol/archive/retime.hpp"
 
 namespace a351::corrector {
@@ -18,14 +19,15 @@ void run(const RetimeOptions& options) {
     const record::RetimeReport report =
         record::retime(record::posix_files(), options.root, options.out);
     for (const record::JournalDamage& damage : report.damage) {
-        std::cerr << "a351-correct: " << damage.file.string() << ": offset " << damage.offset
-                  << ": " << damage.byte_count << " bytes are skipped: " << damage.reason << '\n';
+        std::cerr << fmt::format("a351-correct: {}: offset {}: {} bytes are skipped: {}\n",
+                                 damage.file.string(), damage.offset, damage.byte_count,
+                                 damage.reason);
     }
-    std::cout << options.out.string() << ": " << report.records << " records of "
-              << report.counters.sessions << " runs from " << report.segments
-              << " journal segments; " << report.counters.frames << " frames, "
-              << report.counters.gaps << " gaps, " << report.counters.samples_missing
-              << " samples missing\n";
+    std::cout << fmt::format(
+        "{}: {} records of {} runs from {} journal segments; {} frames, {} gaps, {} samples "
+        "missing\n",
+        options.out.string(), report.records, report.counters.sessions, report.segments,
+        report.counters.frames, report.counters.gaps, report.counters.samples_missing);
 }
 
 }  // namespace
@@ -37,12 +39,9 @@ void add_retime_command(CLI::App& program) {
         "known during the record: they use arrivals before and after each sample, and all "
         "instants at which the host's clock was synchronised.");
     const auto options = std::make_shared<RetimeOptions>();
-    command.add_option("ROOT", options->root, "Data root with a journal")
-        ->type_name("DIR")
-        ->required();
-    command.add_option("--out", options->out, "Data root to write: archive, events, metadata")
-        ->type_name("DIR")
-        ->required();
+    add_required(command, "ROOT", "DIR", options->root, "Data root with a journal");
+    add_required(command, "--out", "DIR", options->out,
+                 "Data root to write: archive, events, metadata");
     command.callback([options] { run(*options); });
 }
 

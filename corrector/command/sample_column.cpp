@@ -1,5 +1,7 @@
 #include "corrector/command/sample_column.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -95,8 +97,9 @@ void SampleColumn::check_time() {
             step_count_ == 0 ? step : (*last_time_ - *first_time_) / step_count_;
         if (std::abs(seconds_of(step - mean)) > kMostStepError * seconds_of(mean)) {
             reader_.refuse(column, in_seconds(step) + " after the row before it",
-                           "equal steps, here of " + in_seconds(mean) +
-                               "; a missing sample has a row with an empty cell");
+                           fmt::format("equal steps, here of {}; a missing sample has a row with "
+                                       "an empty cell",
+                                       in_seconds(mean)));
         }
         ++step_count_;
     } else {

@@ -1,15 +1,14 @@
-#include "corrector/command/smooth_command.hpp"
+#include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "corrector/command/commands.hpp"
 #include "corrector/command/csv_output.hpp"
-#include "corrector/command/option_values.hpp"
-#include "corrector/command/output_option.hpp"
+#include "corrector/command/options.hpp"
 #include "corrector/command/sample_column.hpp"
 #include "corrector/reading/smoother.hpp"
 #include "protocol/core/input_error.hpp"
@@ -25,21 +24,14 @@ struct SmoothOptions {
     std::string output;
 };
 
-std::vector<double> read_all(SampleColumn& column) {
-    std::vector<double> samples;
-    std::vector<double> block;
-    while (column.read(block)) samples.insert(samples.end(), block.begin(), block.end());
-    return samples;
-}
-
 SmoothTrend smooth_column(const SmoothOptions& options, const std::vector<double>& samples) {
     try {
         return smooth(samples, options.cutoff);
     } catch (const std::invalid_argument&) {
-        throw InputError(
-            options.input + ": " + options.column +
-            ": too many samples are missing for --cutoff = " + text::shortest(options.cutoff) +
-            "; allowed: gaps, also at the ends, that are not much longer than this period");
+        throw InputError(fmt::format(
+            "{}: {}: too many samples are missing for --cutoff = {}; allowed: gaps, also at the "
+            "ends, that are not much longer than this period",
+            options.input, options.column, text::shortest(options.cutoff)));
     }
 }
 
@@ -47,26 +39,26 @@ void write_trend(const SmoothOptions& options) {
     number_option("--cutoff", options.cutoff, kShortestCutoff, kLongestCutoff);
     if (!options.output.empty()) require_file_option("--output", options.output);
     SampleColumn column(options.input, options.column);
-    const std::vector<double> samples = read_all(column);
+    std::vector<double> samples, block;
+    while (column.read(block)) samples.insert(samples.end(), block.begin(), block.end());
     const std::size_t present_count = column.count() - column.missing_count();
     if (present_count < kFewestSamples) {
-        throw InputError(options.input + ": " + options.column + ": " +
-                         std::to_string(present_count) +
-                         " samples; allowed: " + std::to_string(kFewestSamples) + " or more");
+        throw InputError(fmt::format("{}: {}: {} samples; allowed: {} or more", options.input,
+                                     options.column, present_count, kFewestSamples));
     }
     const SmoothTrend trend = smooth_column(options, samples);
     const std::vector<double> errors = trend.standard_errors();
     std::string csv = "index,value,standard_error,weight\n";
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        csv += std::to_string(i) + ',' + text::shortest(trend.curve[i]) + ',' +
-               text::shortest(errors[i]) + ',' + text::shortest(trend.weights[i]) + '\n';
+        csv += fmt::format("{},{},{},{}\n", i, text::shortest(trend.curve[i]),
+                           text::shortest(errors[i]), text::shortest(trend.weights[i]));
     }
     write_or_print(options.output, csv);
-    std::cerr << "a351-correct: smooth: " << column.count() << " samples ("
-              << column.missing_count() << " missing), noise level "
-              << text::shortest(trend.noise_level) << ", degrees of freedom "
-              << text::shortest(trend.degrees_of_freedom)
-              << (trend.converged ? "" : "; the weights of the outliers did not converge") << '\n';
+    std::cerr << fmt::format(
+        "a351-correct: smooth: {} samples ({} missing), noise level {}, degrees of freedom {}{}\n",
+        column.count(), column.missing_count(), text::shortest(trend.noise_level),
+        text::shortest(trend.degrees_of_freedom),
+        trend.converged ? "" : "; the weights of the outliers did not converge");
 }
 
 }  // namespace
@@ -78,24 +70,11 @@ void add_smooth_command(CLI::App& program) {
         "noise. "
         "Writes CSV index,value,standard_error,weight. Gaps are bridged, outliers get no weight.");
     const auto options = std::make_shared<SmoothOptions>();
-    command
-        .add_option("--input", options->input,
-                    "Table with a header line; a column time, time_utc or time_s must ascend in "
-                    "equal steps")
-        ->type_name("CSV")
-        ->required();
-    command
-        .add_option("--column", options->column,
-                    "Column to read; an empty cell is a missing sample")
-        ->type_name("NAME")
-        ->required();
-    command
-        .add_option("--cutoff", options->cutoff,
-                    "Period at which the smoother passes half of the amplitude, 2-5000 samples")
-        ->type_name("SAMPLES")
-        ->required();
-    command.add_option("--output", options->output, "File to write instead of standard output")
-        ->type_name("CSV");
+    add_column_options(command, options->input, options->column);
+    add_required(command, "--cutoff", "SAMPLES", options->cutoff,
+                 "Period at which the smoother passes half of the amplitude, 2-5000 samples");
+    add_option(command, "--output", "CSV", options->output,
+               "File to write instead of standard output");
     command.callback([options] { write_trend(*options); });
 }
 

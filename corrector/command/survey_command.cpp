@@ -1,19 +1,16 @@
-#include "corrector/command/survey_command.hpp"
+#include <fmt/core.h>
 
-#include <unistd.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 
-#include "corrector/command/figures_option.hpp"
-#include "corrector/command/option_values.hpp"
-#include "corrector/command/output_option.hpp"
+#include "corrector/command/commands.hpp"
+#include "corrector/command/options.hpp"
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/job/survey_file.hpp"
 #include "corrector/job/survey_readings.hpp"
@@ -21,7 +18,6 @@
 #include "corrector/model/trend_comparison.hpp"
 #include "corrector/report/joint_page.hpp"
 #include "corrector/report/report.hpp"
-#include "corrector/result/export_files.hpp"
 #include "corrector/result/joint_table.hpp"
 #include "corrector/result/result_files.hpp"
 #include "corrector/result/table_text.hpp"
@@ -59,8 +55,9 @@ SurveyFile with_overrides(SurveyFile survey, const SurveyCommandOptions& options
     if (!options.from.empty()) survey.from = instant_option("--from", options.from);
     if (!options.to.empty()) survey.to = instant_option("--to", options.to);
     if (survey.from && survey.to && *survey.from >= *survey.to) {
-        throw InputError(survey.path.string() + ": to_utc = " + to_rfc3339(*survey.to) +
-                         "; allowed: an instant after from_utc = " + to_rfc3339(*survey.from));
+        throw InputError(fmt::format("{}: to_utc = {}; allowed: an instant after from_utc = {}",
+                                     survey.path.string(), to_rfc3339(*survey.to),
+                                     to_rfc3339(*survey.from)));
     }
     return survey;
 }
@@ -112,31 +109,25 @@ SurveyCorrection corrected(const SurveyFile& survey, OccupationRows& read) {
         add_left_out(result, read.left_out);
         return result;
     } catch (const InputError& error) {
-        std::string message = survey.path.string() + ": " + error.what();
+        std::string message = fmt::format("{}: {}", survey.path.string(), error.what());
         for (const std::string& warning : read.warnings) message += "; " + warning;
         throw InputError(message);
     }
 }
 
 Day correct_day(const SurveyFile& survey, const std::vector<std::string>& picture_formats) {
-    ProgressBar bar(std::cerr, ::isatty(STDERR_FILENO) == 1, survey.name);
-    OccupationRows read =
-        read_survey(survey, [&bar](std::size_t done, std::size_t total) { bar.show(done, total); });
+    ProgressBar bar(survey.name);
+    OccupationRows read = read_survey(survey, std::ref(bar));
     Day day;
     day.name = survey.name;
     day.result = corrected(survey, read);
     day.amendments = amendments_text(read.amendments);
     const nlohmann::ordered_json settings = settings_of(survey, day.result, read);
-    day.files = result_files(day.result, settings, read.inputs);
-    for (text::NamedText& file : export_files(day.result, read.sites)) {
-        day.files.push_back(std::move(file));
-    }
-    std::vector<std::string> notes = read.warnings;
-    notes.insert(notes.end(), day.result.remarks.begin(), day.result.remarks.end());
-    Report report =
-        make_report(day.result, settings,
-                    {survey.name, read.sites, std::move(read.records),
-                     std::move(read.temperature_course), read.inputs, notes, picture_formats});
+    day.files = result_files(day.result, settings, read.inputs, read.sites);
+    Report report = make_report(
+        day.result, settings,
+        {survey.name, read.sites, std::move(read.records), std::move(read.temperature_course),
+         read.inputs, read.warnings, picture_formats});
     std::move(report.files.begin(), report.files.end(), std::back_inserter(day.files));
     read.warnings.insert(read.warnings.end(), report.warnings.begin(), report.warnings.end());
     for (const std::string& warning : read.warnings) {
@@ -151,8 +142,9 @@ void correct_days(const SurveyCommandOptions& options) {
     for (const std::string& file : options.files) {
         surveys.push_back(with_overrides(read_survey_file(file), options));
         if (!names.insert(folder_name(surveys.back().name)).second) {
-            throw InputError(file + ": survey.name = " + surveys.back().name +
-                             ": used by two days; allowed: a different name for each day");
+            throw InputError(fmt::format(
+                "{}: survey.name = {}: used by two days; allowed: a different name for each day",
+                file, surveys.back().name));
         }
     }
     const std::filesystem::path out = options.out.empty()
@@ -169,7 +161,8 @@ void correct_days(const SurveyCommandOptions& options) {
             days.push_back(correct_day(survey, options.figures));
         } catch (const InputError& error) {
             joint_days.back().trouble = error.what();
-            troubles += (troubles.empty() ? "" : "; ") + survey.name + ": " + error.what();
+            troubles +=
+                fmt::format("{}{}: {}", troubles.empty() ? "" : "; ", survey.name, error.what());
         }
     }
     if (days.empty()) throw InputError(is_joint ? troubles : joint_days.front().trouble);
@@ -194,9 +187,9 @@ void correct_days(const SurveyCommandOptions& options) {
     }
     std::cout << "written to " << out.string() << '\n';
     if (!troubles.empty())
-        throw std::runtime_error(std::to_string(surveys.size() - days.size()) + " of " +
-                                 std::to_string(surveys.size()) +
-                                 " days are not corrected, the others are written: " + troubles);
+        throw std::runtime_error(
+            fmt::format("{} of {} days are not corrected, the others are written: {}",
+                        surveys.size() - days.size(), surveys.size(), troubles));
 }
 
 }  // namespace
@@ -205,52 +198,32 @@ void add_survey_command(CLI::App& program) {
     CLI::App& command =
         *program.add_subcommand("survey", "Corrects survey days from the archive of a data root.");
     const auto options = std::make_shared<SurveyCommandOptions>();
-    command.add_option("FILE", options->files, "Survey files (TOML), one per day")
-        ->type_name("")
-        ->required();
-    command
-        .add_option("--out", options->out,
-                    "Folder of the result (default: result beside the first survey file); several "
-                    "days have one folder each in it")
-        ->type_name("DIR");
-    command.add_option("--model", options->model, "Model of the instrument")
-        ->type_name("NAME")
+    add_required(command, "FILE", "", options->files, "Survey files (TOML), one per day");
+    add_option(command, "--out", "DIR", options->out,
+               "Folder of the result (default: result beside the first survey file); several days "
+               "have one folder each in it");
+    add_option(command, "--model", "NAME", options->model, "Model of the instrument")
         ->check(CLI::IsMember(model_names()));
-    command
-        .add_option("--flags", options->flags,
-                    "use: occupations with used = 0 are not used in the fit; ignore: they are used")
-        ->type_name("RULE")
+    add_option(command, "--flags", "RULE", options->flags,
+               "use: occupations with used = 0 are not used in the fit; ignore: they are used")
         ->check(CLI::IsMember({"use", "ignore"}));
-    command
-        .add_option("--tide", options->tide,
-                    "Tide, as its effect on gravity, that is subtracted from the readings: " +
-                        std::string(kTideSources))
-        ->type_name("SOURCE");
-    command
-        .add_option("--trend", options->trend,
-                    "Trend that is averaged; the model paper always uses eemd")
-        ->type_name("NAME")
+    add_option(command, "--tide", "SOURCE", options->tide,
+               "Tide, as its effect on gravity, that is subtracted from the readings: " +
+                   std::string(kTideSources));
+    add_option(command, "--trend", "NAME", options->trend,
+               "Trend that is averaged; the model paper always uses eemd")
         ->check(CLI::IsMember({"eemd", "smoother"}));
-    command
-        .add_option("--curve", options->curve,
-                    "Components that make the EEMD trend; the model paper always uses paper")
-        ->type_name("NAME")
+    add_option(command, "--curve", "NAME", options->curve,
+               "Components that make the EEMD trend; the model paper always uses paper")
         ->check(CLI::IsMember({"paper", "slow"}));
-    command
-        .add_option("--calibration", options->calibration,
-                    "Calibration of the unit, made by a351-correct calibrate")
-        ->type_name("FILE");
-    command
-        .add_option("--from", options->from,
-                    "Use occupations that start at or after this instant (RFC 3339). Default: the "
-                    "last survey day in the log; days are separated by a pause of six hours")
-        ->type_name("UTC");
-    command
-        .add_option(
-            "--to", options->to,
-            "Use occupations that start before this instant (RFC 3339). Default: the end of "
-            "the log")
-        ->type_name("UTC");
+    add_option(command, "--calibration", "FILE", options->calibration,
+               "Calibration of the unit, made by a351-correct calibrate");
+    add_option(command, "--from", "UTC", options->from,
+               "Use occupations that start at or after this instant (RFC 3339). Default: the last "
+               "survey day in the log; days are separated by a pause of six hours");
+    add_option(
+        command, "--to", "UTC", options->to,
+        "Use occupations that start before this instant (RFC 3339). Default: the end of the log");
     add_figures_option(command, options->figures);
     command.callback([options] { correct_days(*options); });
 }

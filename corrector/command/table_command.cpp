@@ -1,17 +1,12 @@
-#include "corrector/command/table_command.hpp"
-
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "corrector/command/figures_option.hpp"
-#include "corrector/command/option_values.hpp"
-#include "corrector/command/output_option.hpp"
+#include "corrector/command/commands.hpp"
+#include "corrector/command/options.hpp"
 #include "corrector/report/report.hpp"
-#include "corrector/result/export_files.hpp"
 #include "corrector/result/result_files.hpp"
 #include "corrector/result/table_text.hpp"
 #include "corrector/tide/tide_choice.hpp"
@@ -40,9 +35,7 @@ void correct_table(TableOptions options) {
     if (options.tide.empty()) options.tide = rows.front().given_tide ? "given" : "direct";
     TideChoice tide;
     set_tide_option(tide, options.tide);
-    tide.factors = {
-        number_option("--delta2", options.factors.delta2, kLeastFactor, kGreatestFactor),
-        number_option("--delta3", options.factors.delta3, kLeastFactor, kGreatestFactor)};
+    tide.factors = tide_factor_options(options.factors);
     apply_tide(rows, sites, tide);
     options.survey.use_flags = options.flags == "use";
     for (const auto& [name, mean, sd] : options.priors) {
@@ -68,17 +61,14 @@ void correct_table(TableOptions options) {
     std::vector<text::InputFile> inputs{text::describe_input("sites", options.sites),
                                         text::describe_input("observations", options.observations)};
     if (!tide.series.empty()) inputs.push_back(text::describe_input("tide", tide.series));
-    std::vector<text::NamedText> files = result_files(result, settings, inputs);
-    for (text::NamedText& file : export_files(result, sites)) files.push_back(std::move(file));
-    std::vector<std::string> notes = warnings;
-    notes.insert(notes.end(), result.remarks.begin(), result.remarks.end());
+    std::vector<text::NamedText> files = result_files(result, settings, inputs, sites);
     Report report = make_report(result, settings,
                                 {std::filesystem::path(options.observations).stem().string(),
                                  sites,
                                  {},
                                  {},
                                  inputs,
-                                 notes,
+                                 warnings,
                                  options.figures});
     std::move(report.files.begin(), report.files.end(), std::back_inserter(files));
     text::write_together(options.out, files);
@@ -93,82 +83,42 @@ void add_table_command(CLI::App& program) {
     CLI::App& command = *program.add_subcommand(
         "table", "Corrects a survey that is given as one average per occupation.");
     const auto options = std::make_shared<TableOptions>();
-    command.add_option("--sites", options->sites, "Benchmarks")->type_name("CSV")->required();
-    command
-        .add_option("--observations", options->observations,
-                    "Averages, with the columns site, occupation, time_utc (or time_jst, time), "
-                    "acceleration_mgal, temperature_degc and, if known, outlier and "
-                    "earth_tide_mgal")
-        ->type_name("CSV")
-        ->required();
-    command.add_option("--model", options->survey.model, "Model of the instrument")
-        ->type_name("NAME")
-        ->check(CLI::IsMember(model_names()))
-        ->capture_default_str();
-    command
-        .add_option("--flags", options->flags,
-                    "use: rows with outlier = 1 are not used in the fit; ignore: they are used")
-        ->type_name("RULE")
-        ->check(CLI::IsMember({"use", "ignore"}))
-        ->capture_default_str();
-    command
-        .add_option("--tide", options->tide,
-                    "Tide, as its effect on gravity, that is subtracted from the readings: " +
-                        std::string(kTideSources) +
-                        " (default: given if the column exists, else direct)")
-        ->type_name("SOURCE");
-    command
-        .add_option("--delta2", options->factors.delta2,
-                    "Gravimetric factor of degree 2 (1: rigid Earth)")
-        ->type_name("FACTOR")
-        ->capture_default_str();
-    command
-        .add_option("--delta3", options->factors.delta3,
-                    "Gravimetric factor of degree 3 (1: rigid Earth)")
-        ->type_name("FACTOR")
-        ->capture_default_str();
-    command
-        .add_option("--base", options->survey.base,
-                    "Base station, for the drift of the model paper (default: station of the first "
-                    "row)")
-        ->type_name("SITE");
-    command
-        .add_option("--datum", options->survey.datum,
-                    "Stations whose reference gravity is used (default: all that have one)")
-        ->type_name("SITE");
-    command
-        .add_option("--prior", options->priors,
-                    "Coefficient known beforehand: its name in result.json, mean and standard "
-                    "deviation")
-        ->type_name("NAME MEAN SD");
-    command
-        .add_option("--datum-sd", options->survey.network.datum_sd_mgal,
-                    "network: standard deviation of a reference that is held")
-        ->type_name("MGAL")
-        ->capture_default_str();
-    command
-        .add_option("--reading-sd", options->survey.priors.reading_sd_mgal,
-                    "Standard deviation of a reading: its weight against priors and datum")
-        ->type_name("MGAL")
-        ->capture_default_str();
-    command
-        .add_option("--drift-degree", options->survey.network.drift_degree,
-                    "network: degree of the polynomial in time that describes the drift, 0-2")
-        ->type_name("N")
-        ->check(CLI::Range(0, 2))
-        ->capture_default_str();
+    add_required(command, "--sites", "CSV", options->sites, "Benchmarks");
+    add_required(command, "--observations", "CSV", options->observations,
+                 "Averages, with the columns site, occupation, time_utc (or time_jst, time), "
+                 "acceleration_mgal, temperature_degc and, if known, outlier and earth_tide_mgal");
+    add_with_default(command, "--model", "NAME", options->survey.model, "Model of the instrument")
+        ->check(CLI::IsMember(model_names()));
+    add_with_default(command, "--flags", "RULE", options->flags,
+                     "use: rows with outlier = 1 are not used in the fit; ignore: they are used")
+        ->check(CLI::IsMember({"use", "ignore"}));
+    add_option(command, "--tide", "SOURCE", options->tide,
+               "Tide, as its effect on gravity, that is subtracted from the readings: " +
+                   std::string(kTideSources) +
+                   " (default: given if the column exists, else direct)");
+    add_tide_factors(command, options->factors);
+    add_option(
+        command, "--base", "SITE", options->survey.base,
+        "Base station, for the drift of the model paper (default: station of the first row)");
+    add_option(command, "--datum", "SITE", options->survey.datum,
+               "Stations whose reference gravity is used (default: all that have one)");
+    add_option(
+        command, "--prior", "NAME MEAN SD", options->priors,
+        "Coefficient known beforehand: its name in result.json, mean and standard deviation");
+    add_with_default(command, "--datum-sd", "MGAL", options->survey.network.datum_sd_mgal,
+                     "network: standard deviation of a reference that is held");
+    add_with_default(command, "--reading-sd", "MGAL", options->survey.priors.reading_sd_mgal,
+                     "Standard deviation of a reading: its weight against priors and datum");
+    add_with_default(command, "--drift-degree", "N", options->survey.network.drift_degree,
+                     "network: degree of the polynomial in time that describes the drift, 0-2")
+        ->check(CLI::Range(0, 2));
     std::vector<std::string> linear_models;
     linear_models.reserve(kLinearModels.size());
     for (const LinearModel& model : kLinearModels) linear_models.emplace_back(model.name);
-    command
-        .add_option("--robust-terms", options->survey.robust_terms,
-                    "robust: linear model that is fitted")
-        ->type_name("NAME")
-        ->check(CLI::IsMember(linear_models))
-        ->capture_default_str();
-    command.add_option("--out", options->out, "Folder of the result")
-        ->type_name("DIR")
-        ->capture_default_str();
+    add_with_default(command, "--robust-terms", "NAME", options->survey.robust_terms,
+                     "robust: linear model that is fitted")
+        ->check(CLI::IsMember(linear_models));
+    add_with_default(command, "--out", "DIR", options->out, "Folder of the result");
     add_figures_option(command, options->figures);
     command.callback([options] { correct_table(*options); });
 }

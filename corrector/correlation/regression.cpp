@@ -2,9 +2,55 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
 
 namespace a351::corrector {
+namespace {
+
+/// Sums of products of deviations from the means.
+struct Products {
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+};
+
+Products products(std::span<const double> x, std::span<const double> y, double mean_x,
+                  double mean_y) {
+    Products sums;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const double dx = x[i] - mean_x, dy = y[i] - mean_y;
+        sums.xx += dx * dx;
+        sums.xy += dx * dy;
+        sums.yy += dy * dy;
+    }
+    return sums;
+}
+
+/// Returns the correlation at a lag, over the samples that overlap.
+double correlation(std::span<const double> temperature, std::span<const double> acceleration,
+                   int lag) {
+    const auto shift = static_cast<std::size_t>(std::abs(lag));
+    const std::size_t count = temperature.size() - shift;
+    const auto x = lag >= 0 ? temperature.first(count) : temperature.subspan(shift);
+    const auto y = lag >= 0 ? acceleration.subspan(shift) : acceleration.first(count);
+    const auto [xx, xy, yy] = products(x, y, mean_of(x), mean_of(y));
+    return xy / std::sqrt(xx * yy);
+}
+
+/// Returns the strongest correlation of a sign (1 or -1) among the middle half of the lags.
+CorrelationPeak find_peak(const CrossCorrelation& all, double sign, double step_s) {
+    const std::size_t half_cycle = (all.values.size() - 1) / 4;
+    std::size_t best = half_cycle;
+    for (std::size_t i = half_cycle; i <= 3 * half_cycle; ++i)
+        if (sign * all.values[i] > sign * all.values[best]) best = i;
+    const double before = all.values[best - 1], here = all.values[best],
+                 after = all.values[best + 1];
+    // Top of the parabola through three values: shift (b - a) / (2 (b - 2 h + a)), |shift| <= 1.
+    const double bend = before - 2.0 * here + after;
+    const double shift = bend != 0.0 ? std::clamp(0.5 * (before - after) / bend, -1.0, 1.0) : 0.0;
+    return {all.delays_s[best] + step_s * shift, here - 0.25 * (before - after) * shift};
+}
+
+}  // namespace
 
 double mean_of(std::span<const double> values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -19,20 +65,11 @@ double variance_of(std::span<const double> values) {
 
 LineFit fit_line(std::span<const double> x, std::span<const double> y, std::size_t correlated) {
     LineFit fit;
-    fit.count = x.size();
     fit.mean_x = mean_of(x);
     fit.mean_y = mean_of(y);
-    double xx = 0.0, xy = 0.0, yy = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        const double dx = x[i] - fit.mean_x, dy = y[i] - fit.mean_y;
-        xx += dx * dx;
-        xy += dx * dy;
-        yy += dy * dy;
-    }
-    fit.intercept = fit.mean_y;
+    const auto [xx, xy, yy] = products(x, y, fit.mean_x, fit.mean_y);
     if (!(xx > 0.0)) return fit;
     fit.slope = xy / xx;
-    fit.intercept = fit.mean_y - fit.slope * fit.mean_x;
     fit.r2 = yy > 0.0 ? xy * xy / (xx * yy) : 0.0;
 
     // Newey and West 1987: S = sum m_i^2 + 2 sum_l w_l sum_i m_i m_(i-l),  w_l = 1 - l / (L + 1)
@@ -61,6 +98,18 @@ std::vector<double> without_line(std::span<const double> values) {
     for (std::size_t i = 0; i < rest.size(); ++i)
         rest[i] -= line.mean_y + line.slope * (numbers[i] - line.mean_x);
     return rest;
+}
+
+CrossCorrelation correlate(std::span<const double> temperature,
+                           std::span<const double> acceleration, int half_cycle, double step_s) {
+    CrossCorrelation all;
+    for (int lag = -2 * half_cycle; lag <= 2 * half_cycle; ++lag) {
+        all.delays_s.push_back(step_s * lag);
+        all.values.push_back(correlation(temperature, acceleration, lag));
+    }
+    all.negative = find_peak(all, -1.0, step_s);
+    all.positive = find_peak(all, 1.0, step_s);
+    return all;
 }
 
 }  // namespace a351::corrector

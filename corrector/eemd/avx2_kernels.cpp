@@ -3,32 +3,20 @@
 // Compiled for this instruction set if the compiler supports it (CMakeLists.txt).  Nothing here may
 // be shared with files that are compiled without it.
 #ifdef __AVX2__
-
-#include "corrector/eemd/noise_loops.hpp"
-#include "corrector/eemd/sift_loops.hpp"
-#include "corrector/eemd/spline_loops.hpp"
-#include "corrector/eemd/sum_loops.hpp"
+#include "corrector/eemd/kernel_table.hpp"
+#endif
 
 namespace a351::corrector {
 
 const SiftKernels* avx2_kernels() noexcept {
-    static constexpr SiftKernels kernels = {
-        "AVX2",     find_extrema, fit_mean_envelope, subtract_mean_envelope,
-        fill_noise, subtract,     accumulate};
-    const bool available = __builtin_cpu_supports("avx2") != 0 &&
-                           __builtin_cpu_supports("bmi") != 0 &&
-                           __builtin_cpu_supports("popcnt") != 0;
-    return available ? &kernels : nullptr;
+#ifdef __AVX2__
+    static constexpr SiftKernels kernels = table_of_loops("AVX2");
+    if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("bmi") != 0 &&
+        __builtin_cpu_supports("popcnt") != 0) {
+        return &kernels;
+    }
+#endif
+    return nullptr;
 }
 
 }  // namespace a351::corrector
-
-#else
-
-namespace a351::corrector {
-
-const SiftKernels* avx2_kernels() noexcept { return nullptr; }
-
-}  // namespace a351::corrector
-
-#endif

@@ -1,11 +1,13 @@
 #include "corrector/eemd/eemd.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string>
+#include <string_view>
 
 #include "corrector/eemd/ensemble.hpp"
 #include "corrector/eemd/extrema.hpp"
@@ -13,31 +15,27 @@
 namespace a351::corrector {
 namespace {
 
-void require(bool holds, const std::string& message) {
-    if (!holds) throw std::invalid_argument("eemd: " + message);
+void require(bool holds, std::string_view name, int value, std::string_view limits) {
+    if (holds) return;
+    throw std::invalid_argument(fmt::format("eemd: {} = {}, must be {}", name, value, limits));
 }
 
 void validate(const EemdOptions& options) {
-    const auto number = [](auto value) { return std::to_string(value); };
-    require(options.ensemble_size >= 1,
-            "ensemble_size = " + number(options.ensemble_size) + ", must be >= 1");
-    require(!options.complementary_pairs || options.ensemble_size % 2 == 0,
-            "ensemble_size = " + number(options.ensemble_size) + ", must be even for pairs");
-    require(options.noise_ratio >= 0.0 && std::isfinite(options.noise_ratio),
-            "noise_ratio = " + number(options.noise_ratio) + ", must be finite and >= 0");
-    require(options.mode_count.value_or(0) >= 0,
-            "mode_count = " + number(options.mode_count.value_or(0)) + ", must be >= 0");
-    require(options.threads >= 1, "threads = " + number(options.threads) + ", must be >= 1");
-    const auto require_sifts = [&](const std::string& name, int sifts) {
-        require(sifts >= 1 && sifts <= kMaxSifts,
-                name + " = " + number(sifts) + ", must be 1 to " + number(kMaxSifts));
-    };
+    require(options.ensemble_size >= 1, "ensemble_size", options.ensemble_size, ">= 1");
+    require(!options.complementary_pairs || options.ensemble_size % 2 == 0, "ensemble_size",
+            options.ensemble_size, "even for pairs");
+    if (!(options.noise_ratio >= 0.0 && std::isfinite(options.noise_ratio))) {
+        throw std::invalid_argument(
+            fmt::format("eemd: noise_ratio = {:f}, must be finite and >= 0", options.noise_ratio));
+    }
+    const int mode_count = options.mode_count.value_or(0);
+    require(mode_count >= 0, "mode_count", mode_count, ">= 0");
+    require(options.threads >= 1, "threads", options.threads, ">= 1");
     if (const auto* fixed = std::get_if<FixedSifts>(&options.stopping)) {
-        require_sifts("stopping.count", fixed->count);
+        require(fixed->count >= 1 && fixed->count <= kMaxSifts, "stopping.count", fixed->count,
+                fmt::format("1 to {}", kMaxSifts));
     } else if (const auto* s_number = std::get_if<SNumber>(&options.stopping)) {
-        require_sifts("stopping.max_sifts", s_number->max_sifts);
-        require(s_number->repeats >= 1,
-                "stopping.repeats = " + number(s_number->repeats) + ", must be >= 1");
+        require(s_number->repeats >= 1, "stopping.repeats", s_number->repeats, ">= 1");
     }
 }
 
@@ -72,9 +70,11 @@ constexpr double kTooLarge = 1e300;
 int common_exponent(std::span<const double> signal) {
     double largest = 0.0;
     for (std::size_t i = 0; i < signal.size(); ++i) {
-        require(std::abs(signal[i]) < kTooLarge,
-                "signal[" + std::to_string(i) + "] = " + std::to_string(signal[i]) +
-                    ", must be finite and below 1e300 in magnitude");
+        if (!(std::abs(signal[i]) < kTooLarge)) {
+            throw std::invalid_argument(
+                fmt::format("eemd: signal[{}] = {:f}, must be finite and below 1e300 in magnitude",
+                            i, signal[i]));
+        }
         largest = std::max(largest, std::abs(signal[i]));
     }
     int exponent = 0;
@@ -140,7 +140,7 @@ public:
         plan.pairs = plan.noise_level > 0.0 && options.complementary_pairs;
         plan.mode_count =
             static_cast<std::size_t>(options.mode_count.value_or(default_mode_count(n)));
-        plan.sifting = {options.stopping, options.finish, options.ends, options.spline_ends};
+        plan.sifting = {options.stopping, options.finish, options.ends};
         plan.seed = options.seed;
         threads_ = options.threads;
         if (options.progress) {
@@ -168,8 +168,6 @@ public:
     void restore_unit(std::span<double> values) const {
         for (double& value : values) value = std::ldexp(value, exponent);
     }
-    /// Returns the level of the added noise in the unit of the record.
-    [[nodiscard]] double noise_level() const { return std::ldexp(plan.noise_level, exponent); }
 
     const int exponent;
     EnsemblePlan plan;
@@ -224,14 +222,7 @@ EemdResult eemd(std::span<const double> signal, const EemdOptions& options) {
         for (Component& mode : result.modes) mode.energy_share /= total_energy;
         result.residue.energy_share /= total_energy;
     }
-    result.members = plan.members;
-    result.noise_level = prepared.noise_level();
-    for (std::size_t i = 0; i < n; ++i) {
-        double total = 0.0;
-        for (const Component& mode : result.modes) total += mode.values[i];
-        total += result.residue.values[i];
-        result.closure_error = std::max(result.closure_error, std::abs(signal[i] - total));
-    }
+    result.noise_level = std::ldexp(plan.noise_level, prepared.exponent);
     return result;
 }
 
@@ -243,7 +234,6 @@ EemdTrend eemd_trend(std::span<const double> signal, std::size_t most_extrema,
     plan.left = left;
     plan.mode_count = 0;
     EemdTrend trend;
-    trend.noise_level = prepared.noise_level();
     for (;; ++trend.removed_modes) {
         trend.values = prepared.mean(prepared.sum(plan).values);
         prepared.restore_unit(trend.values);

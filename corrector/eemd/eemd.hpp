@@ -32,7 +32,6 @@ struct EemdOptions {
     std::optional<int> mode_count = std::nullopt;
     FinishRule finish = FinishRule::at_most_two_extrema;
     EndRule ends = EndRule::line;
-    SplineEnds spline_ends = SplineEnds::not_a_knot;
     /// Decomposes the record with half its length reflected at either end.  This is twice the work,
     /// and best if the ends are disturbed (eemd.md, "Ends").
     bool reflect_ends = false;
@@ -69,9 +68,7 @@ struct Component {
 struct EemdResult {
     std::vector<Component> modes;  ///< Modes, the fastest first; zero if no member had one left.
     Component residue;             ///< Rest after all modes were removed.
-    int members = 0;  ///< Number of members averaged: the ensemble size, or 1 without noise.
-    double noise_level = 0.0;    ///< Std. deviation of the added noise, unit of the signal.
-    double closure_error = 0.0;  ///< max |signal - sum of modes - residue|, unit of the signal.
+    double noise_level = 0.0;      ///< Std. deviation of the added noise, unit of the signal.
 };
 
 /// Returns the default number of modes without the residue: floor(log2(n)) - 1, and 0 for n < 4.
@@ -88,7 +85,7 @@ struct EemdResult {
 /// - The sum of all components differs from the signal by the mean of the added noise, about
 ///   noise_level / sqrt(members).
 /// - Half a period of every mode next to either end is extrapolation.
-/// - Without noise there is one member: `members` is 1, and standard errors are absent.
+/// - Without noise there is one member, and standard errors are absent.
 /// - A constant signal gets no noise.  Its modes are zero, and the residue is the signal bit for
 ///   bit (degenerate_test.cpp).
 /// - For n < 4 there are no modes by default: the residue is the signal with the mean noise.
@@ -120,7 +117,6 @@ struct EemdResult {
 struct EemdTrend {
     std::vector<double> values;  ///< (n), unit of the signal.
     int removed_modes = 0;       ///< Number of modes removed from the signal.
-    double noise_level = 0.0;    ///< Std. deviation of the added noise, unit of the signal.
 };
 
 /// Returns the residue of eemd() after the smallest number of modes that leaves at most

@@ -9,6 +9,7 @@ public:
     void observe(std::size_t extrema, bool first_is_maximum) noexcept {
         const std::size_t maxima = (extrema + (first_is_maximum ? 1 : 0)) / 2;
         const std::size_t minima = extrema - maxima;
+        const auto distance = [](std::size_t a, std::size_t b) { return a > b ? a - b : b - a; };
         const std::size_t change = distance(maxima, maxima_) + distance(minima, minima_);
         repeats_ = !first_ && change <= 1 ? repeats_ + 1 : 0;
         first_ = false;
@@ -18,21 +19,11 @@ public:
     [[nodiscard]] int repeats() const noexcept { return repeats_; }
 
 private:
-    static std::size_t distance(std::size_t a, std::size_t b) noexcept {
-        return a > b ? a - b : b - a;
-    }
-
     bool first_ = true;
     std::size_t maxima_ = 0;
     std::size_t minima_ = 0;
     int repeats_ = 0;
 };
-
-int sift_limit(const StoppingRule& stopping) noexcept {
-    if (const auto* fixed = std::get_if<FixedSifts>(&stopping)) return fixed->count;
-    if (const auto* s_number = std::get_if<SNumber>(&stopping)) return s_number->max_sifts;
-    return 0;
-}
 
 }  // namespace
 
@@ -49,8 +40,9 @@ std::span<const double> EmdWorkspace::next_mode(const SiftOptions& options) noex
     if (sample_count_ < 2) return {};
     find_extrema(residue_.data());
     if (options.finish == FinishRule::at_most_two_extrema && knots_.extrema_count() <= 2) return {};
-    const int limit = sift_limit(options.stopping);
+    const auto* fixed = std::get_if<FixedSifts>(&options.stopping);
     const auto* s_number = std::get_if<SNumber>(&options.stopping);
+    const int limit = fixed != nullptr ? fixed->count : kMostSNumberSifts;
     Stability stability;
     const double* curve = residue_.data();
     for (int sifts = 0; sifts < limit; ++sifts) {
@@ -59,7 +51,7 @@ std::span<const double> EmdWorkspace::next_mode(const SiftOptions& options) noex
             stability.observe(knots_.extrema_count(), knots_.first_is_maximum());
             if (stability.repeats() >= s_number->repeats && has_extrema_of_correct_sign()) break;
         }
-        sift(curve, options);
+        sift(curve, options.ends);
         curve = mode_.data();
     }
     kernels_.subtract(residue_.data(), mode_.data(), sample_count_);
@@ -73,17 +65,17 @@ void EmdWorkspace::find_extrema(const double* curve) noexcept {
     knots_.take(count, count > 0 && values[0] > curve[0]);
 }
 
-void EmdWorkspace::sift(const double* curve, const SiftOptions& options) noexcept {
-    knots_.add_ends({curve, sample_count_}, options.ends);
+void EmdWorkspace::sift(const double* curve, EndRule ends) noexcept {
+    knots_.add_ends({curve, sample_count_}, ends);
     const std::span<const double> x = knots_.positions();
     const std::span<const double> y = knots_.values();
     const double last_sample = curve[sample_count_ - 1];
-    kernels_.fit_mean_envelope(x.data(), y.data(), x.size(), options.spline_ends,
-                               envelope_.arrays());
+    kernels_.fit_mean_envelope(x.data(), y.data(), x.size(), envelope_.arrays());
     kernels_.subtract_mean_envelope(curve, mode_.data(), sample_count_, knots_.segment_starts(),
                                     x.data(), knots_.first_segment(), envelope_.arrays());
     if (knots_.ends_at_last_sample()) {
-        // The last knots themselves.  The cubic is only evaluated before them.
+        // The cubics are evaluated only before the last knots.  At the last sample the envelopes
+        // have the values of the last two knots.
         mode_.data()[sample_count_ - 1] = last_sample - 0.5 * (y[y.size() - 2] + y.back());
     }
 }

@@ -24,9 +24,12 @@ struct FixedSifts {
 /// `repeats` consecutive sifts, and every maximum is above zero and every minimum below.
 /// Source: N. E. Huang et al., Proc. R. Soc. A 459, 2317-2345, 2003 (S-number).
 struct SNumber {
-    int repeats = 4;     ///< Consecutive sifts without a greater change, >= 1.
-    int max_sifts = 50;  ///< Most sifts per mode, 1 ... kMaxSifts.
+    int repeats = 4;  ///< Consecutive sifts without a greater change, >= 1.
 };
+
+/// Most sifts per mode by the rule SNumber.  Reason: libeemd's tables are made with it
+/// (tests/golden/emd).
+inline constexpr int kMostSNumberSifts = 50;
 
 using StoppingRule = std::variant<FixedSifts, SNumber>;
 
@@ -44,7 +47,6 @@ struct SiftOptions {
     StoppingRule stopping = FixedSifts{};
     FinishRule finish = FinishRule::at_most_two_extrema;
     EndRule ends = EndRule::line;
-    SplineEnds spline_ends = SplineEnds::not_a_knot;
 };
 
 /// Decomposes series of one length, one after the other, in place.
@@ -72,7 +74,7 @@ public:
 
 private:
     void find_extrema(const double* curve) noexcept;
-    void sift(const double* curve, const SiftOptions& options) noexcept;
+    void sift(const double* curve, EndRule ends) noexcept;
     [[nodiscard]] bool has_extrema_of_correct_sign() const noexcept;
 
     const SiftKernels& kernels_;

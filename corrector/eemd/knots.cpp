@@ -3,14 +3,6 @@
 #include <algorithm>
 
 namespace a351::corrector {
-namespace {
-
-/// Returns the value at `position` of the line through (x1, y1) and (x2, y2).
-double line_at(double position, double x1, double y1, double x2, double y2) {
-    return y1 + (position - x1) * ((y2 - y1) / (x2 - x1));
-}
-
-}  // namespace
 
 AlternatingKnots::AlternatingKnots(std::size_t sample_count)
     : positions_(sample_count + 2 * kMostAdded + 8),
@@ -32,18 +24,19 @@ void AlternatingKnots::add_ends(std::span<const double> curve, EndRule rule) noe
         mirror_left_end(curve.front());
         mirror_right_end(curve.back(), static_cast<double>(curve.size() - 1));
     } else {
-        add_end_samples(curve, rule);
+        add_end_samples(curve);
     }
 }
 
-void AlternatingKnots::add_end_samples(std::span<const double> curve, EndRule rule) noexcept {
+void AlternatingKnots::add_end_samples(std::span<const double> curve) noexcept {
     const double last = static_cast<double>(curve.size() - 1);
     // Two knots at either end, one for each envelope, so that the envelopes still alternate.
     const auto end_value = [&](std::size_t knot, double at, double sample, std::size_t nearest,
                                std::size_t next, bool has_two) {
-        if (rule == EndRule::pinned || !has_two) return sample;
-        const double line =
-            line_at(at, positions_[nearest], values_[nearest], positions_[next], values_[next]);
+        if (!has_two) return sample;
+        const double slope =
+            (values_[next] - values_[nearest]) / (positions_[next] - positions_[nearest]);
+        const double line = values_[nearest] + (at - positions_[nearest]) * slope;
         return is_maximum(knot) ? std::max(sample, line) : std::min(sample, line);
     };
     for (const std::size_t distance : {1U, 2U}) {

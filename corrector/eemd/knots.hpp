@@ -23,8 +23,6 @@ enum class EndRule {
     /// extrema.
     /// Source: G. Rilling, P. Flandrin and P. Goncalves, NSIP-03, Grado, 2003.
     mirror,
-    /// End samples are knots without change.  For comparison only: the error grows inwards.
-    pinned,
 };
 
 /// The knots of the upper and the lower envelope in one list of ascending positions.  Maxima and
@@ -84,7 +82,7 @@ public:
 private:
     void mirror_left_end(double sample) noexcept;
     void mirror_right_end(double sample, double last_sample) noexcept;
-    void add_end_samples(std::span<const double> curve, EndRule rule) noexcept;
+    void add_end_samples(std::span<const double> curve) noexcept;
     [[nodiscard]] bool is_maximum(std::size_t knot) const noexcept {
         return ((knot - kMostAdded) % 2 == 0) == first_is_maximum_;
     }

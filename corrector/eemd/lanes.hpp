@@ -164,7 +164,8 @@ inline Lanes flagged_first(Lanes values, std::uint64_t flags) {
 inline Lanes step_at_flags(const double* from, Order order) {
     return ordered(load_lanes(from), order);
 }
-/// Writes the flagged lanes to `to` and the following elements; overwrites kLanes elements.
+/// Writes the flagged lanes to to[0], to[1], ... in order.  May overwrite to[0 ... kLanes - 1];
+/// elements after the flagged lanes are undefined.
 inline void keep_flagged(double* to, Lanes values, std::uint64_t flags) {
     store_lanes(to, flagged_first(values, flags));
 }

@@ -19,18 +19,8 @@ constexpr std::size_t stride(std::size_t knots) {
 MeanEnvelope::MeanEnvelope(std::size_t most_knots)
     : storage_(kArrays * stride(most_knots)), arrays_{} {
     const auto array = [&](std::size_t i) { return storage_.data() + i * stride(most_knots); };
-    arrays_.h = array(0);
-    arrays_.inverse = array(1);
-    arrays_.slope = array(2);
-    arrays_.pivot = array(3);
-    arrays_.link = array(4);
-    arrays_.c = array(5);
-    arrays_.b = array(6);
-    arrays_.e = array(7);
-    arrays_.mean_y = array(8);
-    arrays_.mean_b = array(9);
-    arrays_.mean_c = array(10);
-    arrays_.mean_e = array(11);
+    arrays_ = {array(0), array(1), array(2), array(3), array(4),  array(5),
+               array(6), array(7), array(8), array(9), array(10), array(11)};
 }
 
 }  // namespace a351::corrector

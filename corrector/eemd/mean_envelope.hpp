@@ -1,6 +1,10 @@
 #pragma once
 /// @file
 /// Storage of two cubic splines through alternating knots, and of their mean.
+///
+/// The ends are not-a-knot: the third derivative is continuous at the second and the last but one
+/// knot.  An envelope of two to four knots is the polynomial through them
+/// (tests/unit/eemd/mean_envelope_test.cpp).
 
 #include <cstddef>
 
@@ -8,17 +12,9 @@
 
 namespace a351::corrector {
 
-/// Condition on the outermost cubics of an envelope.
-enum class SplineEnds {
-    /// The third derivative is continuous at the second and the last but one knot.  An envelope of
-    /// two to four knots is the polynomial through them (tests/unit/eemd/mean_envelope_test.cpp).
-    not_a_knot,
-    natural,  ///< The second derivative is zero at the outermost knots.
-};
-
 /// Arrays with one number per knot; b and e may be overwritten after the mean is made.
 struct SplineArrays {
-    double* h;        ///< X_{k+2} - X_k; the next knot of the same envelope is k + 2
+    double* h;        ///< X_{k+2} - X_k of knots at (X, Y); k + 2 is on the same envelope
     double* inverse;  ///< 1 / h_k
     double* slope;    ///< (Y_{k+2} - Y_k) / h_k
     double* pivot;    ///< elimination, see spline_loops.hpp

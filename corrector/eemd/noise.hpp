@@ -3,33 +3,31 @@
 /// White Gaussian noise as a function of seed, member and sample, so that any thread can make any
 /// part of it.
 
-#include <array>
 #include <cstdint>
 #include <span>
 
-namespace a351::corrector {
+#include "corrector/eemd/sift_kernels.hpp"
 
-/// Returns four random words of 32 bits for each counter and key, by Philox 4x32-10.
-///
-/// The words agree with the known answers of the authors' library (tests/unit/eemd/noise_test.cpp).
-/// Source: J. K. Salmon et al., Parallel random numbers: as easy as 1, 2, 3, SC11, 2011,
-/// doi:10.1145/2063384.2063405.
-[[nodiscard]] std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
-                                                  std::array<std::uint32_t, 2> key) noexcept;
+namespace a351::corrector {
 
 /// Fills `noise` with independent Gaussian samples of mean 0 and variance 1.
 ///
 /// Samples 2 i and 2 i + 1 are sqrt(-2 ln u) cos(2 pi v) and sqrt(-2 ln u) sin(2 pi v), with u and
-/// v uniform on multiples of 2^-53, 0 < u <= 1 and 0 <= v < 1, from philox() with counter (i,
-/// member) and key seed.  Hence a longer request begins with the shorter one, and the largest
-/// magnitude is sqrt(2 ln 2^53) = 8.6.
+/// v uniform on multiples of 2^-53, 0 < u <= 1 and 0 <= v < 1, from the words of Philox 4x32-10 with
+/// counter (i, member) and key seed.  Hence a longer request begins with the shorter one, and the
+/// largest magnitude is sqrt(2 ln 2^53) = 8.6.
 ///
 /// Only exactly rounded operations are used, so that the bits do not depend on the platform's
 /// mathematical library.  Accuracy: within 1e-13 of the formula (tests/unit/eemd/noise_test.cpp).
 ///
 /// @param seed, member  any; each pair of values gives a different series.
 /// @param noise         (n), any n, also 0.
-/// Source: G. E. P. Box and M. E. Muller, Ann. Math. Stat. 29(2), 610-611, 1958.
-void fill_white_noise(std::uint64_t seed, std::uint64_t member, std::span<double> noise) noexcept;
+/// Sources: J. K. Salmon et al., Parallel random numbers: as easy as 1, 2, 3, SC11, 2011,
+/// doi:10.1145/2063384.2063405; G. E. P. Box and M. E. Muller, Ann. Math. Stat. 29(2), 610-611,
+/// 1958.
+inline void fill_white_noise(std::uint64_t seed, std::uint64_t member,
+                             std::span<double> noise) noexcept {
+    fastest_kernels().fill_white_noise(seed, member, noise.data(), noise.size());
+}
 
 }  // namespace a351::corrector

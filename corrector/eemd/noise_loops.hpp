@@ -51,7 +51,7 @@ inline double natural_log(double u) {
     return (low ? exponent - 1.0 : exponent) * 0.6931471805599453 + 2.0 * s * series;
 }
 
-/// Fills w0 ... w3 with the words of one block's counters, see philox().
+/// Fills w0 ... w3 with the words of one block's counters, by Philox 4x32-10.
 inline void philox_block(std::uint64_t first_pair, std::uint64_t member, std::uint64_t seed,
                          std::uint32_t* w0, std::uint32_t* w1, std::uint32_t* w2,
                          std::uint32_t* w3) {
@@ -85,7 +85,7 @@ inline void philox_block(std::uint64_t first_pair, std::uint64_t member, std::ui
     }
 }
 
-/// Transforms one block as Box and Muller do: sample 2 i to `cosine`, sample 2 i + 1 to `sine`.
+/// Box-Muller transform of one block: cosine[i] is sample 2 i, sine[i] is sample 2 i + 1.
 inline void transform_block(const std::uint32_t* w0, const std::uint32_t* w1,
                             const std::uint32_t* w2, const std::uint32_t* w3, double* cosine,
                             double* sine) {

@@ -27,11 +27,12 @@ struct SiftKernels {
     std::size_t (*find_extrema)(const double* curve, std::size_t n, double* positions,
                                 double* values, std::uint64_t* starts);
 
-    /// Fits splines through n >= 4 alternating knots at ascending positions x, and their mean.
+    /// Fits not-a-knot splines through n >= 4 alternating knots at ascending positions x, and their
+    /// mean.
     /// Eight elements beyond the end of x and y are read; their values do not matter.
     /// Accuracy: within 1e-9 of dense solutions of the conditions, relative for values above 1
     /// (tests/unit/eemd/mean_envelope_test.cpp).
-    void (*fit_mean_envelope)(const double* x, const double* y, std::size_t n, SplineEnds ends,
+    void (*fit_mean_envelope)(const double* x, const double* y, std::size_t n,
                               const SplineArrays& arrays);
 
     /// Computes out = curve - mean envelope.  `out` may be `curve`.

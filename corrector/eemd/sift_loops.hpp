@@ -39,7 +39,8 @@ inline std::size_t find_plateaus(const double* curve, std::size_t n, double* pos
     }
     for (std::size_t word = 0; word < n / 64 + 2; ++word) starts[word] = 0;
     for (std::size_t k = 0; k < count; ++k) {
-        const double half_more = positions[k] + 0.5;  // truncated below, which gives the ceiling
+        // Positions are multiples of 0.5, so truncating position + 0.5 rounds up.
+        const double half_more = positions[k] + 0.5;
         const auto start = static_cast<std::size_t>(half_more);
         starts[start / 64] |= std::uint64_t{1} << (start % 64);
     }

@@ -59,12 +59,8 @@ struct Elimination {
     Pair reduced = {0.0, 0.0};   ///< z_{k-2}
     Pair coupling = {0.0, 0.0};  ///< from the row before to this one
 
-    /// Eliminates the outermost row.  For not-a-knot the third derivative is continuous there.
-    void first_step(Pair near, Pair far, Pair right, SplineEnds ends) {
-        if (ends == SplineEnds::natural) {
-            step(near, far, right);
-            return;
-        }
+    /// Eliminates the outermost row, where the third derivative is continuous.
+    void first_step(Pair near, Pair far, Pair right) {
         before = latest;
         latest = near + 2.0 * far;
         reduced = right * (far / (near + far));
@@ -113,7 +109,7 @@ constexpr std::size_t kBlock = 32;
 
 /// Eliminates the rows before `middle` from the left and the others from the right.
 inline void eliminate(const double* x, const double* y, std::size_t n, std::size_t middle,
-                      SplineEnds ends, SplineArrays arrays) {
+                      SplineArrays arrays) {
     const double* const h = arrays.h;
     const double* const slope = arrays.slope;
     Elimination up;
@@ -123,9 +119,9 @@ inline void eliminate(const double* x, const double* y, std::size_t n, std::size
     set_up(x, y, 0, up_ready, arrays);
     set_up(x, y, down_ready, n - 2, arrays);
     const auto right = [&](std::size_t k) { return 3.0 * (load(slope + k) - load(slope + k - 2)); };
-    up.first_step(load(h), load(h + 2), right(2), ends);
+    up.first_step(load(h), load(h + 2), right(2));
     up.keep(2, arrays);
-    down.first_step(load(h + n - 4), load(h + n - 6), right(n - 4), ends);
+    down.first_step(load(h + n - 4), load(h + n - 6), right(n - 4));
     down.keep(n - 4, arrays);
     std::size_t i = 4;
     std::size_t k = n - 6;
@@ -171,40 +167,22 @@ inline void eliminate(const double* x, const double* y, std::size_t n, std::size
     divide_by_pivots(middle, down_divided, arrays);
 }
 
-/// Computes c of one envelope of two to four knots, every second one from `first`.
-inline void solve_few(const double* x, std::size_t first, std::size_t n, SplineEnds ends,
-                      SplineArrays arrays) {
-    const std::size_t knots = (n - first + 1) / 2;
-    const std::size_t a = first;
+/// Computes c of one envelope of two to four knots, every second one from `a`.  The envelope is the
+/// polynomial through all knots, by divided differences.
+inline void solve_few(const double* x, std::size_t a, std::size_t n, SplineArrays arrays) {
+    const std::size_t knots = (n - a + 1) / 2;
     double* const c = arrays.c;
-    const double* const h = arrays.h;
     const double* const slope = arrays.slope;
     for (std::size_t k = a; k < n; k += 2) c[k] = 0.0;
     if (knots == 2) return;
-    const double bend = slope[a + 2] - slope[a];
-    if (ends == SplineEnds::not_a_knot) {
-        // Polynomial through all knots, by divided differences.
-        const double second = bend / (x[a + 4] - x[a]);
-        const double third =
-            knots == 3 ? 0.0
-                       : ((slope[a + 4] - slope[a + 2]) / (x[a + 6] - x[a + 2]) - second) /
-                             (x[a + 6] - x[a]);
-        for (std::size_t k = a; k < n; k += 2) {
-            c[k] = second + third * ((x[k] - x[a]) + (x[k] - x[a + 2]) + (x[k] - x[a + 4]));
-        }
-        return;
+    const double second = (slope[a + 2] - slope[a]) / (x[a + 4] - x[a]);
+    const double third =
+        knots == 3
+            ? 0.0
+            : ((slope[a + 4] - slope[a + 2]) / (x[a + 6] - x[a + 2]) - second) / (x[a + 6] - x[a]);
+    for (std::size_t k = a; k < n; k += 2) {
+        c[k] = second + third * ((x[k] - x[a]) + (x[k] - x[a + 2]) + (x[k] - x[a + 4]));
     }
-    const double d1 = 2.0 * (h[a] + h[a + 2]);
-    if (knots == 3) {
-        c[a + 2] = 3.0 * bend / d1;
-        return;
-    }
-    const double d2 = 2.0 * (h[a + 2] + h[a + 4]);
-    const double r1 = 3.0 * bend;
-    const double r2 = 3.0 * (slope[a + 4] - slope[a + 2]);
-    const double determinant = d1 * d2 - h[a + 2] * h[a + 2];
-    c[a + 2] = (r1 * d2 - r2 * h[a + 2]) / determinant;
-    c[a + 4] = (r2 * d1 - r1 * h[a + 2]) / determinant;
 }
 
 /// Computes the cubics first <= k < last of the mean of both envelopes.  Each is half the sum of
@@ -243,7 +221,7 @@ inline void average(const double* x, const double* y, std::size_t first, std::si
 
 /// Computes c of all rows from the middle outwards, and the mean cubics as soon as c is known.
 inline void substitute(const double* x, const double* y, std::size_t n, std::size_t middle,
-                       SplineEnds ends, SplineArrays arrays) {
+                       SplineArrays arrays) {
     const double* const link = arrays.link;
     double* const c = arrays.c;
     Pair up = load(c + middle - 2);
@@ -284,15 +262,14 @@ inline void substitute(const double* x, const double* y, std::size_t n, std::siz
     const double* const inverse = arrays.inverse;
     for (std::size_t j = 0; j <= 1; ++j) {
         const std::size_t m = n - 1 - j;
-        const bool natural = ends == SplineEnds::natural;
-        c[j] = natural ? 0.0 : c[j + 2] + h[j] * inverse[j + 2] * (c[j + 2] - c[j + 4]);
-        c[m] = natural ? 0.0 : c[m - 2] + h[m - 2] * inverse[m - 4] * (c[m - 2] - c[m - 4]);
+        c[j] = c[j + 2] + h[j] * inverse[j + 2] * (c[j + 2] - c[j + 4]);
+        c[m] = c[m - 2] + h[m - 2] * inverse[m - 4] * (c[m - 2] - c[m - 4]);
     }
     average_known(1, n - 2);
 }
 
 /// Fits both envelopes through `n` >= 4 alternating knots and leaves their mean in `arrays`.
-inline void fit_mean_envelope(const double* x, const double* y, std::size_t n, SplineEnds ends,
+inline void fit_mean_envelope(const double* x, const double* y, std::size_t n,
                               const SplineArrays& shared) {
     // A local copy, so that no store below can change a pointer.
     const SplineArrays arrays = shared;
@@ -301,15 +278,15 @@ inline void fit_mean_envelope(const double* x, const double* y, std::size_t n, S
         // Division, which rounds once.  A bow sifted off a monotone rest is symmetric, and the last
         // bit decides the position of its extremum.
         for (std::size_t k = 0; k < n - 2; ++k) arrays.slope[k] = (y[k + 2] - y[k]) / arrays.h[k];
-        solve_few(x, 0, n, ends, arrays);
-        solve_few(x, 1, n, ends, arrays);
+        solve_few(x, 0, n, arrays);
+        solve_few(x, 1, n, arrays);
         average(x, y, 1, n - 2, arrays);
         return;
     }
     const std::size_t right_rows = (n - 4) / 4 * 2;  // whole pairs, at most as many as on the left
     const std::size_t middle = n - 2 - right_rows;
-    eliminate(x, y, n, middle, ends, arrays);
-    substitute(x, y, n, middle, ends, arrays);
+    eliminate(x, y, n, middle, arrays);
+    substitute(x, y, n, middle, arrays);
 }
 
 }  // namespace

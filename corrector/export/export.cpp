@@ -1,5 +1,7 @@
 #include "corrector/export/export.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -45,7 +47,6 @@ protected:
     virtual void put(const GridRun& run) = 0;
     void write(std::string_view bytes) const { write_(bytes); }
     [[nodiscard]] UtcTime time_of(std::int64_t k) const { return grid_time(k, rate_hz_); }
-    [[nodiscard]] int rate_hz() const { return rate_hz_; }
 
 private:
     const Write& write_;
@@ -117,17 +118,8 @@ void note(ExportReport& report, const std::vector<record::ArchiveDamage>& damage
         const auto is_known = [&](const record::ArchiveDamage& known) {
             return known.file == one.file && known.offset == one.offset;
         };
-        if (std::none_of(report.damage.begin(), report.damage.end(), is_known))
-            report.damage.push_back(one);
+        if (std::ranges::none_of(report.damage, is_known)) report.damage.push_back(one);
     }
-}
-
-std::unique_ptr<GridWriter> writer_for(const ExportOptions& options,
-                                       const record::StationCodes& codes,
-                                       const std::function<void(std::string_view)>& write) {
-    if (options.format == ExportFormat::csv)
-        return std::make_unique<CsvGrid>(write, options.rate_hz);
-    return std::make_unique<MiniseedGrid>(write, options.rate_hz, codes, options.channel);
 }
 
 }  // namespace
@@ -136,7 +128,13 @@ ExportReport export_channel(const ExportOptions& options,
                             const std::function<void(std::string_view)>& write) {
     const auto metadata =
         record::read_station_xml(options.root / "metadata" / "station.xml", options.from);
-    const auto writer = writer_for(options, metadata.codes, write);
+    std::unique_ptr<GridWriter> writer;
+    if (options.format == ExportFormat::csv) {
+        writer = std::make_unique<CsvGrid>(write, options.rate_hz);
+    } else {
+        writer =
+            std::make_unique<MiniseedGrid>(write, options.rate_hz, metadata.codes, options.channel);
+    }
     ExportReport report;
     std::optional<UtcGrid> grid;
     double source_rate_hz = 0.0;
@@ -145,16 +143,16 @@ ExportReport export_channel(const ExportOptions& options,
             std::min<UtcTime>(options.to, std::chrono::floor<days>(begin) + days(1));
         // The kernel needs 32 zero crossings on either side: 32 s at 1 Hz.
         const std::chrono::seconds margin(33 / options.rate_hz + 1);
-        record::ChannelData data =
+        const record::ChannelData data =
             record::read_channel(options.root / "archive", metadata.codes, options.channel,
                                  begin - margin, end + margin);
         for (const record::Segment& segment : data.segments) {
             if (segment.rate_hz != source_rate_hz) {
                 source_rate_hz = segment.rate_hz;
                 if (options.rate_hz > 1.01 * source_rate_hz) {
-                    throw InputError("--rate = " + std::to_string(options.rate_hz) +
-                                     "; allowed: up to the " + text::shortest(source_rate_hz) +
-                                     " Hz of " + options.channel);
+                    throw InputError(fmt::format("--rate = {}; allowed: up to the {} Hz of {}",
+                                                 options.rate_hz, text::shortest(source_rate_hz),
+                                                 options.channel));
                 }
                 grid.emplace(source_rate_hz, options.rate_hz);
             }
@@ -164,8 +162,9 @@ ExportReport export_channel(const ExportOptions& options,
         begin = end;
     }
     if (report.values == 0) {
-        throw InputError(options.root.string() + ": no samples of " + options.channel + " from " +
-                         to_rfc3339(options.from) + " to " + to_rfc3339(options.to));
+        throw InputError(fmt::format("{}: no samples of {} from {} to {}", options.root.string(),
+                                     options.channel, to_rfc3339(options.from),
+                                     to_rfc3339(options.to)));
     }
     writer->end_run();
     return report;

@@ -1,13 +1,13 @@
 #include "corrector/export/utc_grid.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <numbers>
 #include <stdexcept>
-#include <string>
 
 namespace a351::corrector {
 namespace {
@@ -77,9 +77,8 @@ std::int64_t first_on_grid(UtcTime time, int rate_hz) {
 
 UtcGrid::UtcGrid(double source_rate_hz, int rate_hz) : rate_hz_(rate_hz) {
     if (rate_hz < 1 || rate_hz > 1.01 * source_rate_hz) {
-        throw std::invalid_argument("rate_hz = " + std::to_string(rate_hz) +
-                                    "; allowed: 1 to the samples' " +
-                                    std::to_string(source_rate_hz));
+        throw std::invalid_argument(
+            fmt::format("rate_hz = {}; allowed: 1 to the samples' {:f}", rate_hz, source_rate_hz));
     }
     const double scale = std::min(1.0, rate_hz / source_rate_hz);
     half_width_ = kZeroCrossings / scale;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// From samples of the sensor's own clock to values on whole multiples of a period of UTC.
+/// Resampling: input on the sensor's clock, output at the UTC times k / rate_hz since 1970.
 
 #include <cstdint>
 #include <vector>

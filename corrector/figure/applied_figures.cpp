@@ -1,9 +1,9 @@
-#include "corrector/figure/applied_figures.hpp"
+#include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "corrector/correlation/regression.hpp"
+#include "corrector/figure/long_record_figures.hpp"
 #include "protocol/core/units.hpp"
 
 namespace a351::corrector {
@@ -26,57 +26,49 @@ std::string curve_lines(const std::vector<double>& values, double step_s) {
 }
 
 Figure series_figure(const RecordResult& result) {
-    const std::string kName = "before-after";
-    const double step_s = result.record.step_s;
-    DataBlocks data;
+    FigureData data("before-after");
     std::string panels;
     const auto panel = [&](const std::string& title, const std::vector<double>& values,
                            const std::string& colour) {
-        const auto block = data.add("hours " + title + " (mGal)", curve_lines(values, step_s));
-        panels += "set ylabel '" + title + " (mGal)'\n" +
-                  plot_command({block_clause(
-                      kName, block, "using 1:2 with lines lc rgb " + colour + " notitle")});
+        const std::string block = data.add(fmt::format("hours {} (mGal)", title),
+                                           curve_lines(values, result.record.step_s));
+        panels += fmt::format("set ylabel '{} (mGal)'\n{}", title,
+                              plot_command({fmt::format("{} using 1:2 with lines lc rgb {} notitle",
+                                                        block, colour)}));
     };
-    const auto [low, high] = std::minmax_element(result.segment().acceleration_mgal.begin(),
-                                                 result.segment().acceleration_mgal.end());
-    const double mean = mean_of(result.segment().acceleration_mgal);
-    const std::string range =
-        "set yrange [" + datum(*low - mean - 1.0, 1) + ":" + datum(*high - mean + 1.0, 1) + "]\n";
-    panel("Before", result.segment().acceleration_mgal, kGrey);
+    const std::vector<double>& before = result.segment().acceleration_mgal;
+    const auto [low, high] = std::minmax_element(before.begin(), before.end());
+    const double mean = mean_of(before);
+    panel("Before", before, kGrey);
     panel("Parametric", result.applied->parametric_mgal, kBlue);
-    panels += "set xlabel 'Hours after " + to_rfc3339(result.segment().start) + "'\n";
+    panels += fmt::format("set xlabel 'Hours after {}'\n", to_rfc3339(result.segment().start));
     panel("By modes", result.applied->by_modes_mgal, kVermilion);
-    return {kName,
-            "The record minus its mean, before and after the correction by each of two methods.",
-            script_head(kName, 900, 640) + "set multiplot layout 3,1\nset lmargin 12\n" + range +
-                panels + "unset multiplot\n" + script_tail(),
-            data.text()};
+    return data.figure(
+        "The record minus its mean, before and after the correction by each of two methods.", 900,
+        640,
+        fmt::format(
+            "set multiplot layout 3,1\nset lmargin 12\nset yrange [{}:{}]\n{}unset multiplot\n",
+            datum(*low - mean - 1.0, 1), datum(*high - mean + 1.0, 1), panels));
 }
 
 Figure allan_figure(const RecordResult& result) {
-    const std::string kName = "allan";
     std::string lines;
     for (const AllanPoint& point : result.applied->allan)
         lines += datum(point.averaging_s, 0) + datum(point.deviation_mgal.before, 5) +
                  datum(point.deviation_mgal.parametric, 5) +
                  datum(point.deviation_mgal.by_modes, 5) + '\n';
-    DataBlocks data;
-    const auto block = data.add("averaging_s before parametric by_modes (mGal)", lines);
-    const auto curve = [&](const std::string& column, const std::string& colour,
-                           const std::string& title) {
-        return block_clause(kName, block,
-                            "using 1:" + column + " with linespoints pt 7 ps 0.5 lc rgb " + colour +
-                                " title '" + title + "'");
+    FigureData data("allan");
+    const std::string block = data.add("averaging_s before parametric by_modes (mGal)", lines);
+    const auto curve = [&](int column, const std::string& colour, const char* title) {
+        return fmt::format("{} using 1:{} with linespoints pt 7 ps 0.5 lc rgb {} title '{}'", block,
+                           column, colour, title);
     };
-    return {kName,
-            "Allan deviation before and after the correction: scatter of averages over this time.",
-            script_head(kName, 900, 400) +
-                "set logscale xy\nset xlabel 'Averaging (s)'\nset ylabel 'Allan deviation "
-                "(mGal)'\n" +
-                plot_command({curve("2", kGrey, "before"), curve("3", kBlue, "parametric"),
-                              curve("4", kVermilion, "by modes")}) +
-                script_tail(),
-            data.text()};
+    return data.figure(
+        "Allan deviation before and after the correction: scatter of averages over this time.", 900,
+        400,
+        "set logscale xy\nset xlabel 'Averaging (s)'\nset ylabel 'Allan deviation (mGal)'\n" +
+            plot_command({curve(2, kGrey, "before"), curve(3, kBlue, "parametric"),
+                          curve(4, kVermilion, "by modes")}));
 }
 
 }  // namespace

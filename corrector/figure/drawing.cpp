@@ -1,5 +1,6 @@
 #include "corrector/figure/drawing.hpp"
 
+#include <fmt/core.h>
 #include <stdlib.h>
 
 #include <algorithm>
@@ -65,14 +66,10 @@ std::string last_line(std::string text) {
 
 std::string trouble_of(const ProgramRun& run) {
     if (!run.is_found) return "gnuplot is not installed (not in PATH)";
-    if (run.is_timed_out) {
-        std::string words = "gnuplot took longer than ";  // g++ 14 warns of a sum of the three
-        words += std::to_string(kTimeLimit.count()) + " s";
-        return words;
-    }
+    if (run.is_timed_out) return fmt::format("gnuplot took longer than {} s", kTimeLimit.count());
     const std::string words = last_line(run.errors);
-    return "gnuplot ended with status " + std::to_string(run.status) +
-           (words.empty() ? std::string() : ": " + words);
+    return fmt::format("gnuplot ended with status {}{}{}", run.status, words.empty() ? "" : ": ",
+                       words);
 }
 
 /// Replaces the time of the run, which the PDF library writes in this form and length.
@@ -97,7 +94,7 @@ void draw_format(const TemporaryFolder& folder, const std::vector<std::string>& 
             if (run.is_good()) {
                 drawn.push_back(name);
             } else {
-                drawing.troubles.push_back(name + ending + ": " + trouble_of(run));
+                drawing.troubles.push_back(fmt::format("{}{}: {}", name, ending, trouble_of(run)));
             }
         }
     } else {

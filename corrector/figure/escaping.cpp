@@ -65,40 +65,20 @@ std::string short_label(std::string_view text) {
 }
 
 std::string html_text(std::string_view text) {
+    constexpr std::string_view kSpecial = "&<>\"'";
+    constexpr std::array<const char*, 5> kReferences{"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
     std::string html;
     for (const char c : clean_utf8(text)) {
-        switch (c) {
-            case '&':
-                html += "&amp;";
-                break;
-            case '<':
-                html += "&lt;";
-                break;
-            case '>':
-                html += "&gt;";
-                break;
-            case '"':
-                html += "&quot;";
-                break;
-            case '\'':
-                html += "&#39;";
-                break;
-            default:
-                html += c;
-        }
+        const std::size_t i = kSpecial.find(c);
+        html += i == std::string_view::npos ? std::string(1, c) : kReferences.at(i);
     }
     return html;
 }
 
 std::string gnuplot_string(std::string_view text) {
-    constexpr std::string_view kApostrophe = "\xE2\x80\x99";  // U+2019
     std::string quoted = "'";
     for (const char c : clean_utf8(text)) {
-        if (c == '\'') {
-            quoted += kApostrophe;
-        } else {
-            quoted += c;
-        }
+        quoted += c == '\'' ? "\xE2\x80\x99" : std::string(1, c);  // U+2019
     }
     return quoted + "'";
 }

@@ -3,8 +3,8 @@
 /// A figure of the report as a gnuplot script with its data, so that an author can restyle it.
 
 #include <cstddef>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace a351::corrector {
@@ -16,7 +16,7 @@ struct Figure {
     std::string caption;    ///< Plain text.
     std::string script;     ///< Content of NAME.gp.
     std::string data;       ///< Content of NAME.dat; empty if it plots the data of other figures.
-    bool is_small = false;  ///< Two fit side by side on a page.
+    bool is_small = false;  ///< At most 480 pixels wide; two fit side by side on a page.
 };
 
 /// Okabe and Ito's colours, which colour-blind readers can distinguish too
@@ -29,40 +29,35 @@ inline const std::string kGrey = "'#888888'";
 /// small.
 inline constexpr std::size_t kMostPoints = 3000;
 
-/// Returns the head of a script.  It resets the settings of earlier scripts, chooses the terminal
-/// by `format` (default svg), and sets the output and the common style.
-/// @param width_px, height_px  size of the SVG at 96 per inch; PDF and PNG have its proportions.
-[[nodiscard]] std::string script_head(const std::string& name, int width_px, int height_px);
-
-/// Returns the tail of a script, which closes the output.
-[[nodiscard]] std::string script_tail();
-
 /// Returns the greatest of ... 0.2, 0.5, 1, 2, 5, 10 ... that is not above a limit > 0.
 [[nodiscard]] double round_step(double limit);
 
 /// Returns the number, or gnuplot's NaN, followed by a blank.
 [[nodiscard]] std::string datum(double value, int decimals);
 
-/// Blocks of lines, numbered as gnuplot's `index` does.  An empty block is left out; then it must
-/// not be plotted.
-class DataBlocks {
+/// The data of a figure: blocks of lines, numbered as gnuplot's `index` does.
+class FigureData {
 public:
-    /// Adds a block.
-    /// @param title  comment that names the columns.
-    /// @return number of the block for `index`; std::nullopt if `lines` is empty.
-    std::optional<int> add(const std::string& title, const std::string& lines);
+    /// @param name  of the figure.
+    explicit FigureData(std::string name) : name_(std::move(name)) {}
 
-    [[nodiscard]] const std::string& text() const { return text_; }
+    /// Adds a block.  An empty block is left out; then it must not be plotted.
+    /// @param title  comment that names the columns.
+    /// @return `'NAME.dat' index BLOCK`, with which a clause begins; empty if `lines` is empty.
+    std::string add(const std::string& title, const std::string& lines);
+
+    /// Returns the figure of these data.  Its script resets the settings of earlier scripts, chooses
+    /// the terminal by `format` (default svg), and sets the output and the common style.
+    /// @param width_px, height_px  size of the SVG at 96 per inch; PDF and PNG have its proportions.
+    /// @param body                 the commands of the script.
+    [[nodiscard]] Figure figure(const std::string& caption, int width_px, int height_px,
+                                const std::string& body) const;
 
 private:
+    std::string name_;
     std::string text_;
     int count_ = 0;
 };
-
-/// Returns the clause that plots a block of NAME.dat: `'NAME.dat' index BLOCK REST`.
-/// @param block  from DataBlocks::add(); not std::nullopt.
-[[nodiscard]] std::string block_clause(const std::string& name, std::optional<int> block,
-                                       const std::string& rest);
 
 /// Returns "plot A, \<newline> B, ..." from at least one clause.
 [[nodiscard]] std::string plot_command(const std::vector<std::string>& clauses);

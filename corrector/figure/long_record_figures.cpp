@@ -1,5 +1,7 @@
 #include "corrector/figure/long_record_figures.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -52,29 +54,33 @@ std::string line_lines(const std::vector<double>& x, const LineFit& fit, double 
     return lines;
 }
 
-std::string formula(const LineFit& fit) {
-    return text::fixed(fit.slope, 2) + " mGal/°C, R² = " + text::fixed(fit.r2, 3);
-}
-
 /// Returns the mean acceleration rounded to whole mGal, so that the axis is easy to read.
 double reference_of(const RecordResult& result) {
     return std::round(mean_of(result.segment().acceleration_mgal));
 }
 
 std::string above(double reference) {
-    return "set ylabel 'Acceleration - " + text::fixed(reference, 0) + " (mGal)'\n";
+    return fmt::format("set ylabel 'Acceleration - {} (mGal)'\n", text::fixed(reference, 0));
 }
 
 std::string hours_axis(UtcTime start) {
-    return "set xlabel 'Hours after " + to_rfc3339(start) + "'\n";
+    return fmt::format("set xlabel 'Hours after {}'\n", to_rfc3339(start));
 }
 
-constexpr auto kTwoPanels = "set multiplot layout 2,1\nset lmargin 12\n";
-constexpr auto kTemperatureLabel = "set ylabel 'Temperature (°C)'\n";
+/// Returns the figure of the acceleration above the temperature.
+/// @param head  commands before the upper panel.
+Figure two_panels(const FigureData& data, const std::string& caption, const std::string& head,
+                  const std::vector<std::string>& accelerations, UtcTime start,
+                  const std::vector<std::string>& temperatures) {
+    return data.figure(caption, 900, 480,
+                       fmt::format("set multiplot layout 2,1\nset lmargin 12\n{}{}"
+                                   "set ylabel 'Temperature (°C)'\n{}{}unset multiplot\n",
+                                   head, plot_command(accelerations), hours_axis(start),
+                                   plot_command(temperatures)));
+}
 
 /// Returns the figure of the raw samples' ranges, in steps, of all stretches.
 Figure raw_figure(const RecordResult& result, double reference) {
-    const std::string kName = "record-raw";
     const UtcTime start = result.record.stretches.front().times.front();
     std::string acceleration, temperature;
     std::size_t samples = 0;
@@ -104,24 +110,19 @@ Figure raw_figure(const RecordResult& result, double reference) {
         acceleration += '\n';
         temperature += '\n';
     }
-    DataBlocks data;
-    const auto a = data.add("hours acceleration: least, greatest (mGal)", acceleration);
-    const auto t = data.add("hours temperature: least, greatest (degC)", temperature);
-    return {kName,
-            "Norm and temperature as sampled: range from the least to the greatest sample of each "
-            "step.",
-            script_head(kName, 900, 480) + kTwoPanels + above(reference) +
-                plot_command({block_clause(
-                    kName, a, "using 1:2:3 with filledcurves lc rgb " + kBlue + " notitle")}) +
-                kTemperatureLabel + hours_axis(start) +
-                plot_command({block_clause(
-                    kName, t, "using 1:2:3 with filledcurves lc rgb " + kVermilion + " notitle")}) +
-                "unset multiplot\n" + script_tail(),
-            data.text()};
+    FigureData data("record-raw");
+    const std::string style = " using 1:2:3 with filledcurves lc rgb ";
+    const std::string a =
+        data.add("hours acceleration: least, greatest (mGal)", acceleration) + style + kBlue;
+    const std::string t =
+        data.add("hours temperature: least, greatest (degC)", temperature) + style + kVermilion;
+    return two_panels(data,
+                      "Norm and temperature as sampled: range from the least to the greatest "
+                      "sample of each step.",
+                      above(reference), {a + " notitle"}, start, {t + " notitle"});
 }
 
 Figure samples_figure(const RecordResult& result, double reference) {
-    const std::string kName = "record-20s";
     const UtcTime start = result.record.stretches.front().times.front();
     std::string acceleration, temperature;
     for (const RecordSegment& segment : result.parts.segments) {
@@ -131,76 +132,66 @@ Figure samples_figure(const RecordResult& result, double reference) {
             curve_lines(segment.acceleration_mgal, first_h, step_h, reference, 1.0) + '\n';
         temperature += curve_lines(segment.temperature_degc, first_h, step_h, 0.0, 1.0) + '\n';
     }
-    DataBlocks data;
-    const auto a = data.add("hours acceleration_mgal", acceleration);
-    const auto t = data.add("hours temperature_degc", temperature);
-    return {kName, "Norm and temperature decimated to 20 s, in the segments that can be analysed.",
-            script_head(kName, 900, 480) + kTwoPanels + above(reference) +
-                plot_command(
-                    {block_clause(kName, a, "using 1:2 with lines lc rgb " + kBlue + " notitle")}) +
-                kTemperatureLabel + hours_axis(start) +
-                plot_command({block_clause(
-                    kName, t, "using 1:2 with lines lc rgb " + kVermilion + " notitle")}) +
-                "unset multiplot\n" + script_tail(),
-            data.text()};
+    FigureData data("record-20s");
+    const std::string style = " using 1:2 with lines lc rgb ";
+    const std::string a = data.add("hours acceleration_mgal", acceleration) + style + kBlue;
+    const std::string t = data.add("hours temperature_degc", temperature) + style + kVermilion;
+    return two_panels(
+        data, "Norm and temperature decimated to 20 s, in the segments that can be analysed.",
+        above(reference), {a + " notitle"}, start, {t + " notitle"});
 }
 
 Figure scatter_figure(const std::string& name, const std::string& caption,
                       const std::vector<double>& x, const std::vector<double>& y,
                       const LineFit& fit, double offset, const std::string& ylabel) {
-    DataBlocks data;
-    const auto points = data.add("temperature_degc acceleration_mgal", scatter_lines(x, y, offset));
-    const auto line =
+    FigureData data(name);
+    const std::string points =
+        data.add("temperature_degc acceleration_mgal", scatter_lines(x, y, offset));
+    const std::string line =
         data.add("line: temperature_degc acceleration_mgal", line_lines(x, fit, offset));
-    Figure figure{
-        name, caption,
-        script_head(name, 480, 400) + "set xlabel 'Temperature (°C)'\n" + ylabel +
-            "set xtics rotate by -30\n" +
+    return data.figure(
+        caption, 480, 400,
+        fmt::format(
+            "set xlabel 'Temperature (°C)'\n{}set xtics rotate by -30\n{}", ylabel,
             plot_command(
-                {block_clause(name, points,
-                              "using 1:2 with points pt 7 ps 0.2 lc rgb " + kBlue + " notitle"),
-                 block_clause(name, line,
-                              "using 1:2 with lines lw 1.5 lc rgb " + kVermilion + " title '" +
-                                  formula(fit) + "'")}) +
-            script_tail(),
-        data.text()};
-    figure.is_small = true;
-    return figure;
+                {fmt::format("{} using 1:2 with points pt 7 ps 0.2 lc rgb {} notitle", points,
+                             kBlue),
+                 fmt::format("{} using 1:2 with lines lw 1.5 lc rgb {} title '{} mGal/°C, R² = {}'",
+                             line, kVermilion, text::fixed(fit.slope, 2),
+                             text::fixed(fit.r2, 3))})));
 }
 
 /// Returns the figure of the acceleration, sign reversed and moved earlier, above the temperature,
 /// each with its residue.
 Figure trend_figure(const RecordResult& result) {
-    const std::string kName = "trend";
     const RecordSegment& segment = result.segment();
     const double step_h = result.record.step_s / kSecondsPerHour;
     const double moved_h = -result.options.shift_s / kSecondsPerHour;
     const double first = segment.acceleration_mgal.front();
     const std::vector<double>& slow = result.analysis.acceleration.residue.values;
-    DataBlocks data;
-    const auto a = data.add("hours, moved; acceleration, sign reversed (mGal)",
-                            curve_lines(segment.acceleration_mgal, moved_h, step_h, first, -1.0));
-    const auto a_slow = data.add("its residue", curve_lines(slow, moved_h, step_h, 0.0, -1.0));
-    const auto t = data.add("hours temperature_degc",
-                            curve_lines(segment.temperature_degc, 0.0, step_h, 0.0, 1.0));
-    const auto t_slow =
+    FigureData data("trend");
+    const std::string a =
+        data.add("hours, moved; acceleration, sign reversed (mGal)",
+                 curve_lines(segment.acceleration_mgal, moved_h, step_h, first, -1.0));
+    const std::string a_slow =
+        data.add("its residue", curve_lines(slow, moved_h, step_h, 0.0, -1.0));
+    const std::string t = data.add("hours temperature_degc",
+                                   curve_lines(segment.temperature_degc, 0.0, step_h, 0.0, 1.0));
+    const std::string t_slow =
         data.add("its residue",
                  curve_lines(result.analysis.temperature.residue.values, 0.0, step_h, 0.0, 1.0));
-    const std::string line = "using 1:2 with lines lc rgb ",
-                      thick = "using 1:2 with lines lw 2.5 lc rgb ";
-    return {kName,
-            "Acceleration, sign reversed and moved " + text::fixed(result.options.shift_s, 0) +
-                " s earlier, and temperature, each with the residue of its decomposition.",
-            script_head(kName, 900, 480) + kTwoPanels + "set xrange [" + text::fixed(moved_h, 3) +
-                ":" + text::fixed(step_h * static_cast<double>(segment.size()), 3) +
-                "]\nset ylabel '- Acceleration (mGal)'\n" +
-                plot_command({block_clause(kName, a, line + kBlue + " notitle"),
-                              block_clause(kName, a_slow, thick + "'black' title 'residue'")}) +
-                kTemperatureLabel + hours_axis(segment.start) +
-                plot_command({block_clause(kName, t, line + kVermilion + " notitle"),
-                              block_clause(kName, t_slow, thick + "'black' notitle")}) +
-                "unset multiplot\n" + script_tail(),
-            data.text()};
+    const std::string line = " using 1:2 with lines lc rgb ",
+                      thick = " using 1:2 with lines lw 2.5 lc rgb 'black' ";
+    return two_panels(
+        data,
+        fmt::format("Acceleration, sign reversed and moved {} s earlier, and temperature, each "
+                    "with the residue of its decomposition.",
+                    text::fixed(result.options.shift_s, 0)),
+        fmt::format("set xrange [{}:{}]\nset ylabel '- Acceleration (mGal)'\n",
+                    text::fixed(moved_h, 3),
+                    text::fixed(step_h * static_cast<double>(segment.size()), 3)),
+        {a + line + kBlue + " notitle", a_slow + thick + "title 'residue'"}, segment.start,
+        {t + line + kVermilion + " notitle", t_slow + thick + "notitle"});
 }
 
 struct ModePair {
@@ -222,7 +213,6 @@ ModePair mode_pair(const RecordResult& result) {
 }
 
 Figure overlay_figure(const RecordResult& result, const ModePair& pair) {
-    const std::string kName = "modes";
     const double step_h = result.record.step_s / kSecondsPerHour;
     const std::size_t count =
         std::min(pair.turned.size(), static_cast<std::size_t>(kOverlay_h / step_h));
@@ -232,57 +222,50 @@ Figure overlay_figure(const RecordResult& result, const ModePair& pair) {
                                    values.begin() + first + static_cast<std::ptrdiff_t>(count));
     };
     const double first_h = static_cast<double>(first) * step_h;
-    DataBlocks data;
-    const auto a = data.add("hours; acceleration, sign reversed and moved (mGal)",
-                            curve_lines(part(pair.turned), first_h, step_h, 0.0, 1.0));
-    const auto t = data.add("hours temperature_degc",
-                            curve_lines(part(pair.temperature), first_h, step_h, 0.0, 1.0));
-    return {kName,
-            "Modes of the cycle: acceleration, sign reversed and moved " +
-                text::fixed(result.options.shift_s, 0) + " s earlier, and temperature" +
-                (count < pair.turned.size() ? "; the middle of the record." : "."),
-            script_head(kName, 900, 360) + hours_axis(result.segment().start) +
-                "set ylabel '- Acceleration (mGal)'\nset y2label 'Temperature (°C)'\n"
-                "set ytics nomirror\nset y2tics\n" +
-                plot_command({block_clause(kName, a,
-                                           "using 1:2 with lines lc rgb " + kBlue +
-                                               " title 'acceleration, sign reversed and moved'"),
-                              block_clause(kName, t,
-                                           "using 1:2 axes x1y2 with lines lc rgb " + kVermilion +
-                                               " title 'temperature'")}) +
-                script_tail(),
-            data.text()};
+    FigureData data("modes");
+    const std::string a = data.add("hours; acceleration, sign reversed and moved (mGal)",
+                                   curve_lines(part(pair.turned), first_h, step_h, 0.0, 1.0));
+    const std::string t = data.add("hours temperature_degc",
+                                   curve_lines(part(pair.temperature), first_h, step_h, 0.0, 1.0));
+    return data.figure(
+        fmt::format("Modes of the cycle: acceleration, sign reversed and moved {} s earlier, and "
+                    "temperature{}",
+                    text::fixed(result.options.shift_s, 0),
+                    count < pair.turned.size() ? "; the middle of the record." : "."),
+        900, 360,
+        fmt::format(
+            "{}set ylabel '- Acceleration (mGal)'\nset y2label 'Temperature (°C)'\n"
+            "set ytics nomirror\nset y2tics\n{}",
+            hours_axis(result.segment().start),
+            plot_command(
+                {fmt::format("{} using 1:2 with lines lc rgb {} title 'acceleration, sign reversed "
+                             "and moved'",
+                             a, kBlue),
+                 fmt::format("{} using 1:2 axes x1y2 with lines lc rgb {} title 'temperature'", t,
+                             kVermilion)})));
 }
 
 Figure correlation_figure(const RecordResult& result) {
-    const std::string kName = "correlation";
     const auto lines = [](const CrossCorrelation& correlation) {
         std::string text;
         for (std::size_t i = 0; i < correlation.values.size(); ++i)
             text += datum(correlation.delays_s[i], 1) + datum(correlation.values[i], 5) + '\n';
         return text;
     };
-    DataBlocks data;
-    const auto modes =
+    FigureData data("correlation");
+    const std::string modes =
         data.add("modes: delay_s correlation", lines(result.analysis.modes->correlation));
-    const auto band =
+    const std::string band =
         data.add("band: delay_s correlation", lines(result.analysis.band.correlation));
-    Figure figure{
-        kName,
+    const std::string style = " using 1:2 with lines lw 1.5 lc rgb ";
+    return data.figure(
         "Cross-correlation of the two modes, and of the band, against the delay of the "
         "acceleration.",
-        script_head(kName, 480, 400) +
-            "set xlabel 'Delay of the acceleration (s)'\nset ylabel 'Correlation'\n"
-            "set yrange [-1:1]\nset xzeroaxis\n" +
-            plot_command(
-                {block_clause(kName, modes,
-                              "using 1:2 with lines lw 1.5 lc rgb " + kBlue + " title 'modes'"),
-                 block_clause(kName, band,
-                              "using 1:2 with lines lw 1.5 lc rgb " + kGrey + " title 'band'")}) +
-            script_tail(),
-        data.text()};
-    figure.is_small = true;
-    return figure;
+        480, 400,
+        "set xlabel 'Delay of the acceleration (s)'\nset ylabel 'Correlation'\n"
+        "set yrange [-1:1]\nset xzeroaxis\n" +
+            plot_command({modes + style + kBlue + " title 'modes'",
+                          band + style + kGrey + " title 'band'"}));
 }
 
 }  // namespace
@@ -292,8 +275,8 @@ std::vector<Figure> long_record_figures(const RecordResult& result) {
     const RecordSegment& segment = result.segment();
     std::vector<Figure> figures;
     const auto& stretches = result.record.stretches;
-    if (std::any_of(stretches.begin(), stretches.end(),
-                    [](const RecordStretch& stretch) { return !stretch.raw.empty(); })) {
+    if (std::ranges::any_of(stretches,
+                            [](const RecordStretch& stretch) { return !stretch.raw.empty(); })) {
         figures.push_back(raw_figure(result, reference));
     }
     figures.push_back(samples_figure(result, reference));

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// Figures of a long record at one point: figures 2 to 7 of the publication, and the response by
-/// period.
+/// Figures of a long record at one point: figures 2 to 7 of the publication, the response by period,
+/// and the effect of a calibration.
 
 #include <vector>
 
@@ -18,5 +18,10 @@ namespace a351::corrector {
 /// Returns the figure of gain and phase by period, from spectra and from modes, with the two-path
 /// fit.
 [[nodiscard]] Figure response_figure(const RecordResult& result);
+
+/// Returns the figures of a record before and after a calibration was applied: the series, and
+/// their Allan deviations.
+/// @pre result.applied
+[[nodiscard]] std::vector<Figure> applied_figures(const RecordResult& result);
 
 }  // namespace a351::corrector

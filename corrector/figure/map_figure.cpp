@@ -1,17 +1,17 @@
-#include "corrector/figure/map_figure.hpp"
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "corrector/figure/escaping.hpp"
+#include "corrector/figure/survey_figures.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
 
-const std::string kMapName = "map";
 // Position of the plot within the SVG, from which the position of a label in pixels is computed.
 constexpr int kMapWidth_px = 640, kMapHeight_px = 560;
 constexpr double kLeft = 0.14, kRight = 0.97, kBottom = 0.10, kTop = 0.97;
@@ -109,8 +109,8 @@ public:
             const Box box = box_of(site, candidate, letter_count);
             const bool is_inside = box.left > 0 && box.right < kPlotWidth_px && box.bottom > 0 &&
                                    box.top < kPlotHeight_px;
-            const bool is_free = std::none_of(taken_.begin(), taken_.end(),
-                                              [&box](const Box& b) { return b.overlaps(box); });
+            const bool is_free =
+                std::ranges::none_of(taken_, [&box](const Box& b) { return b.overlaps(box); });
             if (!is_inside || !is_free) continue;
             taken_.push_back(box);
             return candidate;
@@ -139,9 +139,10 @@ std::string bar(const Frame& frame) {
     const double share = length_km / width_km;
     const std::string title = length_km < 1.0 ? text::fixed(length_km * 1000.0, 0) + " m"
                                               : text::fixed(length_km, 0) + " km";
-    return "set arrow from graph 0.04,0.04 to graph " + text::fixed(0.04 + share, 5) +
-           ",0.04 heads size graph 0.008,90 lw 1.5 front\nset label '" + title + "' at graph " +
-           text::fixed(0.04 + share / 2, 5) + ",0.065 center front\n";
+    return fmt::format(
+        "set arrow from graph 0.04,0.04 to graph {},0.04 heads size graph 0.008,90 lw 1.5 front\n"
+        "set label '{}' at graph {},0.065 center front\n",
+        text::fixed(0.04 + share, 5), title, text::fixed(0.04 + share / 2, 5));
 }
 
 /// Returns the positions and heights of the stations with a reference, or of those without.
@@ -149,8 +150,9 @@ std::string station_lines(const std::vector<const text::Site*>& stations, bool i
     std::string lines;
     for (const text::Site* site : stations) {
         if (site->gravity.has_value() != is_known) continue;
-        lines += datum(site->longitude.value(), 6) + datum(site->latitude.value(), 6) +
-                 datum(site->altitude.value(), 2) + "# " + clean_utf8(site->name) + '\n';
+        lines += fmt::format("{}{}{}# {}\n", datum(site->longitude.value(), 6),
+                             datum(site->latitude.value(), 6), datum(site->altitude.value(), 2),
+                             clean_utf8(site->name));
     }
     return lines;
 }
@@ -173,51 +175,49 @@ std::optional<Figure> map_figure(const SurveyCorrection& result,
     if (stations.empty()) return std::nullopt;
     const Frame frame = frame_around(stations);
 
-    DataBlocks data;
+    FigureData data("map");
     std::vector<std::string> clauses;
     for (const bool is_known : {true, false}) {
-        const auto block = data.add(std::string(is_known ? "with" : "without") +
-                                        " reference: longitude_deg latitude_deg altitude_m",
-                                    station_lines(stations, is_known));
-        if (!block) continue;
-        clauses.push_back(
-            "'" + kMapName + ".dat' index " + std::to_string(*block) + " using 1:2 with points " +
-            (is_known ? "pt 9 ps 0.7 lc rgb " + kBlue : "pt 8 ps 0.8 lw 1.5 lc rgb " + kVermilion) +
-            " title '" + (is_known ? "known" : "unknown") + " gravity'");
+        const std::string source =
+            data.add(fmt::format("{} reference: longitude_deg latitude_deg altitude_m",
+                                 is_known ? "with" : "without"),
+                     station_lines(stations, is_known));
+        if (source.empty()) continue;
+        clauses.push_back(fmt::format(
+            "{} using 1:2 with points {} title '{} gravity'", source,
+            is_known ? "pt 9 ps 0.7 lc rgb " + kBlue : "pt 8 ps 0.8 lw 1.5 lc rgb " + kVermilion,
+            is_known ? "known" : "unknown"));
     }
     LabelPlacer placer(frame, stations);
     std::string labels;
     for (const text::Site* site : stations) {
-        const std::string label =
-            short_label(site->name) + ", " + text::fixed(site->altitude.value(), 0) + " m";
+        const std::string label = fmt::format("{}, {} m", short_label(site->name),
+                                              text::fixed(site->altitude.value(), 0));
         const LabelPlace place = placer.place(*site, label.size());
         const double x = frame.x_px(site->longitude.value()) + place.x_px;
         const double y = frame.y_px(site->latitude.value()) + place.y_px;
-        labels += "set label " + gnuplot_string(label) + " at graph " +
-                  text::fixed(x / kPlotWidth_px, 5) + "," + text::fixed(y / kPlotHeight_px, 5) +
-                  (place.is_left ? " right" : " left") + " font ',11' front\n";
+        labels += fmt::format("set label {} at graph {},{} {} font ',11' front\n",
+                              gnuplot_string(label), text::fixed(x / kPlotWidth_px, 5),
+                              text::fixed(y / kPlotHeight_px, 5), place.is_left ? "right" : "left");
     }
     const double step_deg = round_step(frame.longitude.length() / 4.0);
     const int decimals = static_cast<int>(std::clamp(-std::floor(std::log10(step_deg)), 0.0, 6.0));
-    const std::string range = [&] {
-        const auto text = [](const Range& r) {
-            return "[" + text::fixed(r.least, 7) + ":" + text::fixed(r.greatest, 7) + "]\n";
-        };
-        return "set xrange " + text(frame.longitude) + "set yrange " + text(frame.latitude);
-    }();
-    return Figure{kMapName,
-                  "Stations with their heights; the scale is the same in both directions." +
-                      (absent.empty() ? absent : absent + '.'),
-                  script_head(kMapName, kMapWidth_px, kMapHeight_px) + "set lmargin at screen " +
-                      text::fixed(kLeft, 2) + "\nset rmargin at screen " + text::fixed(kRight, 2) +
-                      "\nset bmargin at screen " + text::fixed(kBottom, 2) +
-                      "\nset tmargin at screen " + text::fixed(kTop, 2) + '\n' + range +
-                      "set xtics " + text::fixed(step_deg, 7) + "\nset ytics " +
-                      text::fixed(step_deg, 7) + "\nset format '%." + std::to_string(decimals) +
-                      "f'\nset xlabel 'Longitude (° east)'\nset ylabel 'Latitude (° north)'\n"
-                      "set key inside bottom right\n" +
-                      bar(frame) + labels + plot_command(clauses) + script_tail(),
-                  data.text()};
+    const auto range = [](const Range& r) {
+        return fmt::format("[{}:{}]", text::fixed(r.least, 7), text::fixed(r.greatest, 7));
+    };
+    return data.figure(
+        fmt::format("Stations with their heights; the scale is the same in both directions.{}{}",
+                    absent, absent.empty() ? "" : "."),
+        kMapWidth_px, kMapHeight_px,
+        fmt::format(
+            "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\n"
+            "set tmargin at screen {}\nset xrange {}\nset yrange {}\nset xtics {}\nset ytics {}\n"
+            "set format '%.{}f'\nset xlabel 'Longitude (° east)'\nset ylabel 'Latitude (° north)'\n"
+            "set key inside bottom right\n{}{}{}",
+            text::fixed(kLeft, 2), text::fixed(kRight, 2), text::fixed(kBottom, 2),
+            text::fixed(kTop, 2), range(frame.longitude), range(frame.latitude),
+            text::fixed(step_deg, 7), text::fixed(step_deg, 7), decimals, bar(frame), labels,
+            plot_command(clauses)));
 }
 
 }  // namespace a351::corrector

@@ -1,5 +1,7 @@
 #include "corrector/figure/reading_name.hpp"
 
+#include <fmt/core.h>
+
 namespace a351::corrector {
 
 std::string reading_name(const std::vector<CorrectedRow>& rows, std::size_t index) {
@@ -17,7 +19,7 @@ std::string reading_name(const std::vector<CorrectedRow>& rows, std::size_t inde
         set_up = before < kLetters ? std::string(1, static_cast<char>('a' + before))
                                    : '-' + std::to_string(before + 1);
     }
-    return row.site + " (" + std::to_string(row.occupation) + set_up + ')';
+    return fmt::format("{} ({}{})", row.site, row.occupation, set_up);
 }
 
 }  // namespace a351::corrector

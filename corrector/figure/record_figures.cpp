@@ -1,4 +1,4 @@
-#include "corrector/figure/record_figures.hpp"
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +6,7 @@
 #include "corrector/eemd/extrema.hpp"
 #include "corrector/figure/escaping.hpp"
 #include "corrector/figure/reading_name.hpp"
+#include "corrector/figure/survey_figures.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
@@ -13,10 +14,12 @@ namespace {
 
 double minutes_between(UtcTime from, UtcTime to) { return seconds_between(from, to) / 60.0; }
 
-std::string figure_name(std::size_t row) {
-    const std::string number = std::to_string(row + 1);
-    return "reading-" + std::string(number.size() < 2 ? 1 : 0, '0') + number;
+double length_min(const RepresentativeValue& value) {
+    const auto end = value.series.time_of(static_cast<double>(value.series.size()));
+    return minutes_between(value.series.start(), end);
 }
+
+std::string figure_name(std::size_t row) { return fmt::format("reading-{:02}", row + 1); }
 
 /// Returns the index of the series' sample at which the trend begins.
 std::size_t curve_begin(const RepresentativeValue& value) {
@@ -82,59 +85,55 @@ double half_range(double spread_of_98) { return std::max(1.2 * spread_of_98, 1e-
 
 /// Returns a text on the part of the record that was averaged.
 std::string averaged_text(const CorrectedRow& row, double mean_mgal) {
-    if (!row.day) return "mean over the interval " + text::fixed(mean_mgal, 3) + " mGal.";
-    return "the model day averages " + text::fixed(row.day->averaged_s, 0) + " s of it to " +
-           text::fixed(row.row.acceleration.value(), 3) +
-           " mGal; trend and interval apply to the other models.";
+    if (!row.day) return fmt::format("mean over the interval {} mGal.", text::fixed(mean_mgal, 3));
+    return fmt::format(
+        "the model day averages {} s of it to {} mGal; trend and interval apply to the other "
+        "models.",
+        text::fixed(row.day->averaged_s, 0), text::fixed(row.row.acceleration.value(), 3));
 }
 
 Figure reading_figure(const SurveyCorrection& result, const ReadingRecord& record) {
     const RepresentativeValue& value = *record.value;
-    const std::string name = figure_name(record.row);
-    const std::string file = "'" + name + ".dat'";
-    DataBlocks data;
-    data.add("minutes acceleration_mgal trend_mgal temperature_degc", series_lines(value));
-    const auto limits = data.add("limits of the interval: minutes trend_mgal", limit_lines(value));
-    const auto extrema =
+    FigureData data(figure_name(record.row));
+    const std::string series =
+        data.add("minutes acceleration_mgal trend_mgal temperature_degc", series_lines(value));
+    const std::string limits =
+        data.add("limits of the interval: minutes trend_mgal", limit_lines(value));
+    const std::string extrema =
         data.add("extrema of the trend: minutes trend_mgal", extremum_lines(value));
 
-    const double mean_mgal = value.acceleration.value();
+    const double mean_mgal = value.curve_mean.value();
     const double half_mgal = std::max(half_range(spread(value.series.values(), mean_mgal, 0.98)),
                                       1.1 * spread(value.curve.values(), mean_mgal, 1.0));
     std::vector<std::string> clauses{
-        file + " index 0 using 1:($2-mean) with lines lw 0.7 lc rgb '#aaaaaa' title '2 s series'",
-        file + " index 0 using 1:($3-mean) with lines lw 2 lc rgb " + kBlue + " title 'trend'"};
-    if (extrema) {
-        clauses.push_back(file + " index " + std::to_string(*extrema) +
-                          " using 1:($2-mean) with points pt 12 ps 0.6 lc rgb " + kBlue +
+        series + " using 1:($2-mean) with lines lw 0.7 lc rgb '#aaaaaa' title '2 s series'",
+        series + " using 1:($3-mean) with lines lw 2 lc rgb " + kBlue + " title 'trend'"};
+    if (!extrema.empty()) {
+        clauses.push_back(extrema + " using 1:($2-mean) with points pt 12 ps 0.6 lc rgb " + kBlue +
                           " title 'extrema'");
     }
-    clauses.push_back(file + " index " + std::to_string(limits.value()) +
-                      " using 1:($2-mean) with points pt 13 ps 0.7 lc rgb " + kVermilion +
+    clauses.push_back(limits + " using 1:($2-mean) with points pt 13 ps 0.7 lc rgb " + kVermilion +
                       " title 'interval'");
     std::string lines;
     for (const UtcTime limit : {value.interval_start, value.interval_end}) {
-        const std::string x = text::fixed(minutes_between(value.series.start(), limit), 4);
-        lines.append("set arrow from first ").append(x).append(",graph 0 to first ").append(x);
-        lines.append(",graph 1 nohead dt 2 lw 1 lc rgb ").append(kVermilion).append("\n");
+        lines += fmt::format(
+            "set arrow from first {0},graph 0 to first {0},graph 1 nohead dt 2 lw 1 lc rgb {1}\n",
+            text::fixed(minutes_between(value.series.start(), limit), 4), kVermilion);
     }
     const std::string reading = reading_name(result.rows, record.row);
-    return Figure{
-        name,
-        reading + ", from " + to_rfc3339(value.series.start()) + ": " +
-            averaged_text(result.rows[record.row], mean_mgal),
-        script_head(name, 480, 300) + "mean = " + text::fixed(mean_mgal, 3) + '\n' + "set title " +
-            gnuplot_string(reading) + "\nset xlabel 'Minutes'\nset ylabel " +
-            gnuplot_string("Acceleration - " + text::fixed(mean_mgal, 1) + " (mGal)") +
-            "\nset yrange [" + text::fixed(-half_mgal, 3) + ":" + text::fixed(half_mgal, 3) +
-            "]\nset ytics " + text::fixed(round_step(half_mgal / 1.3), 4) + "\nset xrange [0:" +
-            text::fixed(
-                minutes_between(value.series.start(),
-                                value.series.time_of(static_cast<double>(value.series.size()))),
-                3) +
-            "]\nset key tmargin center horizontal samplen 1.5 font ',11'\n" + lines +
-            plot_command(clauses) + script_tail(),
-        data.text(), true};
+    return data.figure(
+        fmt::format("{}, from {}: {}", reading, to_rfc3339(value.series.start()),
+                    averaged_text(result.rows[record.row], mean_mgal)),
+        480, 300,
+        fmt::format(
+            "mean = {}\nset title {}\nset xlabel 'Minutes'\nset ylabel {}\nset yrange [{}:{}]\n"
+            "set ytics {}\nset xrange [0:{}]\n"
+            "set key tmargin center horizontal samplen 1.5 font ',11'\n{}{}",
+            text::fixed(mean_mgal, 3), gnuplot_string(reading),
+            gnuplot_string(fmt::format("Acceleration - {} (mGal)", text::fixed(mean_mgal, 1))),
+            text::fixed(-half_mgal, 3), text::fixed(half_mgal, 3),
+            text::fixed(round_step(half_mgal / 1.3), 4), text::fixed(length_min(value), 3), lines,
+            plot_command(clauses)));
 }
 
 /// Contents of a figure with one panel per record.
@@ -152,48 +151,46 @@ struct Panels {
 std::string inner_tics(double half) {
     const double step = round_step(half / 1.3);
     const double last = step * std::floor(0.85 * half / step);
-    return text::fixed(-last, 5) + ',' + text::fixed(step, 5) + ',' + text::fixed(last, 5);
+    return fmt::format("{},{},{}", text::fixed(-last, 5), text::fixed(step, 5),
+                       text::fixed(last, 5));
 }
 
-std::string panels_script(const SurveyCorrection& result, const std::vector<ReadingRecord>& records,
-                          const Panels& panels) {
+Figure panels_figure(const SurveyCorrection& result, const std::vector<ReadingRecord>& records,
+                     const Panels& panels) {
     constexpr std::size_t kColumns = 5;
     const std::size_t n = records.size();
     const std::size_t lines = (n + kColumns - 1) / kColumns;
     double longest_min = 0.0;
     for (const ReadingRecord& record : records) {
-        const auto& series = record.value->series;
-        longest_min = std::max(
-            longest_min,
-            minutes_between(series.start(), series.time_of(static_cast<double>(series.size()))));
+        longest_min = std::max(longest_min, length_min(*record.value));
     }
     const int height_px = 70 + 120 * static_cast<int>(lines);
-    // Margins for the labels, in pixels, as fractions of the height.
-    const std::string bottom = text::fixed(52.0 / height_px, 4);
-    const std::string top = text::fixed(1.0 - 12.0 / height_px, 4);
-    const std::string gap = text::fixed(10.0 / height_px, 4);
-    std::string script =
-        script_head(panels.name, 960, height_px) + "set multiplot layout " + std::to_string(lines) +
-        "," + std::to_string(kColumns) + " margins screen 0.07,0.99," + bottom + "," + top +
-        " spacing screen 0.012," + gap + "\nset xrange [0:" + text::fixed(longest_min, 2) +
-        "]\nset yrange [" + text::fixed(-panels.half, 5) + ":" + text::fixed(panels.half, 5) +
-        "]\nset xtics " + text::fixed(round_step(longest_min / 2.5), 4) + "\nset ytics " +
-        inner_tics(panels.half) + "\nunset key\nset label 1 'Minutes' at screen 0.53," +
-        text::fixed(14.0 / height_px, 4) + " center\nset label 2 '" + panels.y_label +
-        "' at screen 0.014,0.53 center rotate by 90\n";
+    // Margins for the labels, in pixels, as a fraction of the height.
+    const auto share = [height_px](double px) { return px / height_px; };
+    std::string script = fmt::format(
+        "set multiplot layout {},{} margins screen 0.07,0.99,{},{} spacing screen 0.012,{}\n"
+        "set xrange [0:{}]\nset yrange [{}:{}]\nset xtics {}\nset ytics {}\nunset key\n"
+        "set label 1 'Minutes' at screen 0.53,{} center\n"
+        "set label 2 '{}' at screen 0.014,0.53 center rotate by 90\n",
+        lines, kColumns, text::fixed(share(52.0), 4), text::fixed(1.0 - share(12.0), 4),
+        text::fixed(share(10.0), 4), text::fixed(longest_min, 2), text::fixed(-panels.half, 5),
+        text::fixed(panels.half, 5), text::fixed(round_step(longest_min / 2.5), 4),
+        inner_tics(panels.half), text::fixed(share(14.0), 4), panels.y_label);
     for (std::size_t k = 0; k < n; ++k) {
-        const bool is_lowest = k + kColumns >= n;
-        script += std::string("set format x '") + (is_lowest ? "%g" : "") + "'\nset format y '" +
-                  (k % kColumns == 0 ? "%g" : "") + "'\nset label 3 " +
-                  gnuplot_string(short_label(reading_name(result.rows, records[k].row))) +
-                  " at graph 0.04,0.9 font ',11' front\nset label 4 " +
-                  gnuplot_string("mean " + text::fixed(panels.means[k], panels.label_decimals)) +
-                  " at graph 0.96,0.09 right font ',10' front\nplot '" +
-                  figure_name(records[k].row) + ".dat' index 0 using 1:($" + panels.column + "-" +
-                  text::fixed(panels.means[k], 5) + ") with lines " + panels.style + '\n';
+        script += fmt::format(
+            "set format x '{}'\nset format y '{}'\n"
+            "set label 3 {} at graph 0.04,0.9 font ',11' front\n"
+            "set label 4 {} at graph 0.96,0.09 right font ',10' front\n"
+            "plot '{}.dat' index 0 using 1:(${}-{}) with lines {}\n",
+            k + kColumns >= n ? "%g" : "", k % kColumns == 0 ? "%g" : "",
+            gnuplot_string(short_label(reading_name(result.rows, records[k].row))),
+            gnuplot_string("mean " + text::fixed(panels.means[k], panels.label_decimals)),
+            figure_name(records[k].row), panels.column, text::fixed(panels.means[k], 5),
+            panels.style);
         if (k == 0) script += "unset label 1\nunset label 2\n";
     }
-    return script + "unset multiplot\n" + script_tail();
+    return FigureData(panels.name)
+        .figure(panels.caption, 960, height_px, script + "unset multiplot\n");
 }
 
 }  // namespace
@@ -203,11 +200,10 @@ std::vector<ReadingRecord> find_records(const SurveyCorrection& result,
     std::vector<ReadingRecord> records;
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         const SurveyRow& row = result.rows[i].row;
-        const auto found =
-            std::find_if(values.begin(), values.end(), [&row](const RepresentativeValue& value) {
-                return row.start && row.end && *row.start < value.interval_end &&
-                       value.interval_start < *row.end;
-            });
+        const auto found = std::ranges::find_if(values, [&row](const RepresentativeValue& value) {
+            return row.start && row.end && *row.start < value.interval_end &&
+                   value.interval_start < *row.end;
+        });
         if (found != values.end()) records.push_back({i, &*found});
     }
     return records;
@@ -216,7 +212,6 @@ std::vector<ReadingRecord> find_records(const SurveyCorrection& result,
 std::vector<Figure> reading_figures(const SurveyCorrection& result,
                                     const std::vector<ReadingRecord>& records) {
     std::vector<Figure> figures;
-    figures.reserve(records.size());
     for (const ReadingRecord& record : records) figures.push_back(reading_figure(result, record));
     return figures;
 }
@@ -254,12 +249,8 @@ std::vector<Figure> panel_figures(const SurveyCorrection& result,
             temperature.half,
             half_range(spread(value.temperature_series.values(), row.temperature.value(), 0.98)));
     }
-    std::vector<Figure> figures;
-    for (const Panels& panels : {acceleration, temperature}) {
-        figures.push_back(
-            {panels.name, panels.caption, panels_script(result, records, panels), {}});
-    }
-    return figures;
+    return {panels_figure(result, records, acceleration),
+            panels_figure(result, records, temperature)};
 }
 
 }  // namespace a351::corrector

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -71,53 +73,42 @@ std::string fit_lines(const RecordResult& result) {
     constexpr double kShortest_s = 240.0, kStep = 1.05;
     const double longest_s = static_cast<double>(result.segment().size()) * result.record.step_s;
     std::string lines;
-    double period_s = kShortest_s;
-    while (period_s < longest_s) {
+    for (double period_s = kShortest_s; period_s < longest_s; period_s *= kStep)
         lines += fit_line(result.analysis.two_paths, period_s);
-        period_s *= kStep;
-    }
     return lines;
 }
 
 }  // namespace
 
 Figure response_figure(const RecordResult& result) {
-    const std::string kName = "response";
-    DataBlocks data;
+    FigureData data("response");
     std::vector<std::string> gain, phase;
     const auto add = [&](const std::vector<ResponsePoint>& points, const std::string& style,
                          const std::string& title) {
-        const auto block =
+        const std::string source =
             data.add(title + ": period_s gain low high phase_deg low high", point_lines(points));
-        if (!block) return;
-        const std::string source = "'" + kName + ".dat' index " + std::to_string(*block);
-        gain.push_back(source + " using 1:2:3:4 with yerrorbars " + style + " title '" + title +
-                       "'");
-        phase.push_back(source + " using 1:5:6:7 with yerrorbars " + style + " notitle");
+        if (source.empty()) return;
+        gain.push_back(
+            fmt::format("{} using 1:2:3:4 with yerrorbars {} title '{}'", source, style, title));
+        phase.push_back(fmt::format("{} using 1:5:6:7 with yerrorbars {} notitle", source, style));
     };
     add(result.analysis.by_spectrum, "pt 7 ps 0.6 lc rgb " + kBlue, "by spectrum");
     add(result.analysis.by_modes, "pt 6 ps 0.8 lw 1.2 lc rgb " + kVermilion, "by modes");
-    const auto block =
+    const std::string fit =
         data.add("two-path fit: period_s gain low high phase_deg low high", fit_lines(result));
-    const std::string fit = "'" + kName + ".dat' index " + std::to_string(block.value());
-    gain.insert(gain.begin(),
-                {fit + " using 1:3:4 with filledcurves lc rgb '#e4e4e4' notitle",
-                 fit + " using 1:2 with lines lw 1.2 lc rgb " + kGrey + " title 'two-path fit'"});
-    phase.insert(phase.begin(),
-                 {fit + " using 1:6:7 with filledcurves lc rgb '#e4e4e4' notitle",
-                  fit + " using 1:5 with lines lw 1.2 lc rgb " + kGrey + " notitle"});
-    return {
-        kName,
+    const std::string line = " with lines lw 1.2 lc rgb " + kGrey;
+    gain.insert(gain.begin(), {fit + " using 1:3:4 with filledcurves lc rgb '#e4e4e4' notitle",
+                               fit + " using 1:2" + line + " title 'two-path fit'"});
+    phase.insert(phase.begin(), {fit + " using 1:6:7 with filledcurves lc rgb '#e4e4e4' notitle",
+                                 fit + " using 1:5" + line + " notitle"});
+    return data.figure(
         "Gain and phase of the acceleration against the temperature by period, with 95 % limits.",
-        script_head(kName, 900, 560) +
-            "set multiplot layout 2,1\nset logscale x\nset lmargin 12\n"
-            "set xrange [100:*]\nset yrange [1:3000]\nset ylabel 'Gain (mGal/°C)'\nset logscale "
-            "y\n" +
-            plot_command(gain) +
-            "unset logscale y\nset yrange [-200:200]\nset ytics 90\n"
-            "set ylabel 'Phase (°)'\nset xlabel 'Period (s)'\n" +
-            plot_command(phase) + "unset multiplot\n" + script_tail(),
-        data.text()};
+        900, 560,
+        fmt::format("set multiplot layout 2,1\nset logscale x\nset lmargin 12\n"
+                    "set xrange [100:*]\nset yrange [1:3000]\nset ylabel 'Gain (mGal/°C)'\n"
+                    "set logscale y\n{}unset logscale y\nset yrange [-200:200]\nset ytics 90\n"
+                    "set ylabel 'Phase (°)'\nset xlabel 'Period (s)'\n{}unset multiplot\n",
+                    plot_command(gain), plot_command(phase)));
 }
 
 }  // namespace a351::corrector

@@ -1,19 +1,18 @@
-#include "corrector/figure/table_figures.hpp"
+#include <fmt/core.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <functional>
 
 #include "corrector/figure/escaping.hpp"
 #include "corrector/figure/reading_name.hpp"
-#include "corrector/figure/time_axis.hpp"
+#include "corrector/figure/survey_figures.hpp"
 #include "corrector/model/linear_fit.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
-
-constexpr int kWidth_px = 640;
-constexpr int kHeight_px = 440;
 
 /// A group of rows and its mark in a figure.
 struct Mark {
@@ -50,16 +49,11 @@ struct Line {
 };
 
 std::optional<Line> line_through(const SurveyCorrection& result, const PointOf& point_of) {
-    std::vector<double> x, y;
-    double least = 0.0;
-    double greatest = 0.0;
-    bool is_first = true;
+    std::vector<double> all_x, x, y;
     for (const CorrectedRow& row : result.rows) {
         const auto point = point_of(row);
         if (!point) continue;
-        least = is_first ? point->x : std::min(least, point->x);
-        greatest = is_first ? point->x : std::max(greatest, point->x);
-        is_first = false;
+        all_x.push_back(point->x);
         if (!row.is_used) continue;
         x.push_back(point->x);
         y.push_back(point->y);
@@ -68,6 +62,7 @@ std::optional<Line> line_through(const SurveyCorrection& result, const PointOf& 
     const Eigen::MatrixXd columns = Eigen::Map<const Eigen::VectorXd>(x.data(), n);
     auto fit = fit_linear(columns, Eigen::Map<const Eigen::VectorXd>(y.data(), n));
     if (!fit || n < 3) return std::nullopt;
+    const auto [least, greatest] = std::ranges::minmax(all_x);
     return Line{std::move(*fit), least, greatest};
 }
 
@@ -81,58 +76,62 @@ std::string line_lines(const Line& line) {
 
 std::string line_title(const Line& line) {
     const double intercept = line.fit.coefficients(0);
-    return "y = " + text::fixed(line.fit.coefficients(1), 4) + " x " +
-           (intercept < 0.0 ? "- " : "+ ") + text::fixed(std::abs(intercept), 1) +
-           ", R² = " + text::fixed(line.fit.r_squared, 4);
+    return fmt::format("y = {} x {} {}, R² = {}", text::fixed(line.fit.coefficients(1), 4),
+                       intercept < 0.0 ? "-" : "+", text::fixed(std::abs(intercept), 1),
+                       text::fixed(line.fit.r_squared, 4));
+}
+
+/// Returns the comment of a row in data: its reading.
+std::string comment(const SurveyCorrection& result, std::size_t row) {
+    return fmt::format("# {}\n", clean_utf8(reading_name(result.rows, row)));
 }
 
 struct Scatter {
-    std::string name, x_label, y_label, columns;
+    const char *name, *x_label, *y_label, *columns;
     PointOf point_of;
 };
 
 /// Returns one clause per group of rows with points; none if no row has a point.
 std::vector<std::string> scatter_clauses(const SurveyCorrection& result, const Scatter& scatter,
-                                         DataBlocks& data) {
+                                         FigureData& data) {
     std::vector<std::string> clauses;
     for (const Mark& mark : marks()) {
         std::string lines;
         for (std::size_t i = 0; i < result.rows.size(); ++i) {
             const auto point = scatter.point_of(result.rows[i]);
             if (!point || !mark.takes(result.rows[i])) continue;
-            lines += datum(point->x, 4) + datum(point->y, 4) + "# " +
-                     clean_utf8(reading_name(result.rows, i)) + '\n';
+            lines += datum(point->x, 4) + datum(point->y, 4) + comment(result, i);
         }
-        const auto block = data.add(mark.title + ": " + scatter.columns, lines);
-        if (!block) continue;
-        clauses.push_back("'" + scatter.name + ".dat' index " + std::to_string(*block) +
-                          " using 1:2 with points " + mark.style + " title '" + mark.title + "'");
+        const std::string source =
+            data.add(fmt::format("{}: {}", mark.title, scatter.columns), lines);
+        if (source.empty()) continue;
+        clauses.push_back(
+            fmt::format("{} using 1:2 with points {} title '{}'", source, mark.style, mark.title));
     }
     return clauses;
 }
 
-std::string axes(const Scatter& scatter) {
-    return "set xlabel '" + scatter.x_label + "'\nset ylabel '" + scatter.y_label +
-           "'\n"
-           "set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\n";
+Figure scatter_plot(const FigureData& data, const Scatter& scatter, const std::string& caption,
+                    const std::vector<std::string>& clauses) {
+    return data.figure(caption, 640, 440,
+                       fmt::format("set xlabel '{}'\nset ylabel '{}'\n"
+                                   "set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\n"
+                                   "set format '%.6g'\n{}",
+                                   scatter.x_label, scatter.y_label, plot_command(clauses)));
 }
 
 std::optional<Figure> figure_with_line(const SurveyCorrection& result, const Scatter& scatter,
                                        const std::string& caption) {
-    DataBlocks data;
+    FigureData data(scatter.name);
     std::vector<std::string> clauses = scatter_clauses(result, scatter, data);
     if (clauses.empty()) return std::nullopt;
     if (const auto line = line_through(result, scatter.point_of)) {
-        const auto block =
-            data.add("line through those in the fit: " + scatter.columns, line_lines(*line));
-        clauses.push_back("'" + scatter.name + ".dat' index " + std::to_string(block.value()) +
-                          " using 1:2 with lines lw 1.2 lc rgb " + kGrey + " title '" +
-                          line_title(*line) + "'");
+        const std::string source = data.add(
+            fmt::format("line through those in the fit: {}", scatter.columns), line_lines(*line));
+        clauses.push_back(fmt::format("{} using 1:2 with lines lw 1.2 lc rgb {} title '{}'", source,
+                                      kGrey, line_title(*line)));
     }
-    return Figure{scatter.name, caption,
-                  script_head(scatter.name, kWidth_px, kHeight_px) + axes(scatter) +
-                      "set format '%.6g'\n" + plot_command(clauses) + script_tail(),
-                  data.text()};
+    return scatter_plot(data, scatter, caption, clauses);
 }
 
 std::string residual_lines(const SurveyCorrection& result, const Mark& mark) {
@@ -140,11 +139,39 @@ std::string residual_lines(const SurveyCorrection& result, const Mark& mark) {
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         const CorrectedRow& row = result.rows[i];
         if (!row.residual || !mark.takes(row)) continue;
-        lines += to_rfc3339(row.row.time) + ' ' + datum(row.residual->value(), 4) +
-                 datum(row.u_corrected ? row.u_corrected->value() : 0.0, 4) + "# " +
-                 clean_utf8(reading_name(result.rows, i)) + '\n';
+        lines += fmt::format("{} {}{}{}", to_rfc3339(row.row.time), datum(row.residual->value(), 4),
+                             datum(row.u_corrected ? row.u_corrected->value() : 0.0, 4),
+                             comment(result, i));
     }
     return lines;
+}
+
+/// Returns script lines for data whose first column is an instant in RFC 3339.  UTC is below the
+/// figure; the stays are above it, at the instants of their first readings.
+std::string time_axis(const std::vector<CorrectedRow>& rows) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const SurveyRow& row = rows[i].row;
+        const bool is_further_set_up = i > 0 && rows[i - 1].row.site == row.site &&
+                                       rows[i - 1].row.occupation == row.occupation;
+        if (is_further_set_up) continue;
+        names.push_back(fmt::format(
+            "{} '{}'",
+            gnuplot_string(fmt::format("{} ({})", short_label(row.site), row.occupation)),
+            to_rfc3339(row.time)));
+    }
+    // Longest survey whose axis shows only hours; a longer one needs the date too.
+    constexpr std::chrono::hours kLongestDay(36);
+    const UtcTime first = rows.front().row.time;
+    const UtcTime last = rows.back().row.time;
+    const std::string first_date = to_rfc3339(first).substr(0, 10);
+    const std::string last_date = to_rfc3339(last).substr(0, 10);
+    return fmt::format(
+        "set xdata time\nset x2data time\nset timefmt '%Y-%m-%dT%H:%M:%SZ'\nset format x {}\n"
+        "set link x2\nset xlabel 'UTC, {}{}'\nset xtics nomirror\nset grid x2tics noxtics\n"
+        "set x2tics scale 0 rotate by 90 left font ',10' ({})\n",
+        last - first > kLongestDay ? "\"%H:%M\\n%m-%d\"" : "'%H:%M'", first_date,
+        first_date == last_date ? "" : " to " + last_date, text::joined(names, ", \\\n    "));
 }
 
 }  // namespace
@@ -181,50 +208,83 @@ std::optional<Figure> corrected_figure(const SurveyCorrection& result) {
                               if (!row.row.reference) return std::nullopt;
                               return Point{row.row.reference->value(), row.corrected.value()};
                           }};
-    DataBlocks data;
+    FigureData data(scatter.name);
     std::vector<std::string> clauses = scatter_clauses(result, scatter, data);
     if (clauses.empty()) return std::nullopt;
     const auto line = line_through(result, scatter.point_of);
-    clauses.push_back(
-        "x with lines lw 1.2 lc rgb " + kGrey + " title 'y = x" +
-        (line ? " (R² of the readings in the fit " + text::fixed(line->fit.r_squared, 4) + ")"
-              : "") +
-        "'");
-    return Figure{scatter.name,
-                  "Corrected gravity over reference gravity, with the line y = x. In sample: the "
-                  "same references were used in the fit.",
-                  script_head(scatter.name, kWidth_px, kHeight_px) + axes(scatter) +
-                      "set format '%.6g'\n" + plot_command(clauses) + script_tail(),
-                  data.text()};
+    clauses.push_back(fmt::format("x with lines lw 1.2 lc rgb {} title 'y = x{}'", kGrey,
+                                  line ? fmt::format(" (R² of the readings in the fit {})",
+                                                     text::fixed(line->fit.r_squared, 4))
+                                       : ""));
+    return scatter_plot(data, scatter,
+                        "Corrected gravity over reference gravity, with the line y = x. In sample: "
+                        "the same references were used in the fit.",
+                        clauses);
 }
 
 std::optional<Figure> residual_figure(const SurveyCorrection& result) {
-    const std::string kName = "residuals";
-    DataBlocks data;
+    FigureData data("residuals");
     std::vector<std::string> clauses{"0 with lines lw 1 lc rgb " + kGrey + " notitle"};
     for (const Mark& mark : marks()) {
-        const auto block = data.add(mark.title + ": time_utc residual_mgal u_corrected_mgal",
-                                    residual_lines(result, mark));
-        if (!block) continue;
-        const std::string source =
-            "'" + kName + ".dat' index " + std::to_string(*block) + " using 1:2";
-        clauses.push_back(source + ":3 with yerrorbars pt 0 lw 0.8 lc rgb '#bbbbbb' notitle");
-        clauses.push_back(source + " with points " + mark.style + " title '" + mark.title + "'");
+        const std::string source = data.add(
+            mark.title + ": time_utc residual_mgal u_corrected_mgal", residual_lines(result, mark));
+        if (source.empty()) continue;
+        clauses.push_back(source +
+                          " using 1:2:3 with yerrorbars pt 0 lw 0.8 lc rgb '#bbbbbb' notitle");
+        clauses.push_back(
+            fmt::format("{} using 1:2 with points {} title '{}'", source, mark.style, mark.title));
     }
-    if (data.text().empty()) return std::nullopt;
-    return Figure{
-        kName,
-        "Residuals (reference minus corrected) in time, in sample; bars: standard "
-        "uncertainty " +
-            std::string(result.model == "day" ? "of the prediction without the reading's station."
-                        : result.network      ? "of a single reading, a priori."
-                                              : "as of a new station, from the scatter in "
-                                                "sample."),
-        script_head(kName, 900, 430) + time_axis(result.rows) +
-            "set ylabel 'Residual (mGal)'\n"
-            "set offsets graph 0.02, graph 0.02, graph 0.03, graph 0.03\n" +
-            plot_command(clauses) + script_tail(),
-        data.text()};
+    if (clauses.size() == 1) return std::nullopt;
+    return data.figure(
+        fmt::format("Residuals (reference minus corrected) in time, in sample; bars: standard "
+                    "uncertainty {}",
+                    result.model == "day" ? "of the prediction without the reading's station."
+                    : result.network      ? "of a single reading, a priori."
+                                          : "as of a new station, from the scatter in sample."),
+        900, 430,
+        fmt::format("{}set ylabel 'Residual (mGal)'\n"
+                    "set offsets graph 0.02, graph 0.02, graph 0.03, graph 0.03\n{}",
+                    time_axis(result.rows), plot_command(clauses)));
+}
+
+Figure temperature_figure(const SurveyCorrection& result,
+                          const std::vector<MinuteTemperature>& course) {
+    std::string course_lines, reading_lines, intervals;
+    for (std::size_t i = 0; i < course.size(); ++i) {
+        const bool is_gap =
+            i > 0 && course[i].middle - course[i - 1].middle > std::chrono::minutes(1);
+        course_lines += fmt::format("{}{} {}\n", is_gap ? "\n" : "", to_rfc3339(course[i].middle),
+                                    datum(course[i].mean.value(), 4));
+    }
+    for (std::size_t i = 0; i < result.rows.size(); ++i) {
+        const SurveyRow& row = result.rows[i].row;
+        reading_lines += fmt::format("{} {}{}", to_rfc3339(row.time),
+                                     datum(row.temperature.value(), 4), comment(result, i));
+        if (!row.start || !row.end) continue;
+        intervals += fmt::format(
+            "set object rectangle from '{}',graph 0 to '{}',graph 1 fc rgb '#d9ecf7' fs solid "
+            "noborder behind\n",
+            to_rfc3339(*row.start), to_rfc3339(*row.end));
+    }
+    FigureData data("temperature");
+    std::vector<std::string> clauses;
+    const std::string means =
+        data.add("means of a minute: time_utc temperature_degc", course_lines);
+    if (!means.empty()) {
+        clauses.push_back(
+            fmt::format("{} using 1:2 with lines lw 1.2 lc rgb {} title 'means of a minute'", means,
+                        kVermilion));
+    }
+    clauses.push_back(fmt::format("{} using 1:2 with points pt 7 ps 0.6 lc rgb {} title 'readings'",
+                                  data.add("readings: time_utc temperature_degc", reading_lines),
+                                  kBlue));
+    return data.figure(
+        course.empty() ? "Temperature of the readings."
+                       : "Temperature of the sensor over the day; shaded: the averaged intervals.",
+        900, 400,
+        fmt::format("{}set ylabel 'Temperature (°C)'\n"
+                    "set offsets graph 0.02, graph 0.02, graph 0.05, graph 0.05\n{}{}",
+                    time_axis(result.rows), intervals, plot_command(clauses)));
 }
 
 }  // namespace a351::corrector

@@ -47,9 +47,8 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     survey.survey.datum = table.strings("datum");
     survey.survey.model = table.choice_or("model", "auto", model_names());
     survey.survey.use_flags = table.choice_or("flags", "use", {"use", "ignore"}) == "use";
-    if (!set_tide_source(survey.tide, table.string_or("tide", "direct"), beside)) {
+    if (!set_tide_source(survey.tide, table.string_or("tide", "direct"), beside))
         table.refuse("tide", "neither a source nor a file", kTideSources);
-    }
     survey.tide.factors.delta2 =
         table.number_or("delta2", survey.tide.factors.delta2, kLeastFactor, kGreatestFactor);
     survey.tide.factors.delta3 =
@@ -80,7 +79,6 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     survey.survey.network.drift_degree = static_cast<int>(
         table.integer_or("drift_degree", survey.survey.network.drift_degree, 0, 2));
     std::vector<std::string> linear_models;
-    linear_models.reserve(kLinearModels.size());
     for (const LinearModel& model : kLinearModels) linear_models.emplace_back(model.name);
     survey.survey.robust_terms =
         table.choice_or("robust_terms", survey.survey.robust_terms, linear_models);
@@ -89,9 +87,8 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     read_priors(survey.survey.priors, document.table("prior"));
     document.require_all_read();
 
-    if (!std::filesystem::is_directory(survey.root)) {
+    if (!std::filesystem::is_directory(survey.root))
         table.refuse("root", "no such directory: " + survey.root.string(), "a data root");
-    }
     const std::vector<text::Site> sites = text::read_sites(survey.sites);
     if (!survey.survey.base.empty()) require_site(table, "base", sites, survey.survey.base);
     for (const std::string& name : survey.survey.datum) require_site(table, "datum", sites, name);

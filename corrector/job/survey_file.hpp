@@ -8,26 +8,16 @@
 #include <string>
 
 #include "corrector/model/survey_correction.hpp"
-#include "corrector/reading/decimated_axes.hpp"
-#include "corrector/reading/trend_curve.hpp"
+#include "corrector/reading/occupation_rows.hpp"
 #include "corrector/tide/tide_choice.hpp"
-#include "protocol/core/utc_time.hpp"
 
 namespace a351::corrector {
 
 /// One survey day, from table [survey] of its TOML file.  Paths in the file are relative to it.
-struct SurveyFile {
-    std::filesystem::path path;         ///< The survey file; empty if there is none.
+/// The options of the average are those below; read_survey() sets `averaging` from them.
+struct SurveyFile : SurveySource {
     std::string name;                   ///< Name of the day; default: the file's stem.
-    std::filesystem::path root;         ///< Data root with archive/, metadata/, events/.
-    std::filesystem::path sites;        ///< CSV of the benchmarks.
-    std::filesystem::path occupations;  ///< CSV; empty: the event log of the root.
-    std::filesystem::path amendments;   ///< TOML for amend(); empty: none.
     std::filesystem::path calibration;  ///< File of survey.calibration; empty: none.
-    /// Start of the time in which occupations must start.  Without `from` and `to`: all of a table,
-    /// or the last survey day of the log.
-    std::optional<UtcTime> from;
-    std::optional<UtcTime> to;  ///< End of this time, not included.
     SurveyOptions survey;
     TideChoice tide;
     std::optional<TrendCurve>

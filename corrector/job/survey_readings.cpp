@@ -1,6 +1,9 @@
 #include "corrector/job/survey_readings.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <string_view>
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/input_file.hpp"
@@ -9,14 +12,7 @@ namespace a351::corrector {
 namespace {
 
 SurveySource source_of(const SurveyFile& survey) {
-    SurveySource source;
-    source.path = survey.path;
-    source.root = survey.root;
-    source.sites = survey.sites;
-    source.occupations = survey.occupations;
-    source.amendments = survey.amendments;
-    source.from = survey.from;
-    source.to = survey.to;
+    SurveySource source = survey;
     source.averaging.norm = survey.norm;
     source.averaging.trend = trend_method_of(survey);
     source.averaging.cutoff_s = survey.cutoff_s;
@@ -34,8 +30,7 @@ void add_inputs(std::vector<text::InputFile>& inputs, const SurveyFile& survey) 
     if (!survey.tide.series.empty())
         more.push_back(text::describe_input("tide", survey.tide.series));
     const auto archive =
-        std::find_if(inputs.begin(), inputs.end(),
-                     [](const text::InputFile& input) { return input.role == "archive"; });
+        std::ranges::find(inputs, std::string_view("archive"), &text::InputFile::role);
     inputs.insert(archive, more.begin(), more.end());
     if (!survey.path.empty())
         inputs.insert(inputs.begin(), text::describe_input("survey", survey.path));
@@ -58,8 +53,7 @@ OccupationRows read_survey(const SurveyFile& survey, const Progress& progress) {
 
 SurveyOptions with_sites_of(OccupationRows& read, SurveyOptions options) {
     const auto is_absent = [&read](const std::string& site) {
-        return std::none_of(read.rows.begin(), read.rows.end(),
-                            [&site](const SurveyRow& row) { return row.site == site; });
+        return std::ranges::find(read.rows, site, &SurveyRow::site) == read.rows.end();
     };
     if (!options.base.empty() && is_absent(options.base) && options.model != "paper") {
         read.warnings.push_back("base " + options.base +
@@ -67,12 +61,11 @@ SurveyOptions with_sites_of(OccupationRows& read, SurveyOptions options) {
         options.base.clear();
     }
     auto& datum = options.datum;
-    if (std::all_of(datum.begin(), datum.end(), is_absent)) return options;
-    for (const std::string& site : datum) {
-        if (!is_absent(site)) continue;
-        read.warnings.push_back("datum " + site +
-                                " has no occupation with a value: it is left out");
-    }
+    if (std::ranges::all_of(datum, is_absent)) return options;
+    for (const std::string& site : datum)
+        if (is_absent(site))
+            read.warnings.push_back(
+                fmt::format("datum {} has no occupation with a value: it is left out", site));
     std::erase_if(datum, is_absent);
     return options;
 }
@@ -84,20 +77,23 @@ std::vector<std::string> check_calibration(const SurveyFile& survey,
     std::vector<std::string> warnings;
     if (serial_number.empty()) {
         warnings.push_back(
-            "the station metadata do not contain the sensor's serial number: it was not checked "
-            "that the calibration of " +
-            calibration.serial_number + " belongs to this sensor");
+            fmt::format("the station metadata do not contain the sensor's serial number: it was "
+                        "not checked that the calibration of {} belongs to this sensor",
+                        calibration.serial_number));
     } else if (serial_number != calibration.serial_number) {
-        throw InputError(survey.path.string() + ": calibration = " + survey.calibration.string() +
-                         ": of unit " + calibration.serial_number + ", the record is of unit " +
-                         serial_number + "; allowed: a calibration of " + serial_number);
+        throw InputError(fmt::format(
+            "{}: calibration = {}: of unit {}, the record is of unit {}; allowed: a calibration of "
+            "{}",
+            survey.path.string(), survey.calibration.string(), calibration.serial_number,
+            serial_number, serial_number));
     }
     const UtcTime end = calibration.valid_to.value_or(UtcTime::max());
     if (windows.front().start < calibration.valid_from || windows.back().end > end)
         warnings.push_back(
-            "the survey is not completely within the validity of the calibration, from " +
-            to_rfc3339(calibration.valid_from) +
-            (calibration.valid_to ? " to " + to_rfc3339(end) : std::string(" on")));
+            fmt::format("the survey is not completely within the validity of the calibration, from "
+                        "{}{}",
+                        to_rfc3339(calibration.valid_from),
+                        calibration.valid_to ? " to " + to_rfc3339(end) : " on"));
     return warnings;
 }
 

@@ -1,5 +1,7 @@
 #include "corrector/long_record/applied_tables.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -27,7 +29,7 @@ TextTable applied_bands_table(const AppliedCalibration& applied) {
     for (const BandScatter& band : applied.bands) {
         const std::string from = text::fixed(band.shortest_s, 0);
         rows.push_back(cells(std::isfinite(band.longest_s)
-                                 ? from + " to " + text::fixed(band.longest_s, 0) + " s"
+                                 ? fmt::format("{} to {} s", from, text::fixed(band.longest_s, 0))
                                  : from + " s and more",
                              band.rms_mgal));
     }
@@ -37,19 +39,19 @@ TextTable applied_bands_table(const AppliedCalibration& applied) {
 TextTable allan_table(const AppliedCalibration& applied) {
     TextTable rows{{"Allan deviation in mGal", "before", "parametric", "by modes"}};
     for (const AllanPoint& point : applied.allan)
-        rows.push_back(
-            cells("averages of " + text::fixed(point.averaging_s, 0) + " s", point.deviation_mgal));
+        rows.push_back(cells(fmt::format("averages of {} s", text::fixed(point.averaging_s, 0)),
+                             point.deviation_mgal));
     return rows;
 }
 
 std::vector<std::string> applied_sentences(const AppliedCalibration& applied) {
-    std::vector<std::string> lines{applied.origin,
-                                   "parametric: the two paths are applied to the smoothed "
-                                   "temperature; by modes: temperature modes with a period of " +
-                                       text::fixed(applied.averaged_below_s, 0) +
-                                       " s or more are scaled by the response at their period, "
-                                       "and shorter modes of the acceleration are averaged out, "
-                                       "which does not correct them"};
+    std::vector<std::string> lines{
+        applied.origin,
+        fmt::format("parametric: the two paths are applied to the smoothed temperature; by modes: "
+                    "temperature modes with a period of {} s or more are scaled by the response at "
+                    "their period, and shorter modes of the acceleration are averaged out, which "
+                    "does not correct them",
+                    text::fixed(applied.averaged_below_s, 0))};
     lines.insert(lines.end(), applied.remarks.begin(), applied.remarks.end());
     return lines;
 }
@@ -69,8 +71,8 @@ std::string applied_cells(const RecordResult& result, UtcTime time) {
     if (place < -0.5 || time > segment.end) return ",,";
     const auto i = static_cast<std::size_t>(std::llround(std::max(0.0, place)));
     if (i >= segment.size()) return ",,";
-    return ',' + text::shortest(result.applied->parametric_mgal[i]) + ',' +
-           text::shortest(result.applied->by_modes_mgal[i]);
+    return fmt::format(",{},{}", text::shortest(result.applied->parametric_mgal[i]),
+                       text::shortest(result.applied->by_modes_mgal[i]));
 }
 
 Json applied_json(const RecordResult& result) {
@@ -81,10 +83,9 @@ Json applied_json(const RecordResult& result) {
               {"allan", Json::array()},
               {"remarks", result.applied->remarks}};
     for (const BandScatter& band : result.applied->bands)
-        json["bands"].push_back(
-            {{"shortest_s", band.shortest_s},
-             {"longest_s", std::isfinite(band.longest_s) ? Json(band.longest_s) : Json(nullptr)},
-             {"rms_mgal", ways_json(band.rms_mgal)}});
+        json["bands"].push_back({{"shortest_s", band.shortest_s},
+                                 {"longest_s", band.longest_s},
+                                 {"rms_mgal", ways_json(band.rms_mgal)}});
     for (const AllanPoint& point : result.applied->allan)
         json["allan"].push_back({{"averaging_s", point.averaging_s},
                                  {"deviation_mgal", ways_json(point.deviation_mgal)}});

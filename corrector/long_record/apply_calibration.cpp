@@ -1,10 +1,11 @@
 #include "corrector/long_record/apply_calibration.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 
 #include "corrector/correlation/fourier.hpp"
 #include "corrector/correlation/regression.hpp"
@@ -58,11 +59,11 @@ Response response_of(const ThermalResponse& thermal, std::vector<std::string>& r
     const double slope_error =
         std::sqrt(covariance(0, 0) + covariance(1, 1) + 2.0 * covariance(0, 1));
     const double rate_error = std::sqrt(covariance(2, 2));
-    const auto left_out = [&remarks](const std::string& name, double value, double error,
-                                     const std::string& unit) {
-        remarks.push_back("the calibration does not determine the " + name + " (" +
-                          text::fixed(value, 1) + " +- " + text::fixed(error, 1) + " " + unit +
-                          "): it was not applied");
+    const auto left_out = [&remarks](const char* name, double value, double error,
+                                     const char* unit) {
+        remarks.push_back(fmt::format(
+            "the calibration does not determine the {} ({} +- {} {}): it was not applied", name,
+            text::fixed(value, 1), text::fixed(error, 1), unit));
     };
     if (std::abs(slope) >= kLeastRatioToError * slope_error) {
         response.level = values(0);
@@ -191,28 +192,21 @@ AppliedCalibration apply_calibration(const ThermalResponse& thermal, const Recor
 
     const std::array<const std::vector<double>*, 3> series{
         &segment.acceleration_mgal, &applied.parametric_mgal, &applied.by_modes_mgal};
-    const std::vector<double> edges_s{kShortestPeriod_s,
-                                      240.0,
-                                      600.0,
-                                      1500.0,
-                                      3600.0,
-                                      10800.0,
-                                      std::numeric_limits<double>::infinity()};
+    const std::vector<double> edges_s{kShortestPeriod_s, 240.0,   600.0, 1500.0, 3600.0,
+                                      10800.0,           HUGE_VAL};
     std::array<std::vector<double>, 3> squares;
     for (std::size_t k = 0; k < series.size(); ++k)
         squares.at(k) = band_squares(*series.at(k), analysis.step_s, edges_s);
-    for (std::size_t band = 0; band + 1 < edges_s.size(); ++band) {
+    for (std::size_t band = 0; band + 1 < edges_s.size(); ++band)
         applied.bands.push_back({edges_s[band],
                                  edges_s[band + 1],
                                  {std::sqrt(squares[0][band]), std::sqrt(squares[1][band]),
                                   std::sqrt(squares[2][band])}});
-    }
-    for (std::size_t samples = 1; samples <= segment.size() / 4; samples *= 2) {
+    for (std::size_t samples = 1; samples <= segment.size() / 4; samples *= 2)
         applied.allan.push_back(
             {static_cast<double>(samples) * analysis.step_s,
              {allan_deviation(*series[0], samples), allan_deviation(*series[1], samples),
               allan_deviation(*series[2], samples)}});
-    }
     return applied;
 }
 

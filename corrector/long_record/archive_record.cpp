@@ -1,10 +1,11 @@
 #include "corrector/long_record/archive_record.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <pugixml.hpp>
 #include <set>
 #include <utility>
@@ -53,11 +54,8 @@ public:
     void use(const RecordEpoch& epoch) {
         if (epoch_ == &epoch) return;
         if (std::string change = epoch_ == nullptr ? "" : epoch_change(*epoch_, epoch);
-            !change.empty()) {
-            end_stretch(false, {});
-            change_ = std::move(change);
-            warn_of_change(epoch.start);
-        }
+            !change.empty())
+            divide(std::move(change), epoch.start);
         epoch_ = &epoch;
     }
 
@@ -69,11 +67,9 @@ public:
             if (rate_hz_ == 0.0) begin(segment.rate_hz);
             if (!has_rate(segment)) {
                 push(run, day);
-                run.clear();
-                end_stretch(false, {});
-                change_ = "another rate: " + text::shortest(segment.rate_hz) + " Hz after " +
-                          text::shortest(rate_hz_) + " Hz";
-                warn_of_change(start);
+                divide(fmt::format("another rate: {} Hz after {} Hz",
+                                   text::shortest(segment.rate_hz), text::shortest(rate_hz_)),
+                       start);
                 begin(segment.rate_hz);
             }
             std::int64_t first = 0;
@@ -83,8 +79,11 @@ public:
                     first = next_ + std::llround(late);
                 } else {
                     push(run, day);
-                    run.clear();
-                    end_stretch(late <= -0.5, start);
+                    end_stretch();
+                    if (late <= -0.5)
+                        record_.warnings.push_back(fmt::format(
+                            "at {} the time of the archive goes back by {} s", to_rfc3339(start),
+                            text::shortest(seconds_between(start, next_time_))));
                 }
             }
             if (!builder_) builder_.emplace(stages_, kChannels - 1);
@@ -96,8 +95,13 @@ public:
         push(run, day);
     }
 
-    void finish() {
-        if (builder_) end_stretch(false, {});
+    void end_stretch() {
+        if (!builder_) return;
+        record_.stretches.push_back(builder_->finish(record_.step_s));
+        record_.stretches.back().serial_number = epoch_->serial_number;
+        record_.stretches.back().begins_with = std::exchange(change_, {});
+        builder_.reset();
+        next_ = 0;
     }
 
 private:
@@ -107,39 +111,29 @@ private:
 
     void begin(double rate_hz) {
         const auto stages = record_stages(1.0 / rate_hz);
-        if (!stages) {
-            throw InputError("archive: rate = " + text::shortest(rate_hz) +
-                             " Hz; allowed: 0.05, 0.5, 5 or 50 Hz within 10 %");
-        }
+        if (!stages)
+            throw InputError(
+                fmt::format("archive: rate = {} Hz; allowed: 0.05, 0.5, 5 or 50 Hz within 10 %",
+                            text::shortest(rate_hz)));
         stages_ = *stages;
         const double step_s = std::pow(kRecordFactor, stages_) / rate_hz;
         if (rate_hz_ == 0.0) {
             record_.raw_rate_hz = rate_hz;
             record_.step_s = step_s;
         } else if (std::abs(step_s / record_.step_s - 1.0) > kSameRate) {
-            throw InputError("archive: rate = " + text::shortest(rate_hz) + " Hz after " +
-                             text::shortest(rate_hz_) +
-                             " Hz; allowed: rates that differ by factors of 10");
+            throw InputError(fmt::format(
+                "archive: rate = {} Hz after {} Hz; allowed: rates that differ by factors of 10",
+                text::shortest(rate_hz), text::shortest(rate_hz_)));
         }
         rate_hz_ = rate_hz;
     }
 
-    void warn_of_change(UtcTime time) {
-        record_.warnings.push_back("from " + to_rfc3339(time) + " on, " + change_ +
-                                   "; the record is divided there");
-    }
-
-    void end_stretch(bool is_step_back, UtcTime start) {
-        record_.stretches.push_back(builder_->finish(record_.step_s));
-        record_.stretches.back().serial_number = epoch_->serial_number;
-        record_.stretches.back().begins_with = std::exchange(change_, {});
-        builder_.reset();
-        next_ = 0;
-        if (is_step_back) {
-            record_.warnings.push_back("at " + to_rfc3339(start) +
-                                       " the time of the archive goes back by " +
-                                       text::shortest(seconds_between(start, next_time_)) + " s");
-        }
+    /// Ends the stretch; the next one begins with this change.
+    void divide(std::string change, UtcTime time) {
+        end_stretch();
+        record_.warnings.push_back(
+            fmt::format("from {} on, {}; the record is divided there", to_rfc3339(time), change));
+        change_ = std::move(change);
     }
 
     void note_times(const Placed& placed) {
@@ -173,7 +167,8 @@ private:
         return placed;
     }
 
-    void push(const std::vector<Placed>& run, const DayOfChannels& day) {
+    /// Adds the samples of a run to the stretch and clears the run.
+    void push(std::vector<Placed>& run, const DayOfChannels& day) {
         if (run.empty()) return;
         std::array<std::vector<Placed>, kChannels> placed;
         for (std::size_t k = 0; k < kChannels; ++k)
@@ -184,6 +179,7 @@ private:
             for (std::size_t k = 0; k < kChannels; ++k) fill(block_[k], placed[k], k, at, count);
             builder_->push(block_);
         }
+        run.clear();
     }
 
     void fill(std::vector<double>& values, const std::vector<Placed>& placed, std::size_t channel,
@@ -222,12 +218,9 @@ std::optional<TideStation> position_of(const std::filesystem::path& metadata) {
 }
 
 void remove_tide(LongRecord& record, const TideStation& station) {
-    for (RecordStretch& stretch : record.stretches) {
-        for (std::size_t i = 0; i < stretch.size(); ++i) {
-            if (std::isnan(stretch.acceleration_mgal[i])) continue;
+    for (RecordStretch& stretch : record.stretches)
+        for (std::size_t i = 0; i < stretch.size(); ++i)
             stretch.acceleration_mgal[i] -= direct_tide(stretch.times[i], station).value();
-        }
-    }
     record.is_tide_removed = true;
 }
 
@@ -258,8 +251,7 @@ void describe_inputs(LongRecord& record, const std::filesystem::path& root,
             for (const Day day : of_days) {
                 auto file =
                     record::sds_file(root / "archive", epoch.codes, epoch.scales.at(k).code, day);
-                if (std::filesystem::exists(file) &&
-                    std::find(files.begin(), files.end(), file) == files.end())
+                if (std::filesystem::exists(file) && std::ranges::find(files, file) == files.end())
                     files.push_back(std::move(file));
             }
         }
@@ -289,8 +281,7 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
         UtcTime from = std::max(UtcTime(day), window.from.value_or(UtcTime(day)));
         for (std::size_t e = 0; e < epochs.size(); ++e) {
             // [from, to) is the epoch's part of the day.
-            const bool is_last = e + 1 == epochs.size();
-            const UtcTime to = is_last ? next : std::min(next, epochs[e + 1].start);
+            const UtcTime to = e + 1 < epochs.size() ? std::min(next, epochs[e + 1].start) : next;
             if (from >= to) continue;
             const RecordEpoch& epoch = epochs[e];
             DayOfChannels samples;
@@ -306,17 +297,15 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
         }
         progress(++done, of_days.size());
     }
-    stream.finish();
-    if (record.stretches.empty()) {
-        throw InputError(root.string() + ": archive: no sample of " +
-                         epochs.back().scales[kVertical].code +
-                         "; allowed: an archive with samples from --from to --to");
-    }
-    if (const auto position = position_of(metadata)) {
+    stream.end_stretch();
+    if (record.stretches.empty())
+        throw InputError(fmt::format(
+            "{}: archive: no sample of {}; allowed: an archive with samples from --from to --to",
+            root.string(), epochs.back().scales[kVertical].code));
+    if (const auto position = position_of(metadata))
         remove_tide(record, *position);
-    } else {
+    else
         record.warnings.push_back(metadata.string() + ": no position: the tide is not removed");
-    }
     record.source = root;
     record.inputs.push_back(text::describe_input("metadata", metadata));
     describe_inputs(record, root, epochs, of_days);

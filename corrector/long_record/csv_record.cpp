@@ -1,9 +1,10 @@
 #include "corrector/long_record/csv_record.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <limits>
 
 #include "corrector/long_record/stretch_builder.hpp"
 #include "corrector/reading/smoother.hpp"
@@ -36,7 +37,7 @@ public:
         : in_(text::open_file(file)), reader_(in_, file), window_(window) {
         const auto& columns = reader_.columns();
         const auto has = [&](const char* name) {
-            return std::find(columns.begin(), columns.end(), name) != columns.end();
+            return std::ranges::find(columns, name) != columns.end();
         };
         const auto index = [&](const char* name) {
             return text::column_index(columns, name, file);
@@ -104,22 +105,28 @@ private:
     std::optional<UtcTime> last_;
 };
 
-/// Puts rows on the steps of their clock and builds stretches.
+/// Puts rows on the steps of their clock and builds stretches.  Refuses rows that have another step
+/// than the first ones: they would get wrong times.
 class CsvStream {
 public:
     CsvStream(LongRecord& record, double step_s, int stages, std::size_t axes)
         : record_(record), step_s_(step_s), stages_(stages), axes_(axes), block_(axes + 1) {}
 
     void take(const Row& row) {
-        if (builder_) {
-            const double steps = seconds_between(last_, row.time) / step_s_;
-            if (steps * step_s_ > kLongestGap_s) {
-                finish();
-            } else {
-                // A row after less than half a step is jitter of the time stamps: it is the next
-                // row.
-                for (long long missing = std::llround(steps); missing > 1; --missing) add_missing();
-            }
+        if (steps_.empty()) first_line_ = row.line;
+        if (last_) {
+            const double passed_s = seconds_between(*last_, row.time);
+            const double steps = passed_s / step_s_;
+            // Missing rows do not change the step.
+            if (passed_s <= kLongestGap_s)
+                steps_.push_back(passed_s / std::max(1.0, std::round(steps)));
+            if (steps_.size() == kCheckedRows) check_step();
+            // A row after less than half a step is jitter of the time stamps: it is the next row.
+            const auto missing = static_cast<std::size_t>(std::max(std::llround(steps) - 1, 0LL));
+            if (steps * step_s_ > kLongestGap_s)
+                end_stretch();
+            else
+                for (auto& channel : block_) channel.insert(channel.end(), missing, kNaN);
         }
         if (!builder_) builder_.emplace(stages_, axes_);
         const std::int64_t number = builder_->input_count() + static_cast<std::int64_t>(pending());
@@ -130,23 +137,38 @@ public:
         if (pending() >= kBlockRows) flush();
     }
 
+    /// Ends the record after at least one row.
     void finish() {
-        if (!builder_) return;
+        if (steps_.size() >= kFewestChecked) check_step();
+        end_stretch();
+    }
+
+private:
+    // Rows whose median step is checked; many rows, because stamps may jitter.
+    static constexpr std::size_t kCheckedRows = 100, kFewestChecked = 20;
+
+    [[nodiscard]] std::size_t pending() const { return block_.front().size(); }
+
+    void flush() {
+        builder_->push(block_);
+        for (std::vector<double>& channel : block_) channel.clear();
+    }
+
+    void end_stretch() {
         flush();
         record_.stretches.push_back(builder_->finish(record_.step_s));
         builder_.reset();
     }
 
-private:
-    [[nodiscard]] std::size_t pending() const { return block_.front().size(); }
-
-    void add_missing() {
-        for (std::vector<double>& channel : block_) channel.push_back(kNaN);
-    }
-
-    void flush() {
-        builder_->push(block_);
-        for (std::vector<double>& channel : block_) channel.clear();
+    void check_step() {
+        const double step_s = median(std::move(steps_));
+        if (std::abs(step_s / step_s_ - 1.0) > kStepTolerance)
+            throw InputError(fmt::format(
+                "{}:{}: a row every {} s from about here on, every {} s elsewhere; allowed: one "
+                "step in a file, within 10 %",
+                record_.source.string(), first_line_, text::shortest(step_s),
+                text::shortest(step_s_)));
+        steps_.clear();
     }
 
     LongRecord& record_;
@@ -155,55 +177,9 @@ private:
     std::size_t axes_;
     std::optional<StretchBuilder> builder_;
     std::vector<std::vector<double>> block_;
-    UtcTime last_;
-};
-
-double median_step_s(const std::vector<Row>& rows) {
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < rows.size(); ++i)
-        steps.push_back(seconds_between(rows[i - 1].time, rows[i].time));
-    return median(std::move(steps));
-}
-
-/// Refuses rows that have another step than the first ones: they would get wrong times.
-class StepCheck {
-public:
-    StepCheck(const std::filesystem::path& file, double step_s) : file_(file), step_s_(step_s) {}
-
-    void take(const Row& row) {
-        if (steps_.empty()) first_line_ = row.line;
-        if (last_) {
-            const double passed_s = seconds_between(*last_, row.time);
-            // Missing rows do not change the step.
-            if (passed_s <= kLongestGap_s)
-                steps_.push_back(passed_s / std::max(1.0, std::round(passed_s / step_s_)));
-        }
-        last_ = row.time;
-        if (steps_.size() == kRows) finish();
-    }
-
-    /// Checks the rest at the end.
-    void finish() {
-        if (steps_.size() < kFewestRows) return;
-        const double step_s = median(std::move(steps_));
-        if (std::abs(step_s / step_s_ - 1.0) > kStepTolerance) {
-            throw InputError(file_.string() + ":" + std::to_string(first_line_) + ": a row every " +
-                             text::shortest(step_s) + " s from about here on, every " +
-                             text::shortest(step_s_) +
-                             " s elsewhere; allowed: one step in a file, within 10 %");
-        }
-        steps_.clear();
-    }
-
-private:
-    static constexpr std::size_t kRows = 100,
-                                 kFewestRows = 20;  // many rows, because stamps may jitter
-
-    const std::filesystem::path& file_;
-    double step_s_;
-    std::vector<double> steps_;
     std::optional<UtcTime> last_;
-    std::size_t first_line_ = 0;
+    std::vector<double> steps_;   ///< Steps between the rows since the last check, s.
+    std::size_t first_line_ = 0;  ///< Line of the first of these rows.
 };
 
 }  // namespace
@@ -222,35 +198,31 @@ LongRecord read_csv_record(const std::filesystem::path& file, const RecordWindow
     std::vector<Row> first;
     Row row;
     while (first.size() < kFirstRows && rows.read(row)) first.push_back(row);
-    if (first.size() < 2) {
+    if (first.size() < 2)
         throw InputError(file.string() +
                          ": fewer than two rows; allowed: a record from --from to --to");
-    }
-    const double step_s = median_step_s(first);
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < first.size(); ++i)
+        steps.push_back(seconds_between(first[i - 1].time, first[i].time));
+    const double step_s = median(std::move(steps));
     const auto stages = record_stages(step_s);
-    if (!stages) {
-        throw InputError(file.string() + ": a row every " + text::shortest(step_s) +
-                         " s; allowed: every 0.02, 0.2, 2 or 20 s within 10 %");
-    }
+    if (!stages)
+        throw InputError(
+            fmt::format("{}: a row every {} s; allowed: every 0.02, 0.2, 2 or 20 s within 10 %",
+                        file.string(), text::shortest(step_s)));
 
     LongRecord record;
+    record.source = file;
     record.raw_rate_hz = 1.0 / step_s;
     record.step_s = step_s * std::pow(kRecordFactor, *stages);
     CsvStream stream(record, step_s, *stages, rows.axes());
-    StepCheck check(file, step_s);
-    const auto take = [&](const Row& next) {
-        check.take(next);
-        stream.take(next);
-    };
-    for (const Row& early : first) take(early);
+    for (const Row& early : first) stream.take(early);
     const std::size_t megabytes = std::filesystem::file_size(file) / kMegabyte;
     for (std::size_t count = 0; rows.read(row); ++count) {
-        take(row);
+        stream.take(row);
         if (count % kBlockRows == 0) progress(rows.bytes_read() / kMegabyte, megabytes);
     }
-    check.finish();
     stream.finish();
-    record.source = file;
     record.inputs.push_back(text::describe_input("record", file));
     return record;
 }

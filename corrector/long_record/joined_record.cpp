@@ -1,9 +1,10 @@
 #include "corrector/long_record/joined_record.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <optional>
 
 #include "corrector/long_record/record_epochs.hpp"
@@ -48,7 +49,7 @@ std::optional<std::size_t> bridged(const Part& before, const Part& after, double
         a.axes_mgal.size() != b.axes_mgal.size())
         return std::nullopt;
     const double steps = std::round(seconds_between(a.times.back(), b.times.front()) / step_s);
-    if (steps > static_cast<double>(SegmentOptions{}.longest_bridge + 1)) return std::nullopt;
+    if (steps > static_cast<double>(kLongestBridge + 1)) return std::nullopt;
     return static_cast<std::size_t>(std::max(steps, 1.0)) - 1;
 }
 
@@ -62,21 +63,20 @@ LongRecord joined_record(std::vector<LongRecord> parts) {
     std::vector<Part> sorted;
     for (std::size_t k = 0; k < parts.size(); ++k) {
         LongRecord& part = parts[k];
-        if (std::abs(part.step_s / all.step_s - 1.0) > kSameStep) {
-            throw InputError(part.source.string() + ": a sample every " +
-                             text::shortest(part.step_s) + " s, " + parts.front().source.string() +
-                             " has one every " + text::shortest(all.step_s) +
-                             " s; allowed: one step in all parts of a record");
-        }
+        if (std::abs(part.step_s / all.step_s - 1.0) > kSameStep)
+            throw InputError(fmt::format(
+                "{}: a sample every {} s, {} has one every {} s; allowed: one step in all parts of "
+                "a record",
+                part.source.string(), text::shortest(part.step_s), parts.front().source.string(),
+                text::shortest(all.step_s)));
         all.is_tide_removed = all.is_tide_removed && part.is_tide_removed;
         for (RecordStretch& stretch : part.stretches)
             sorted.push_back({std::move(stretch), k, part.is_tide_removed});
         std::move(part.inputs.begin(), part.inputs.end(), std::back_inserter(all.inputs));
         std::move(part.warnings.begin(), part.warnings.end(), std::back_inserter(all.warnings));
     }
-    std::stable_sort(sorted.begin(), sorted.end(), [](const Part& a, const Part& b) {
-        return a.stretch.times.front() < b.stretch.times.front();
-    });
+    const auto start_of = [](const Part& part) { return part.stretch.times.front(); };
+    std::ranges::stable_sort(sorted, {}, start_of);
     std::vector<Part> joined;
     for (Part& next : sorted) {
         if (joined.empty()) {
@@ -84,25 +84,24 @@ LongRecord joined_record(std::vector<LongRecord> parts) {
             continue;
         }
         Part& last = joined.back();
-        if (next.stretch.times.front() <= last.stretch.times.back()) {
-            throw InputError(parts[next.number].source.string() + ": at " +
-                             to_rfc3339(next.stretch.times.front()) + " it overlaps " +
-                             parts[last.number].source.string() +
-                             "; allowed: each instant in one part of a record");
-        }
+        if (start_of(next) <= last.stretch.times.back())
+            throw InputError(fmt::format(
+                "{}: at {} it overlaps {}; allowed: each instant in one part of a record",
+                parts[next.number].source.string(), to_rfc3339(start_of(next)),
+                parts[last.number].source.string()));
         if (const auto missing = bridged(last, next, all.step_s)) {
             append(last.stretch, *missing, all.step_s, next.stretch);
             last.number = next.number;
-        } else {
-            if (std::string change =
-                    sensor_change(last.stretch.serial_number, next.stretch.serial_number);
-                last.number != next.number && !change.empty()) {
-                all.warnings.push_back("from " + to_rfc3339(next.stretch.times.front()) + " on, " +
-                                       change + "; the record is divided there");
-                next.stretch.begins_with = std::move(change);
-            }
-            joined.push_back(std::move(next));
+            continue;
         }
+        if (std::string change =
+                sensor_change(last.stretch.serial_number, next.stretch.serial_number);
+            last.number != next.number && !change.empty()) {
+            all.warnings.push_back(fmt::format("from {} on, {}; the record is divided there",
+                                               to_rfc3339(start_of(next)), change));
+            next.stretch.begins_with = std::move(change);
+        }
+        joined.push_back(std::move(next));
     }
     for (Part& part : joined) all.stretches.push_back(std::move(part.stretch));
     return all;

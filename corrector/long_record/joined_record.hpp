@@ -10,8 +10,8 @@ namespace a351::corrector {
 
 /// Joins parts in order of time.
 ///
-/// If a stretch of another part begins within a gap that is bridged
-/// (SegmentOptions::longest_bridge), both become one stretch with missing samples between them.
+/// If a stretch of another part begins within a gap that is bridged (kLongestBridge), both become
+/// one stretch with missing samples between them.
 /// Serial number, columns and removal of the tide must be the same.  The samples keep their own
 /// times, so that they are up to half a step off the clock of the first part.
 /// @param parts  at least one.

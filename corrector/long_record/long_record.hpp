@@ -28,7 +28,8 @@ inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Samples on one clock; missing samples are NaN.  All vectors have the same length n; `raw` and
 /// `axes_mgal` may be empty.
 struct RecordStretch {
-    /// Least and greatest value before decimation, within the step that begins with a sample.
+    /// Smallest and largest raw value from the time of a decimated sample to just before the next
+    /// one; NaN if all raw values are missing.
     struct RawRange {
         double acceleration_low_mgal, acceleration_high_mgal;
         double temperature_low_degc, temperature_high_degc;

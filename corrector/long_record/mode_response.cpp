@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
@@ -55,12 +57,12 @@ std::vector<Sums> sums_of_blocks(const Spectrum& mode, const Spectrum& temperatu
     return sums;
 }
 
-/// Returns the gain (mGal/degC) that chance exceeds with the probability `significance`.  It comes
+/// Returns the gain (mGal/degC) that chance exceeds with the probability kSignificance.  It comes
 /// from the rest a - H T of the acceleration, which is shifted around the record 40 times.
 /// Source of the quantile: as response_by_spectrum(), with independent shifts as degrees of
 /// freedom.
 double chance_gain(const Spectrum& mode, const Spectrum& temperature, const Spectrum& acceleration,
-                   Complex gain, std::size_t margin, double cycles, double significance) {
+                   Complex gain, std::size_t margin, double cycles) {
     constexpr std::size_t kShifts = 40;
     const std::size_t count = mode.size() - 2 * margin;
     Spectrum rest(count);
@@ -77,21 +79,18 @@ double chance_gain(const Spectrum& mode, const Spectrum& temperature, const Spec
         square += std::norm(sum / power) / static_cast<double>(kShifts);
     }
     const double freedom = std::min(static_cast<double>(kShifts), cycles / 2.0);
-    return std::sqrt(square * freedom * (std::pow(significance, -1.0 / freedom) - 1.0));
+    return std::sqrt(square * freedom * (std::pow(kSignificance, -1.0 / freedom) - 1.0));
 }
 
 /// Sets gain, phase and their limits: the wider of jackknife and chance.
-/// @param sums    sums of all blocks.
+/// @param sums    sums of all blocks; `all` is their sum.
 /// @param chance  chance_gain()
 /// @return true if the limits exclude half and twice the gain.
-bool set_limits(ResponsePoint& point, const std::vector<Sums>& sums, Complex gain, double chance,
-                double significance) {
-    Sums all;
-    for (const Sums& block : sums) all += block;
+bool set_limits(ResponsePoint& point, const std::vector<Sums>& sums, const Sums& all, Complex gain,
+                double chance) {
     const auto blocks = static_cast<double>(sums.size());
     Complex mean = 0.0;
     std::vector<Complex> deviations;
-    deviations.reserve(sums.size());
     for (const Sums& block : sums) deviations.push_back(std::log(without(all, block) / gain));
     for (const Complex& deviation : deviations) mean += deviation / blocks;
     double along = 0.0, across = 0.0;
@@ -102,7 +101,7 @@ bool set_limits(ResponsePoint& point, const std::vector<Sums>& sums, Complex gai
     // Jackknife variance of ln H: (B - 1) / B sum of (deviation - mean)^2
     const double share = (blocks - 1.0) / blocks;
     const double quantile =
-        boost::math::quantile(boost::math::students_t(blocks - 1.0), 1.0 - 0.5 * significance);
+        boost::math::quantile(boost::math::students_t(blocks - 1.0), 1.0 - 0.5 * kSignificance);
     const double factor = std::exp(quantile * std::sqrt(share * along));
     const double size = std::abs(gain), phase = std::arg(gain) * kDegPerRad;
     const double of_chance = chance < size ? std::asin(chance / size) * kDegPerRad : 180.0;
@@ -132,15 +131,16 @@ double squared_correlation(const Spectrum& x, const Spectrum& y, std::size_t mar
 std::vector<ResponsePoint> response_by_modes(const std::vector<std::vector<double>>& modes,
                                              std::span<const double> temperature_degc,
                                              std::span<const double> acceleration_mgal,
-                                             double step_s, const ResponseOptions& options) {
+                                             double step_s) {
     const Spectrum temperature = analytic_signal(without_line(temperature_degc));
     const Spectrum acceleration = analytic_signal(without_line(acceleration_mgal));
     const double record_s = static_cast<double>(temperature_degc.size()) * step_s;
     std::vector<ResponsePoint> points;
     for (const std::vector<double>& mode : modes) {
-        ResponsePoint point;
-        point.period_s = period_of(mode, step_s);
-        if (point.period_s < options.shortest_s) continue;
+        const double period_s = period_of(mode, step_s);
+        if (period_s < kShortestResponse_s) continue;
+        ResponsePoint& point = points.emplace_back();
+        point.period_s = period_s;
         point.shortest_s = point.period_s / std::numbers::sqrt2;
         point.longest_s = point.period_s * std::numbers::sqrt2;
         point.temperature_rms_degc = std::sqrt(variance_of(mode));
@@ -149,11 +149,10 @@ std::vector<ResponsePoint> response_by_modes(const std::vector<std::vector<doubl
         const auto blocks = std::min(
             static_cast<std::size_t>(std::max(0.0, cycles - 1.0) / kCyclesPerBlock), kMostBlocks);
         if (blocks < kFewestBlocks) {
-            const double needed = kCyclesPerBlock * static_cast<double>(kFewestBlocks) + 1.0;
-            point.refusal = "fewer than " + text::fixed(needed, 0) + " cycles";
-            point.needed =
-                "a record of " + text::fixed(std::ceil(needed * point.period_s / 3600.0), 0) + " h";
-            points.push_back(std::move(point));
+            constexpr double kNeeded = kCyclesPerBlock * static_cast<double>(kFewestBlocks) + 1.0;
+            point.refusal = fmt::format("fewer than {} cycles", text::fixed(kNeeded, 0));
+            point.needed = fmt::format(
+                "a record of {} h", text::fixed(std::ceil(kNeeded * point.period_s / 3600.0), 0));
             continue;
         }
         const Spectrum z = analytic_signal(mode);
@@ -162,18 +161,17 @@ std::vector<ResponsePoint> response_by_modes(const std::vector<std::vector<doubl
         Sums all;
         for (const Sums& block : sums) all += block;
         const Complex gain = all.acceleration / all.temperature;
-        const double chance =
-            chance_gain(z, temperature, acceleration, gain, margin, cycles, options.significance);
+        const double chance = chance_gain(z, temperature, acceleration, gain, margin, cycles);
         if (!std::isnormal(std::abs(gain)) || !std::isfinite(chance)) {
             point.refusal = "temperature or acceleration is constant";
             point.needed = "a record in which both vary";
-        } else if (!set_limits(point, sums, gain, chance, options.significance)) {
+        } else if (!set_limits(point, sums, all, gain, chance)) {
             point.refusal = "not known within a factor of two";
-            point.needed =
-                "a larger temperature swing or a longer record; here no response below " +
-                text::fixed(2.0 * chance, 0) + " mGal/degC can be detected";
+            point.needed = fmt::format(
+                "a larger temperature swing or a longer record; here no response below {} "
+                "mGal/degC can be detected",
+                text::fixed(2.0 * chance, 0));
         }
-        points.push_back(std::move(point));
     }
     return points;
 }

@@ -1,5 +1,7 @@
 #include "corrector/long_record/pair_statistics.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,8 +11,6 @@
 
 namespace a351::corrector {
 namespace {
-
-constexpr double kFullTurn_deg = 360.0;
 
 /// Returns the peak-to-peak value of a sine with this standard deviation: 2 sqrt(2) times it.
 double swing(std::span<const double> values) { return 2.0 * std::sqrt(2.0 * variance_of(values)); }
@@ -24,14 +24,6 @@ double zero_crossing_period_s(std::span<const double> values, double step_s) {
     }
     if (count < 2) return 0.0;
     return step_s * static_cast<double>(last - first) / static_cast<double>(count - 1);
-}
-
-LineFit turned_and_moved(std::span<const double> temperature, std::span<const double> acceleration,
-                         std::size_t earlier, std::size_t correlated) {
-    std::vector<double> turned(acceleration.begin() + static_cast<std::ptrdiff_t>(earlier),
-                               acceleration.end());
-    for (double& value : turned) value = -value;
-    return fit_line(temperature.first(turned.size()), turned, correlated);
 }
 
 std::string seconds_late(double delay_s) {
@@ -48,10 +40,12 @@ PairStatistics pair_statistics(std::span<const double> temperature_degc,
     pair.period_s = zero_crossing_period_s(temperature_degc, step_s);
     pair.temperature_swing_degc = swing(temperature_degc);
     pair.acceleration_swing_mgal = swing(acceleration_mgal);
-    const auto earlier = static_cast<std::size_t>(std::llround(shift_s / step_s));
+    std::vector<double> turned(acceleration_mgal.begin() + std::llround(shift_s / step_s),
+                               acceleration_mgal.end());
+    for (double& value : turned) value = -value;
     // In a narrow band residuals keep their phase for several cycles.
     const auto correlated = static_cast<std::size_t>(std::llround(4.0 * cycle_s / step_s));
-    pair.moved = turned_and_moved(temperature_degc, acceleration_mgal, earlier, correlated);
+    pair.moved = fit_line(temperature_degc.first(turned.size()), turned, correlated);
     const int half_cycle = std::max(2, static_cast<int>(0.5 * cycle_s / step_s));
     pair.correlation = correlate(temperature_degc, acceleration_mgal, half_cycle, step_s);
     return pair;
@@ -59,15 +53,13 @@ PairStatistics pair_statistics(std::span<const double> temperature_degc,
 
 double phase_of_peaks_deg(const PairStatistics& pair) {
     // A delayed sine lags by 360 delay / period; the negative peak has 180 degrees more.
-    const double period_s = pair.period_s;
-    const auto lag_deg = [&](double delay_s) { return kFullTurn_deg * delay_s / period_s; };
-    const double by_positive = -lag_deg(pair.correlation.positive.delay_s);
-    const double by_negative = 0.5 * kFullTurn_deg - lag_deg(pair.correlation.negative.delay_s);
+    const auto lag_deg = [&](double delay_s) { return 360.0 * delay_s / pair.period_s; };
+    const double by_positive = -lag_deg(pair.correlation.positive.delay_s) * kRadPerDeg;
+    const double by_negative = (180.0 - lag_deg(pair.correlation.negative.delay_s)) * kRadPerDeg;
     // Mean direction of two angles: that of the sum of their vectors.
-    const double to_rad = std::numbers::pi / (0.5 * kFullTurn_deg);
-    return std::atan2(std::sin(by_positive * to_rad) + std::sin(by_negative * to_rad),
-                      std::cos(by_positive * to_rad) + std::cos(by_negative * to_rad)) /
-           to_rad;
+    return std::atan2(std::sin(by_positive) + std::sin(by_negative),
+                      std::cos(by_positive) + std::cos(by_negative)) /
+           kRadPerDeg;
 }
 
 double rate_coefficient(const PairStatistics& pair) {
@@ -75,7 +67,7 @@ double rate_coefficient(const PairStatistics& pair) {
     const double gain =
         std::abs(negative.value) * pair.acceleration_swing_mgal / pair.temperature_swing_degc;
     const double angular_hz = 2.0 * std::numbers::pi / pair.period_s;
-    const double phase_rad = phase_of_peaks_deg(pair) * std::numbers::pi / (0.5 * kFullTurn_deg);
+    const double phase_rad = phase_of_peaks_deg(pair) * std::numbers::pi / 180.0;
     return gain * std::sin(phase_rad) / angular_hz / kSecondsPerHour;
 }
 
@@ -85,43 +77,39 @@ std::string causal_reading(const PairStatistics& pair) {
     const double ratio = std::abs(positive.value / negative.value);
     const double phase_deg = phase_of_peaks_deg(pair);
     constexpr double kEqual = 1.25;  // largest ratio of peaks of equal size
-    constexpr double kWeak = 0.3;    // correlation that explains a tenth of the variance
+    constexpr double kWeak = 0.3;    // least correlation of a response: it explains a tenth of the variance
     constexpr double kQuadrature_deg = 45.0;
-    if (std::max(std::abs(negative.value), std::abs(positive.value)) < kWeak) {
+    if (std::max(std::abs(negative.value), std::abs(positive.value)) < kWeak)
         return "Neither peak exceeds chance: in this band the record shows no response to "
                "temperature.";
-    }
-    std::string text = "The acceleration varies like the temperature with inverted sign " +
-                       seconds_late(negative.delay_s) + " it, and with the same sign " +
-                       seconds_late(positive.delay_s) + " it. ";
-    if (ratio > kEqual || ratio < 1.0 / kEqual) {
-        text += "The peaks differ in size by " + text::fixed(std::max(ratio, 1.0 / ratio), 2) +
-                ": the band is not narrow, and the " +
-                (ratio > 1.0 ? std::string("positive") : std::string("negative")) +
-                " peak describes the response better. ";
-    } else {
-        text +=
+    std::string text = fmt::format(
+        "The acceleration varies like the temperature with inverted sign {} it, and with the same "
+        "sign {} it. ",
+        seconds_late(negative.delay_s), seconds_late(positive.delay_s));
+    if (ratio > kEqual || ratio < 1.0 / kEqual)
+        text += fmt::format(
+            "The peaks differ in size by {}: the band is not narrow, and the {} peak describes the "
+            "response better. ",
+            text::fixed(std::max(ratio, 1.0 / ratio), 2), ratio > 1.0 ? "positive" : "negative");
+    else
+        text += fmt::format(
             "The peaks have nearly equal size: in a narrow band both describe the same response, "
-            "with a phase of " +
-            text::fixed(phase_deg, 0) + " degrees at " + text::fixed(pair.period_s, 0) + " s. ";
-    }
-    const bool is_early = negative.delay_s < 0.0 || positive.delay_s < 0.0;
-    if (is_early) {
+            "with a phase of {} degrees at {} s. ",
+            text::fixed(phase_deg, 0), text::fixed(pair.period_s, 0));
+    if (negative.delay_s < 0.0 || positive.delay_s < 0.0)
         text +=
             "No effect comes before its cause: the early peak is not a delayed response of its "
             "sign. ";
-    }
-    if (std::abs(std::abs(phase_deg) - 90.0) < kQuadrature_deg) {
-        text += std::string("The response is mostly to the rate of change of the temperature, ") +
-                text::fixed(rate_coefficient(pair), 1) + " mGal per degC/h in this band";
-        text += phase_deg > 0.0 ? ": the crystals feel a change before the thermometer that "
-                                  "compensates them does."
-                                : ": the crystals feel a change after the thermometer that "
-                                  "compensates them.";
-    } else {
-        text += "The response is mostly to the temperature itself, with " +
-                std::string(std::abs(phase_deg) > 90.0 ? "inverted sign." : "the same sign.");
-    }
+    if (std::abs(std::abs(phase_deg) - 90.0) < kQuadrature_deg)
+        text += fmt::format(
+            "The response is mostly to the rate of change of the temperature, {} mGal per degC/h "
+            "in this band: the crystals feel a change {}",
+            text::fixed(rate_coefficient(pair), 1),
+            phase_deg > 0.0 ? "before the thermometer that compensates them does."
+                            : "after the thermometer that compensates them.");
+    else
+        text += fmt::format("The response is mostly to the temperature itself, with {}",
+                            std::abs(phase_deg) > 90.0 ? "inverted sign." : "the same sign.");
     return text;
 }
 

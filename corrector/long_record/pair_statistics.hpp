@@ -5,7 +5,6 @@
 #include <span>
 #include <string>
 
-#include "corrector/correlation/cross_correlation.hpp"
 #include "corrector/correlation/regression.hpp"
 
 namespace a351::corrector {
@@ -36,8 +35,9 @@ struct PairStatistics {
                                              std::span<const double> acceleration_mgal,
                                              double step_s, double cycle_s, double shift_s);
 
-/// Returns the phase of the acceleration against the temperature from both peaks, degrees in
-/// (-180, 180]; positive: the acceleration leads.  With the period P it is the mean direction of
+/// Returns the phase of the acceleration relative to the temperature, degrees in (-180, 180];
+/// positive: the acceleration leads.  It is the circular mean of the angles of both peaks, with the
+/// period P:
 ///
 ///     180 - 360 (delay of the negative peak) / P   and   -360 (delay of the positive peak) / P
 ///

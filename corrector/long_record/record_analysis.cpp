@@ -1,5 +1,7 @@
 #include "corrector/long_record/record_analysis.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,10 +22,9 @@ EemdResult decompose(const std::vector<double>& values, const RecordAnalysisOpti
     eemd_options.seed = options.seed;
     eemd_options.threads = options.threads;
     eemd_options.progress = [&](int done, int members) {
-        if (options.progress) {
+        if (options.progress)
             options.progress(before + static_cast<std::size_t>(done),
                              2 * static_cast<std::size_t>(members));
-        }
         return true;
     };
     return eemd(values, eemd_options);
@@ -38,9 +39,7 @@ std::optional<ChosenMode> choose_mode(const EemdResult& result, double cycle_s, 
                    : std::abs(std::log2(mode.mean_period_samples * step_s / cycle_s));
     };
     const auto& modes = result.modes;
-    const auto best = std::min_element(
-        modes.begin(), modes.end(),
-        [&](const Component& a, const Component& b) { return distance(a) < distance(b); });
+    const auto best = std::ranges::min_element(modes, {}, distance);
     if (best == modes.end() || distance(*best) > 1.0) return std::nullopt;
     ChosenMode chosen;
     chosen.number = static_cast<std::size_t>(best - modes.begin()) + 1;
@@ -65,47 +64,46 @@ std::string reading_of(const RecordAnalysis& analysis, double cycle_s) {
         if (is_in_band && point.refusal.empty()) return causal_reading(analysis.band);
         if (point.shortest_s <= cycle_s && cycle_s <= point.longest_s) at_cycle = &point;
     }
-    std::string text =
-        "In the band of " + text::fixed(cycle_s, 0) + " s this record shows no response";
-    if (at_cycle != nullptr) text += " (" + at_cycle->refusal + "); needed: " + at_cycle->needed;
-    return text + ". The statistics of band and modes have no meaning here.";
+    return fmt::format(
+        "In the band of {} s this record shows no response{}. The statistics of band and modes "
+        "have no meaning here.",
+        text::fixed(cycle_s, 0),
+        at_cycle == nullptr
+            ? ""
+            : fmt::format(" ({}); needed: {}", at_cycle->refusal, at_cycle->needed));
 }
 
 double change_of(const std::vector<double>& values) { return values.back() - values.front(); }
 
 void remark_on_mode(RecordAnalysis& analysis, const std::optional<ChosenMode>& mode,
                     const std::string& name, double cycle_s) {
-    if (!mode) {
-        analysis.remarks.push_back(name + ": no mode has a mean period within an octave of " +
-                                   text::fixed(cycle_s, 0) +
-                                   " s; needed: a record in which the oven cycles");
-    } else if (mode->neighbour_share > kMostSplit) {
+    if (!mode)
         analysis.remarks.push_back(
-            name + ": a neighbour of mode " + std::to_string(mode->number) + " (" +
-            text::fixed(mode->period_s, 0) + " s) has " +
-            text::fixed(100.0 * mode->neighbour_share, 0) +
-            " % of its energy: the oscillation may be split between both modes");
-    }
+            fmt::format("{}: no mode has a mean period within an octave of {} s; needed: a record "
+                        "in which the oven cycles",
+                        name, text::fixed(cycle_s, 0)));
+    else if (mode->neighbour_share > kMostSplit)
+        analysis.remarks.push_back(
+            fmt::format("{}: a neighbour of mode {} ({} s) has {} % of its energy: the oscillation "
+                        "may be split between both modes",
+                        name, mode->number, text::fixed(mode->period_s, 0),
+                        text::fixed(100.0 * mode->neighbour_share, 0)));
 }
 
 void remark_on_trend(RecordAnalysis& analysis, double record_s) {
     constexpr double kLeast_s = 6.0 * 3600.0;
-    if (record_s < kLeast_s) {
-        analysis.remarks.push_back("trend: " + text::fixed(record_s / 3600.0, 1) +
-                                   " h are too short to show a trend; needed: 12 h or more");
-    }
-    if (!analysis.two_paths[TwoPathTerm::warm_up].is_determined ||
-        !analysis.two_paths[TwoPathTerm::drift].is_determined) {
+    if (record_s < kLeast_s)
         analysis.remarks.push_back(
+            fmt::format("trend: {} h are too short to show a trend; needed: 12 h or more",
+                        text::fixed(record_s / 3600.0, 1)));
+    if (!analysis.two_paths[TwoPathTerm::warm_up].is_determined ||
+        !analysis.two_paths[TwoPathTerm::drift].is_determined)
+        analysis.remarks.emplace_back(
             "trend: this record does not separate warm-up, drift and slow temperature; needed: one "
             "from power-on, or one over days in which the temperature moves up and down");
-    }
 }
 
 }  // namespace
-
-double shortest_of_band_s(double cycle_s) { return cycle_s / 1.5; }
-double longest_of_band_s(double cycle_s) { return cycle_s * 5.0 / 3.0; }
 
 std::size_t least_record_length(double cycle_s, double step_s) {
     constexpr double kCycles = 8.0;
@@ -125,7 +123,6 @@ RecordAnalysis analyse_record(const RecordSegment& segment, double step_s,
     analysis.step_s = step_s;
     const auto correlated = static_cast<std::size_t>(4.0 * options.cycle_s / step_s);
     analysis.raw = fit_line(temperature, acceleration, correlated);
-    analysis.raw.intercept += segment.acceleration_mgal.front();
     analysis.raw.mean_y += segment.acceleration_mgal.front();
 
     const double shortest_s = shortest_of_band_s(options.cycle_s),
@@ -154,14 +151,13 @@ RecordAnalysis analyse_record(const RecordSegment& segment, double step_s,
             options.cycle_s, options.shift_s);
     }
 
-    ResponseOptions response;
-    response.cycle_s = options.cycle_s;
-    analysis.by_spectrum = response_by_spectrum(temperature, acceleration, step_s, response);
+    analysis.by_spectrum =
+        response_by_spectrum(temperature, acceleration, step_s, {.cycle_s = options.cycle_s});
     analysis.reading = reading_of(analysis, options.cycle_s);
     std::vector<std::vector<double>> modes;
     for (const Component& mode : analysis.temperature.modes)
         if (mode.extrema_count > 0) modes.push_back(mode.values);
-    analysis.by_modes = response_by_modes(modes, temperature, acceleration, step_s, response);
+    analysis.by_modes = response_by_modes(modes, temperature, acceleration, step_s);
     analysis.two_paths = fit_two_paths(temperature, acceleration, step_s, options.cycle_s);
     remark_on_trend(analysis, static_cast<double>(segment.size()) * step_s);
     return analysis;

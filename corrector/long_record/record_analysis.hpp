@@ -70,8 +70,8 @@ struct RecordAnalysis {
 [[nodiscard]] std::size_t least_record_length(double cycle_s, double step_s);
 
 /// Returns the shortest period of the band about a cycle, s: cycle / 1.5, 600 for 900.
-[[nodiscard]] double shortest_of_band_s(double cycle_s);
+[[nodiscard]] constexpr double shortest_of_band_s(double cycle_s) { return cycle_s / 1.5; }
 /// Returns the longest period of the band about a cycle, s: cycle x 5 / 3, 1500 for 900.
-[[nodiscard]] double longest_of_band_s(double cycle_s);
+[[nodiscard]] constexpr double longest_of_band_s(double cycle_s) { return cycle_s * 5.0 / 3.0; }
 
 }  // namespace a351::corrector

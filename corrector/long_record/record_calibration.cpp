@@ -1,7 +1,8 @@
 #include "corrector/long_record/record_calibration.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <array>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
@@ -31,33 +32,31 @@ struct Information {
     Vector vector = Vector::Zero();  ///< matrix x estimate
 };
 
-Vector prior_means() {
-    Vector means;
-    for (Index k = 0; k < kCount; ++k)
-        means(k) = two_path_prior(kThermalTerms.at(static_cast<std::size_t>(k))).mean;
-    return means;
-}
+TwoPathTerm term_of(Index k) { return kThermalTerms.at(static_cast<std::size_t>(k)); }
 
-Vector prior_deviations() {
-    Vector deviations;
-    for (Index k = 0; k < kCount; ++k)
-        deviations(k) = two_path_prior(kThermalTerms.at(static_cast<std::size_t>(k))).deviation;
-    return deviations;
+/// Means and deviations of the priors.
+std::pair<Vector, Vector> thermal_priors() {
+    Vector means, deviations;
+    for (Index k = 0; k < kCount; ++k) {
+        const TwoPathPrior prior = two_path_prior(term_of(k));
+        means(k) = prior.mean;
+        deviations(k) = prior.deviation;
+    }
+    return {means, deviations};
 }
 
 Information information_of(const TwoPathFit& fit) {
-    const Vector means = prior_means(), deviations = prior_deviations();
+    const auto [means, deviations] = thermal_priors();
     Vector estimate;
     Matrix covariance;
     for (Index i = 0; i < kCount; ++i) {
-        const TwoPathTerm term = kThermalTerms.at(static_cast<std::size_t>(i));
+        const TwoPathTerm term = term_of(i);
         const double value = i < kFirstLag ? fit[term].value : std::log(fit[term].value);
         estimate(i) = (value - means(i)) / deviations(i);
-        for (Index j = 0; j < kCount; ++j) {
-            const TwoPathTerm other = kThermalTerms.at(static_cast<std::size_t>(j));
-            covariance(i, j) = fit.covariance(static_cast<Index>(term), static_cast<Index>(other)) /
-                               (deviations(i) * deviations(j));
-        }
+        for (Index j = 0; j < kCount; ++j)
+            covariance(i, j) =
+                fit.covariance(static_cast<Index>(term), static_cast<Index>(term_of(j))) /
+                (deviations(i) * deviations(j));
     }
     // The priors are independent, so that integrating out the other terms does not change theirs.
     const Matrix posterior = Cholesky(covariance).inverse();
@@ -128,9 +127,9 @@ ThermalResponse response_for_file(const Information& all) {
         covariance += (is_told ? 1.0 / information : kOpenDeviation * kOpenDeviation) * axis *
                       axis.transpose();
     }
-    const Vector deviations = prior_deviations();
+    const auto [means, deviations] = thermal_priors();
     ThermalResponse response;
-    response.values = prior_means() + deviations.cwiseProduct(values);
+    response.values = means + deviations.cwiseProduct(values);
     const Matrix scaled = deviations.asDiagonal() * covariance * deviations.asDiagonal();
     response.covariance = 0.5 * (scaled + scaled.transpose());
     return response;
@@ -148,15 +147,13 @@ PooledThermal pool_thermal(const std::vector<TwoPathFit>& fits) {
     }
     const Matrix covariance = Cholesky(all.matrix + Matrix::Identity()).inverse();
     const Vector estimate = covariance * all.vector;
-    const Vector means = prior_means(), deviations = prior_deviations();
+    const auto [means, deviations] = thermal_priors();
 
     PooledThermal pooled;
     for (Index k = 0; k < kCount; ++k) {
-        FittedParameter parameter = fits.front()[kThermalTerms.at(static_cast<std::size_t>(k))];
-        for (const TwoPathFit& fit : fits) {
-            const std::string& needed = fit[kThermalTerms.at(static_cast<std::size_t>(k))].needed;
-            if (!needed.empty()) parameter.needed = needed;
-        }
+        FittedParameter parameter = fits.front()[term_of(k)];
+        for (const TwoPathFit& fit : fits)
+            if (!fit[term_of(k)].needed.empty()) parameter.needed = fit[term_of(k)].needed;
         const double deviation = std::sqrt(covariance(k, k));
         parameter.value = means(k) + deviations(k) * estimate(k);
         parameter.standard_error = deviations(k) * deviation;
@@ -183,36 +180,33 @@ PooledThermal pool_thermal(const std::vector<TwoPathFit>& fits) {
 
 std::string reason_against_two_paths(const std::vector<double>& temperature_degc,
                                      const std::vector<double>& acceleration_mgal, double step_s) {
-    ResponseOptions options;
-    const auto bands = response_by_spectrum(temperature_degc, acceleration_mgal, step_s, options);
-    options.significance /= static_cast<double>(std::max<std::size_t>(bands.size(), 1));
-    const auto points = response_by_spectrum(temperature_degc, acceleration_mgal, step_s, options);
+    const ResponseOptions options{.is_joint = true};
     const ResponsePoint* at_cycle = nullptr;
+    const auto points = response_by_spectrum(temperature_degc, acceleration_mgal, step_s, options);
     for (const ResponsePoint& point : points) {
         if (point.refusal.empty()) return {};
         if (point.shortest_s <= options.cycle_s) at_cycle = &point;
     }
-    return "no response to temperature in any band" +
-           (at_cycle == nullptr
-                ? std::string()
-                : ", at the oven's cycle: " + at_cycle->refusal + "; needed: " + at_cycle->needed);
+    std::string reason = "no response to temperature in any band";
+    if (at_cycle != nullptr)
+        reason += fmt::format(", at the oven's cycle: {}; needed: {}", at_cycle->refusal,
+                              at_cycle->needed);
+    return reason;
 }
 
 WarmUpReading warm_up_guidance(const TwoPathFit& fit, double begins_after_h, double length_h,
                                double within_mgal) {
     const FittedParameter &size = fit[TwoPathTerm::warm_up], &time = fit[TwoPathTerm::warm_up_time];
-    const std::string shown = "warm-up of " + text::fixed(size.value, 1) + " +- " +
-                              text::fixed(size.standard_error, 1) +
-                              " mGal at the start of the record, time constant " +
-                              text::fixed(time.value / kSecondsPerHour, 1) + " +- " +
-                              text::fixed(time.standard_error / kSecondsPerHour, 1) + " h";
+    const double time_h = time.value / kSecondsPerHour;
+    const std::string shown =
+        fmt::format("warm-up of {} +- {} mGal at the start of the record, time constant {} +- {} h",
+                    text::fixed(size.value, 1), text::fixed(size.standard_error, 1),
+                    text::fixed(time_h, 1), text::fixed(time.standard_error / kSecondsPerHour, 1));
     if (!size.is_determined || !time.is_determined ||
-        std::abs(size.value) < 2.0 * size.standard_error) {
+        std::abs(size.value) < 2.0 * size.standard_error)
         return {std::nullopt, shown +
                                   ": the record does not determine it; needed: a record of a day "
                                   "or more that begins when the sensor is switched on"};
-    }
-    const double time_h = time.value / kSecondsPerHour;
     const double ratio = std::log(std::abs(size.value) / within_mgal);
     // Derivatives of tW ln(|w| / within) by ln(tW) and by w.
     const Eigen::Vector2d slopes(time_h * ratio, time_h / size.value);
@@ -223,17 +217,17 @@ WarmUpReading warm_up_guidance(const TwoPathFit& fit, double begins_after_h, dou
         fit.covariance(kSize, kTime), fit.covariance(kSize, kSize);
     const double error_h = std::sqrt(slopes.dot(covariance * slopes));
     const double after_h = std::max(0.0, time_h * ratio + kOneSided95 * error_h);
-    if (after_h > length_h) {
-        return {std::nullopt, shown + ": within " + text::fixed(within_mgal, 2) +
-                                  " mGal only after " + text::fixed(after_h, 1) +
-                                  " h, and the record ends before; needed: " +
-                                  text::fixed(after_h, 0) + " h or more"};
-    }
+    if (after_h > length_h)
+        return {std::nullopt,
+                fmt::format("{}: within {} mGal only after {} h, and the record ends before; "
+                            "needed: {} h or more",
+                            shown, text::fixed(within_mgal, 2), text::fixed(after_h, 1),
+                            text::fixed(after_h, 0))};
     return {WarmUpGuidance{within_mgal, begins_after_h + after_h},
-            shown + ": within " + text::fixed(within_mgal, 2) + " mGal " +
-                text::fixed(begins_after_h + std::max(0.0, time_h * ratio), 1) +
-                " h after power-on, " + text::fixed(begins_after_h + after_h, 1) +
-                " h with 95 % confidence"};
+            fmt::format("{}: within {} mGal {} h after power-on, {} h with 95 % confidence", shown,
+                        text::fixed(within_mgal, 2),
+                        text::fixed(begins_after_h + std::max(0.0, time_h * ratio), 1),
+                        text::fixed(begins_after_h + after_h, 1))};
 }
 
 }  // namespace a351::corrector

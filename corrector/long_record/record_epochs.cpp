@@ -6,23 +6,15 @@
 #include "protocol/station/station_document.hpp"
 
 namespace a351::corrector {
-namespace {
 
-/// Returns the times at which an epoch of a channel begins.
-std::set<UtcTime> starts_in(const std::filesystem::path& metadata) {
+std::vector<RecordEpoch> read_record_epochs(const std::filesystem::path& metadata) {
     const auto document = record::load_station_document(metadata);
     std::set<UtcTime> starts;
     for (const auto& found : document.select_nodes("/FDSNStationXML/Network/Station/Channel"))
         starts.insert(
             record::date_of(metadata, found.node(), "startDate").value_or(UtcTime::min()));
-    return starts;
-}
-
-}  // namespace
-
-std::vector<RecordEpoch> read_record_epochs(const std::filesystem::path& metadata) {
     std::vector<RecordEpoch> epochs;
-    for (const UtcTime start : starts_in(metadata)) {
+    for (const UtcTime start : starts) {
         const record::StationMetadata station = record::read_station_xml(metadata, start);
         const SurveyChannels found = find_channels(station, metadata);
         RecordEpoch epoch{start,

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -22,29 +24,25 @@ std::string exact_cell(double value) {
     return std::isfinite(value) ? text::shortest(value) : std::string();
 }
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
+// Json writes numbers that are not finite as null.
 Json limits_json(const Limits& limits) {
-    return {{"value", number(limits.value)},
-            {"low", number(limits.low)},
-            {"high", number(limits.high)}};
+    return {{"value", limits.value}, {"low", limits.low}, {"high", limits.high}};
 }
 
 Json points_json(const std::vector<ResponsePoint>& points) {
     Json list = Json::array();
     for (const ResponsePoint& point : points) {
-        Json json;
-        json["period_s"] = number(point.period_s);
-        json["shortest_s"] = number(point.shortest_s);
-        json["longest_s"] = number(point.longest_s);
         const bool is_claimed = point.refusal.empty();
-        json["gain_mgal_per_degc"] = is_claimed ? limits_json(point.gain) : Json(nullptr);
-        json["phase_deg"] = is_claimed ? limits_json(point.phase_deg) : Json(nullptr);
-        json["coherence"] = number(point.coherence);
-        json["temperature_rms_degc"] = number(point.temperature_rms_degc);
-        json["refused"] = is_claimed ? Json(nullptr) : Json(point.refusal);
-        json["needed"] = is_claimed ? Json(nullptr) : Json(point.needed);
-        list.push_back(std::move(json));
+        list.push_back(
+            {{"period_s", point.period_s},
+             {"shortest_s", point.shortest_s},
+             {"longest_s", point.longest_s},
+             {"gain_mgal_per_degc", is_claimed ? limits_json(point.gain) : Json(nullptr)},
+             {"phase_deg", is_claimed ? limits_json(point.phase_deg) : Json(nullptr)},
+             {"coherence", point.coherence},
+             {"temperature_rms_degc", point.temperature_rms_degc},
+             {"refused", is_claimed ? Json(nullptr) : Json(point.refusal)},
+             {"needed", is_claimed ? Json(nullptr) : Json(point.needed)}});
     }
     return list;
 }
@@ -62,13 +60,13 @@ Json components_json(const EemdResult& result, double step_s) {
     const auto add = [&](const std::string& name, const Component& component) {
         list.push_back(
             {{"component", name},
-             {"period_s", number(component.mean_period_samples * step_s)},
+             {"period_s", component.mean_period_samples * step_s},
              {"energy_share", component.energy_share},
              {"standard_error",
               component.standard_error ? Json(*component.standard_error) : Json(nullptr)}});
     };
     for (std::size_t k = 0; k < result.modes.size(); ++k)
-        add("imf" + std::to_string(k + 1), result.modes[k]);
+        add(fmt::format("imf{}", k + 1), result.modes[k]);
     add("residue", result.residue);
     return list;
 }
@@ -77,8 +75,8 @@ Json two_paths_json(const TwoPathFit& fit) {
     Json json;
     for (const FittedParameter& parameter : fit.parameters) {
         json["parameters"][parameter.key] = {
-            {"value", number(parameter.value)},
-            {"standard_error", number(parameter.standard_error)},
+            {"value", parameter.value},
+            {"standard_error", parameter.standard_error},
             {"determined", parameter.is_determined},
             {"needed", parameter.is_determined ? Json(nullptr) : Json(parameter.needed)}};
     }
@@ -86,13 +84,13 @@ Json two_paths_json(const TwoPathFit& fit) {
     for (Eigen::Index row = 0; row < fit.covariance.rows(); ++row) {
         Json cells = Json::array();
         for (Eigen::Index column = 0; column < fit.covariance.cols(); ++column)
-            cells.push_back(number(fit.covariance(row, column)));
+            cells.push_back(fit.covariance(row, column));
         json["covariance"].push_back(std::move(cells));
     }
-    json["static_slope_mgal_per_degc"] = number(fit.static_slope);
-    json["static_slope_error_mgal_per_degc"] = number(fit.static_slope_error);
+    json["static_slope_mgal_per_degc"] = fit.static_slope;
+    json["static_slope_error_mgal_per_degc"] = fit.static_slope_error;
     json["static_slope_determined"] = fit.is_static_slope_determined;
-    json["residual_rms_mgal"] = number(fit.residual_rms_mgal);
+    json["residual_rms_mgal"] = fit.residual_rms_mgal;
     json["residual_follows_temperature"] = points_json(fit.unexplained);
     return json;
 }
@@ -118,8 +116,9 @@ Json segments_json(const RecordResult& result) {
     return list;
 }
 
-}  // namespace
-
+/// Returns record.csv: `time_utc,acceleration_mgal,temperature_degc,segment`, one row per sample.
+/// Cells of missing values are empty.  Segments are numbered from 1; empty outside all.  With a
+/// calibration `parametric_mgal` and `by_modes_mgal` follow, filled within the analysed segment.
 std::string record_csv(const RecordResult& result) {
     std::string csv = "time_utc,acceleration_mgal,temperature_degc,segment" +
                       std::string(result.applied ? ",parametric_mgal,by_modes_mgal\n" : "\n");
@@ -139,6 +138,7 @@ std::string record_csv(const RecordResult& result) {
     return csv;
 }
 
+/// Returns response.csv: the response by period, by spectrum and by modes.
 std::string response_csv(const RecordResult& result) {
     std::string csv =
         "way,period_s,shortest_s,longest_s,gain_mgal_per_degc,gain_low,gain_high,phase_deg,"
@@ -163,6 +163,7 @@ std::string response_csv(const RecordResult& result) {
     return csv;
 }
 
+/// Returns result.json.
 std::string record_json(const RecordResult& result, const Json& settings) {
     const RecordAnalysis& analysis = result.analysis;
     Json json;
@@ -182,13 +183,12 @@ std::string record_json(const RecordResult& result, const Json& settings) {
     json["warnings"] = result.record.warnings;
     json["segments"] = segments_json(result);
     json["refused"] = Json::array();
-    for (const RefusedPart& part : result.parts.refused) {
+    for (const RefusedPart& part : result.parts.refused)
         json["refused"].push_back({{"start_utc", to_rfc3339(part.start, 3)},
                                    {"end_utc", to_rfc3339(part.end, 3)},
                                    {"reason", part.reason}});
-    }
     for (const RecordStatistic& statistic : record_statistics(result))
-        json["statistics"][statistic.key] = number(statistic.value);
+        json["statistics"][statistic.key] = statistic.value;
     json["temperature_mode"] = mode_json(analysis.temperature_mode);
     json["acceleration_mode"] = mode_json(analysis.acceleration_mode);
     json["temperature_components"] = components_json(analysis.temperature, analysis.step_s);
@@ -201,6 +201,8 @@ std::string record_json(const RecordResult& result, const Json& settings) {
     json["remarks"] = analysis.remarks;
     return json.dump(2) + '\n';
 }
+
+}  // namespace
 
 std::vector<text::NamedText> record_files(const RecordResult& result, const Json& settings) {
     return {{"record.csv", record_csv(result)},

@@ -38,21 +38,8 @@ struct RecordStatistic {
 /// Returns all statistics; those of the modes only if both modes were found.
 [[nodiscard]] std::vector<RecordStatistic> record_statistics(const RecordResult& result);
 
-/// Returns record.csv: `time_utc,acceleration_mgal,temperature_degc,segment`, one row per sample.
-/// Cells of missing values are empty.  Segments are numbered from 1; empty outside all.  With a
-/// calibration `parametric_mgal` and `by_modes_mgal` follow, filled within the analysed segment.
-[[nodiscard]] std::string record_csv(const RecordResult& result);
-
-/// Returns response.csv: the response by period, by spectrum and by modes.
-[[nodiscard]] std::string response_csv(const RecordResult& result);
-
-/// Returns result.json; values that are not finite are null.
+/// Returns record.csv, response.csv, and result.json, in which values that are not finite are null.
 /// @param settings  object with every option of the run.
-[[nodiscard]] std::string record_json(const RecordResult& result,
-                                      const nlohmann::ordered_json& settings);
-
-/// Returns record.csv, response.csv and result.json.
-/// @param settings  as record_json().
 [[nodiscard]] std::vector<text::NamedText> record_files(const RecordResult& result,
                                                         const nlohmann::ordered_json& settings);
 

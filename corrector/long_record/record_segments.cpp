@@ -1,5 +1,7 @@
 #include "corrector/long_record/record_segments.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +16,17 @@ namespace {
 constexpr std::size_t kBeside = 9;  // samples of the median on either side of a step: 3 min
 // Largest difference of equal values: rounding of a constant by three filters.
 constexpr double kSame_degc = 1e-9, kSame_mgal = 1e-6;
+// Least number of equal samples of a stuck temperature, axis or acceleration: 20 min.  Reason: the
+// noise of a working sensor changes the last digits.
+constexpr std::size_t kStuck = 60;
+// Least step of the acceleration, in units of 1.4826 MAD of all such differences, and in mGal; both
+// limits must be exceeded.  A step is the difference between the medians of kBeside samples after
+// and before; the box was moved.
+constexpr double kStepThreshold = 8.0, kLeastStep_mgal = 5.0;
+constexpr double kKnockThreshold = 8.0;  // threshold of find_disturbances()
+// Change of temperature across a gap, degC, above which the sensor must have been without power.
+// Reason: five times the swing of the oven's cycle.
+constexpr double kRestart_degc = 0.1;
 
 double median_of(const std::vector<double>& values, std::size_t first, std::size_t behind) {
     return median({values.begin() + static_cast<std::ptrdiff_t>(first),
@@ -28,12 +41,12 @@ struct Valid {
     [[nodiscard]] std::size_t size() const noexcept { return places.size(); }
 };
 
-std::vector<bool> stuck_samples(const std::vector<double>& values, double same, std::size_t most) {
+std::vector<bool> stuck_samples(const std::vector<double>& values, double same) {
     std::vector<bool> is_stuck(values.size(), false);
     for (std::size_t first = 0; first < values.size();) {
         std::size_t behind = first + 1;
         while (behind < values.size() && std::abs(values[behind] - values[first]) < same) ++behind;
-        if (behind - first >= most)
+        if (behind - first >= kStuck)
             std::fill_n(is_stuck.begin() + static_cast<std::ptrdiff_t>(first), behind - first,
                         true);
         first = behind;
@@ -55,7 +68,7 @@ Valid valid_samples(const RecordStretch& stretch, const std::vector<bool>& is_st
 }
 
 /// Returns the size of the step before each valid sample, mGal; 0 if there is none.
-std::vector<double> find_steps(const std::vector<double>& values, const SegmentOptions& options) {
+std::vector<double> find_steps(const std::vector<double>& values) {
     const std::size_t count = values.size();
     std::vector<double> steps(count, 0.0);
     if (count < 4 * kBeside) return steps;
@@ -65,8 +78,8 @@ std::vector<double> find_steps(const std::vector<double>& values, const SegmentO
         sizes.push_back(std::abs(rises[i]));
     }
     const double limit =
-        std::max(options.step_threshold * kGaussianPerMad * median(sizes), options.least_step_mgal);
-    // A step also raises the differences of medians next to it.
+        std::max(kStepThreshold * kGaussianPerMad * median(sizes), kLeastStep_mgal);
+    // One step gives large differences of medians for several samples: they count as one step.
     for (std::size_t i = kBeside; i + kBeside <= count;) {
         if (std::abs(rises[i]) <= limit) {
             ++i;
@@ -84,13 +97,29 @@ std::vector<double> find_steps(const std::vector<double>& values, const SegmentO
     return steps;
 }
 
+/// Start of a segment.
+struct Begin {
+    std::string why;
+    bool is_restart = false;
+};
+
+Begin begin_after_gap(double seconds, double change_degc) {
+    Begin begin{fmt::format("gap of {} s", text::fixed(seconds, 0)),
+                std::abs(change_degc) > kRestart_degc};
+    if (begin.is_restart)
+        begin.why +=
+            fmt::format(" with {} degC between its ends: a restart", text::fixed(change_degc, 2));
+    return begin;
+}
+
 class Divider {
 public:
-    Divider(const LongRecord& record, const SegmentOptions& options)
-        : record_(record), options_(options) {}
+    Divider(const LongRecord& record, std::size_t shortest)
+        : record_(record), shortest_(shortest) {}
 
     [[nodiscard]] RecordSegments divide() {
         for (const RecordStretch& stretch : record_.stretches) add_stretch(stretch);
+        std::ranges::stable_sort(result_.refused, {}, &RefusedPart::start);
         return std::move(result_);
     }
 
@@ -99,116 +128,99 @@ private:
         const std::vector<bool> is_stuck = refuse_stuck_channels(stretch);
         const Valid valid = valid_samples(stretch, is_stuck);
         if (valid.size() == 0) return;
-        const std::vector<double> steps = find_steps(valid.acceleration_mgal, options_);
-        const Disturbances knocks =
-            find_disturbances(valid.acceleration_mgal, options_.disturbance_threshold);
+        const std::vector<double> steps = find_steps(valid.acceleration_mgal);
+        const Disturbances knocks = find_disturbances(valid.acceleration_mgal, kKnockThreshold);
         std::size_t first = 0;
-        std::string why = begin_of(stretch, valid);
-        bool is_restart = is_restart_;
+        Begin begin = begin_of(stretch, valid);
         for (std::size_t i = 1; i <= valid.size(); ++i) {
-            std::string next;
-            bool next_is_restart = false;
+            Begin next;
             if (i < valid.size()) {
-                const std::size_t missing = valid.places[i] - valid.places[i - 1] - 1;
-                if (missing > options_.longest_bridge) {
-                    next = break_text(stretch, is_stuck, valid, i, next_is_restart);
-                } else if (steps[i] != 0.0) {
-                    next = "step of " + text::fixed(steps[i], 1) + " mGal";
-                }
-                if (next.empty()) continue;
+                if (valid.places[i] - valid.places[i - 1] - 1 > kLongestBridge)
+                    next = begin_at(stretch, is_stuck, valid, i);
+                else if (steps[i] != 0.0)
+                    next.why = fmt::format("step of {} mGal", text::fixed(steps[i], 1));
+                if (next.why.empty()) continue;
             }
-            add(stretch, valid, knocks, first, i, why, is_restart);
+            add(stretch, valid, knocks, first, i, begin);
             first = i;
-            why = next;
-            is_restart = next_is_restart;
+            begin = std::move(next);
         }
         last_end_ = stretch.times.back();
-        last_temperature_ =
-            level(valid, valid.size() - std::min(valid.size(), kBeside), valid.size());
+        last_temperature_ = level(valid, valid.size() - std::min(valid.size(), kBeside));
     }
 
     std::vector<bool> refuse_stuck_channels(const RecordStretch& stretch) {
-        std::vector<bool> is_stuck =
-            refuse_stuck(stretch, stretch.temperature_degc, kSame_degc, "the temperature", " degC");
-        const auto refuse = [&](const std::vector<double>& values, const std::string& name) {
-            const auto is_still = refuse_stuck(stretch, values, kSame_mgal, name, " mGal");
-            for (std::size_t i = 0; i < is_stuck.size(); ++i)
-                is_stuck[i] = is_stuck[i] || is_still[i];
-        };
-        // A stuck norm varies after the tide is subtracted, so the axes are tested if there are
-        // any.
+        std::vector<bool> is_stuck(stretch.size(), false);
+        refuse_stuck(is_stuck, stretch, stretch.temperature_degc, kSame_degc, "the temperature",
+                     "degC");
+        // The norm has the tide subtracted, so it varies even if the sensor is stuck.  The axes
+        // still contain the tide: they are tested if the record has them.
         constexpr std::array kNames{"the x axis", "the y axis", "the z axis"};
-        if (stretch.axes_mgal.empty()) refuse(stretch.acceleration_mgal, "the acceleration");
+        if (stretch.axes_mgal.empty())
+            refuse_stuck(is_stuck, stretch, stretch.acceleration_mgal, kSame_mgal,
+                         "the acceleration", "mGal");
         for (std::size_t k = 0; k < stretch.axes_mgal.size(); ++k)
-            refuse(stretch.axes_mgal[k], kNames.at(k));
+            refuse_stuck(is_stuck, stretch, stretch.axes_mgal[k], kSame_mgal, kNames.at(k), "mGal");
         return is_stuck;
     }
 
-    std::vector<bool> refuse_stuck(const RecordStretch& stretch, const std::vector<double>& values,
-                                   double same, const std::string& name, const std::string& unit) {
-        std::vector<bool> is_stuck = stuck_samples(values, same, options_.stuck);
-        const auto trouble = [&](double value) {
-            return name + " is stuck at " + text::fixed(value, 4) + unit;
-        };
-        for (std::size_t i = 0; i < is_stuck.size(); ++i) {
-            if (!is_stuck[i] || (i > 0 && is_stuck[i - 1])) continue;
+    void refuse_stuck(std::vector<bool>& is_stuck, const RecordStretch& stretch,
+                      const std::vector<double>& values, double same, const char* name,
+                      const char* unit) {
+        const std::vector<bool> is_still = stuck_samples(values, same);
+        for (std::size_t i = 0; i < is_still.size(); ++i) {
+            is_stuck[i] = is_stuck[i] || is_still[i];
+            if (!is_still[i] || (i > 0 && is_still[i - 1])) continue;
             std::size_t last = i;
-            while (last + 1 < is_stuck.size() && is_stuck[last + 1]) ++last;
-            result_.refused.push_back({stretch.times[i], stretch.times[last], trouble(values[i])});
+            while (last + 1 < is_still.size() && is_still[last + 1]) ++last;
+            result_.refused.push_back(
+                {stretch.times[i], stretch.times[last],
+                 fmt::format("{} is stuck at {} {}", name, text::fixed(values[i], 4), unit)});
         }
-        return is_stuck;
     }
 
-    static double level(const Valid& valid, std::size_t first, std::size_t behind) {
-        return median_of(valid.temperature_degc, first, behind);
+    /// Returns the median temperature of up to kBeside valid samples from `first` on.
+    static double level(const Valid& valid, std::size_t first) {
+        return median_of(valid.temperature_degc, first, std::min(valid.size(), first + kBeside));
     }
 
-    [[nodiscard]] std::string gap_text(double seconds, double change_degc, bool& is_restart) const {
-        std::string text = "gap of " + text::fixed(seconds, 0) + " s";
-        is_restart = std::abs(change_degc) > options_.restart_degc;
-        if (is_restart)
-            text += " with " + text::fixed(change_degc, 2) + " degC between its ends: a restart";
-        return text;
+    [[nodiscard]] Begin begin_of(const RecordStretch& stretch, const Valid& valid) const {
+        if (!last_end_) return {"the record begins"};
+        Begin begin = begin_after_gap(seconds_between(*last_end_, stretch.times.front()),
+                                      level(valid, 0) - last_temperature_);
+        if (!stretch.begins_with.empty()) begin.why = stretch.begins_with;
+        return begin;
     }
 
-    std::string begin_of(const RecordStretch& stretch, const Valid& valid) {
-        is_restart_ = false;
-        if (!last_end_) return "the record begins";
-        const std::string gap = gap_text(
-            seconds_between(*last_end_, stretch.times.front()),
-            level(valid, 0, std::min(valid.size(), kBeside)) - last_temperature_, is_restart_);
-        return stretch.begins_with.empty() ? gap : stretch.begins_with;
-    }
-
-    std::string break_text(const RecordStretch& stretch, const std::vector<bool>& is_stuck,
-                           const Valid& valid, std::size_t i, bool& is_restart) const {
-        for (std::size_t k = valid.places[i - 1] + 1; k < valid.places[i]; ++k)
-            if (is_stuck[k]) return "end of the stuck values";
-        const double change = level(valid, i, std::min(valid.size(), i + kBeside)) -
-                              level(valid, i - std::min(i, kBeside), i);
-        return gap_text(
-            seconds_between(stretch.times[valid.places[i - 1]], stretch.times[valid.places[i]]),
-            change, is_restart);
+    [[nodiscard]] static Begin begin_at(const RecordStretch& stretch,
+                                        const std::vector<bool>& is_stuck, const Valid& valid,
+                                        std::size_t i) {
+        const std::size_t before = valid.places[i - 1], after = valid.places[i];
+        for (std::size_t k = before + 1; k < after; ++k)
+            if (is_stuck[k]) return {"end of the stuck values"};
+        return begin_after_gap(
+            seconds_between(stretch.times[before], stretch.times[after]),
+            level(valid, i) - median_of(valid.temperature_degc, i - std::min(i, kBeside), i));
     }
 
     void add(const RecordStretch& stretch, const Valid& valid, const Disturbances& knocks,
-             std::size_t first, std::size_t behind, const std::string& why, bool is_restart) {
+             std::size_t first, std::size_t behind, const Begin& begin) {
         RecordSegment segment;
         segment.start = stretch.times[valid.places[first]];
         segment.end = stretch.times[valid.places[behind - 1]];
         segment.serial_number = stretch.serial_number;
-        segment.begins_with = why;
-        segment.is_restart = is_restart;
+        segment.begins_with = begin.why;
+        segment.is_restart = begin.is_restart;
         const std::size_t span = valid.places[behind - 1] - valid.places[first] + 1;
-        if (span < options_.shortest) {
+        if (span < shortest_) {
+            const auto hours = [this](std::size_t samples, int decimals) {
+                return text::fixed(static_cast<double>(samples) * record_.step_s / 3600.0,
+                                   decimals);
+            };
             result_.refused.push_back(
                 {segment.start, segment.end,
-                 "too short: " +
-                     text::fixed(static_cast<double>(span) * record_.step_s / 3600.0, 2) +
-                     " h after \"" + why + "\"; at least " +
-                     text::fixed(static_cast<double>(options_.shortest) * record_.step_s / 3600.0,
-                                 1) +
-                     " h in one piece are needed"});
+                 fmt::format("too short: {} h after \"{}\"; at least {} h in one piece are needed",
+                             hours(span, 2), begin.why, hours(shortest_, 1))});
             return;
         }
         std::size_t previous = first;
@@ -243,20 +255,16 @@ private:
     }
 
     const LongRecord& record_;
-    const SegmentOptions& options_;
+    std::size_t shortest_;
     RecordSegments result_;
     std::optional<UtcTime> last_end_;
     double last_temperature_ = 0.0;
-    bool is_restart_ = false;
 };
 
 }  // namespace
 
 RecordSegments divide_record(const LongRecord& record, const SegmentOptions& options) {
-    RecordSegments result = Divider(record, options).divide();
-    std::stable_sort(result.refused.begin(), result.refused.end(),
-                     [](const RefusedPart& a, const RefusedPart& b) { return a.start < b.start; });
-    return result;
+    return Divider(record, options.shortest).divide();
 }
 
 }  // namespace a351::corrector

@@ -9,26 +9,13 @@
 
 namespace a351::corrector {
 
+/// Longest gap that is bridged by a straight line, samples.  Reason: a third of a cycle of 15 min.
+inline constexpr std::size_t kLongestBridge = 15;
+
 /// Limits for the division into segments; samples are 20 s apart.
 struct SegmentOptions {
-    /// Longest gap that is bridged by a straight line, samples.  Reason: a third of a cycle of 15
-    /// min.
-    std::size_t longest_bridge = 15;
     /// Shortest segment, samples.  Reason: 3 h are twelve cycles of 15 min.
     std::size_t shortest = 540;
-    /// Least number of equal samples of a stuck temperature, axis or acceleration (20 min).
-    /// Reason: the noise of a working sensor changes the last digits.
-    std::size_t stuck = 60;
-    /// Least step of the acceleration, in units of 1.4826 MAD of all such differences.  A step is
-    /// the difference between the medians of nine samples after and before; the box was moved.
-    double step_threshold = 8.0;
-    /// Least step of the acceleration, mGal; both limits must be exceeded.
-    double least_step_mgal = 5.0;
-    /// Threshold of find_disturbances() for knocks.
-    double disturbance_threshold = 8.0;
-    /// Change of temperature across a gap, degC, above which the sensor must have been without
-    /// power.  Reason: five times the swing of the oven's cycle.
-    double restart_degc = 0.1;
 };
 
 /// A run of n samples without a break; missing samples are bridged by straight lines.

@@ -3,7 +3,7 @@
 /// Gain and phase of the acceleration against the temperature by period, in two independent ways.
 ///
 /// H(period) = gain exp(i phase); phase > 0: the acceleration leads.  Limits are those of 95 %
-/// confidence by default.  Methods: corrector/long_record/long_record.md, "Response by period".
+/// confidence.  Methods: corrector/long_record/long_record.md, "Response by period".
 ///
 /// Accuracy of both ways (response_test.cpp): at least 85 % of the claimed points contain gain and
 /// phase of the simulated plant within their limits.
@@ -33,12 +33,15 @@ struct ResponsePoint {
     std::string needed;                 ///< Record that would show a gain; empty if it is claimed.
 };
 
-/// Options of both ways.
+/// Shortest period of a response, s.  Reason: below, three filters attenuate.
+inline constexpr double kShortestResponse_s = 120.0;
+/// 1 - confidence of the limits.
+inline constexpr double kSignificance = 0.05;
+
+/// Options of response_by_spectrum().
 struct ResponseOptions {
-    double cycle_s = 900.0;      ///< Cycle of the oven; one half-octave band has it in its middle.
-    double shortest_s = 120.0;   ///< Shortest period.  Reason: below, three filters attenuate.
-    double cycles = 6.0;         ///< Cycles of a period that the record must contain; by spectrum.
-    double significance = 0.05;  ///< 1 - confidence of the limits.
+    double cycle_s = 900.0;  ///< Cycle of the oven; one half-octave band has it in its middle.
+    bool is_joint = false;   ///< True: kSignificance is that of all bands together (Bonferroni).
 };
 
 /// Computes the response by cross-spectra.
@@ -53,7 +56,7 @@ struct ResponseOptions {
 /// nu is the number of resolutions that the temperature's power fills in the band, minus one, at
 /// least 2: a spectral line counts as little more than the tapers.
 ///
-/// A point is refused if the record has fewer than `cycles` cycles, if more than a fifth of the
+/// A point is refused if the record has fewer than 6 cycles, if more than a fifth of the
 /// temperature's power is the thermometer's noise, if the limits of the gain reach 0, or if a
 /// series is constant.  Limits are always finite (response_test.cpp).
 /// @param temperature_degc   (n) finite, n >= 3.
@@ -68,11 +71,11 @@ struct ResponseOptions {
     std::span<const double> temperature_degc, std::span<const double> acceleration_mgal,
     double step_s, const ResponseOptions& options = {});
 
-/// Power of the temperature, and the thermometer's white noise in it.  White noise of variance v
-/// has the power v at every frequency.
+/// Power spectrum of the temperature, and the noise of the thermometer.  White noise of variance v
+/// has the expected power v at every frequency.
 struct ThermometerSpectrum {
     std::vector<double> power;  ///< degC^2 at the frequencies k / (n step); seven sine tapers.
-    double noise = 0.0;         ///< degC^2: mean power from 70 to 110 s, where no oven acts.
+    double noise = 0.0;         ///< degC^2: mean power of the first taper, periods 70-110 s.
 };
 /// Returns the power spectrum of the temperature without a straight line.
 /// @param temperature_degc  (n) finite, with n = fast_length(n).
@@ -92,14 +95,13 @@ struct ThermometerSpectrum {
 /// - chance: the gains that appear if the rest a - H T is shifted around the record.
 ///
 /// A point is refused with fewer than 13 cycles, if half or twice the gain is within the limits, or
-/// if a series is constant.  Modes with a period below `shortest_s` are skipped.
+/// if a series is constant.  Modes with a period below kShortestResponse_s are skipped.
 /// @param modes              modes of the temperature (n each), fastest first.
 /// @param temperature_degc   (n) finite.
 /// @param acceleration_mgal  (n) finite.
 /// @param step_s             time between samples, s.
-/// @param options            `shortest_s` and `significance` are used.
 [[nodiscard]] std::vector<ResponsePoint> response_by_modes(
     const std::vector<std::vector<double>>& modes, std::span<const double> temperature_degc,
-    std::span<const double> acceleration_mgal, double step_s, const ResponseOptions& options = {});
+    std::span<const double> acceleration_mgal, double step_s);
 
 }  // namespace a351::corrector

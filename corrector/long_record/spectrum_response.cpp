@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,7 +15,8 @@ namespace {
 
 constexpr std::size_t kFewestTapers = 3, kMostTapers = 15;
 constexpr double kHalfOctave = std::numbers::sqrt2;
-constexpr double kNoiseShare = 0.2;  // largest share of noise; it lowers the gain by this share
+constexpr double kNoiseShare = 0.2;    // largest share of noise; it lowers the gain by this share
+constexpr double kFewestCycles = 6.0;  // cycles of a period that the record must contain
 
 /// Spectra of both series with each taper; white noise of variance 1 has the mean square 1.
 struct TaperedSpectra {
@@ -56,14 +59,13 @@ struct Band {
     std::size_t first, behind;
 };
 
-std::vector<Band> bands_of(const TaperedSpectra& spectrum, double step_s,
-                           const ResponseOptions& options) {
+std::vector<Band> bands_of(const TaperedSpectra& spectrum, double step_s, double cycle_s) {
     std::vector<Band> bands;
     const auto number = [&](double period_s) {
         return static_cast<std::size_t>(std::ceil(1.0 / (period_s * spectrum.bin_hz)));
     };
-    double period_s = options.cycle_s;
-    while (period_s / kHalfOctave > std::max(options.shortest_s, 4.0 * step_s))
+    double period_s = cycle_s;
+    while (period_s / kHalfOctave > std::max(kShortestResponse_s, 4.0 * step_s))
         period_s /= kHalfOctave;
     const double quarter = std::sqrt(kHalfOctave);
     for (; period_s * spectrum.bin_hz < 1.0; period_s *= kHalfOctave) {
@@ -90,7 +92,7 @@ double thermometer_noise(const TaperedSpectra& spectrum) {
 }
 
 ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, double noise,
-                          double record_s, std::size_t samples, const ResponseOptions& options) {
+                          double record_s, std::size_t samples, double significance) {
     double tt = 0.0, aa = 0.0, tt2 = 0.0, frequency = 0.0;
     std::complex<double> at = 0.0;
     // The main lobe of K tapers is K + 1 resolutions wide.
@@ -119,8 +121,8 @@ ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, doub
     point.period_s = tt > 0.0 ? tt / frequency : std::sqrt(band.shortest_s * band.longest_s);
     point.temperature_rms_degc =
         std::sqrt(2.0 * tt / spectrum.rayleigh / static_cast<double>(samples));
-    // H = S_aT / S_TT.  For a constant, rounding may leave so little that the quotient is no
-    // number.
+    // H = S_aT / S_TT.  If the temperature is constant, S_TT is 0 or a rounding error, and H can be
+    // infinite or NaN.
     const std::complex<double> gain = at / tt;
     if (!(tt > 0.0) || !(aa > 0.0) || !std::isfinite(std::abs(gain)) || !std::isfinite(aa / tt)) {
         point.refusal = "temperature or acceleration is constant";
@@ -132,7 +134,7 @@ ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, doub
     const double freedom = std::max(tt * tt / tt2 / spectrum.rayleigh - 1.0, 2.0);
     point.coherence = std::min(1.0, std::norm(at) / tt / aa);  // rounding may exceed 1
     // Limits: |H - estimate|^2 <= (alpha^(-1 / (nu - 1)) - 1) (1 - coherence) S_aa / S_TT
-    const double quantile = std::pow(options.significance, -1.0 / (freedom - 1.0 + 1e-9)) - 1.0;
+    const double quantile = std::pow(significance, -1.0 / (freedom - 1.0 + 1e-9)) - 1.0;
     const double radius = std::sqrt(quantile * (1.0 - point.coherence) * aa / tt);
     point.gain = {std::abs(gain), std::max(0.0, std::abs(gain) - radius), std::abs(gain) + radius};
     const double phase = std::arg(gain) * kDegPerRad;
@@ -140,20 +142,21 @@ ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, doub
         radius < std::abs(gain) ? std::asin(radius / std::abs(gain)) * kDegPerRad : 180.0;
     point.phase_deg = {phase, phase - half_width, phase + half_width};
 
-    const double longest_s = record_s / options.cycles;
     const double least_swing_degc = std::sqrt(16.0 * noise * bins / kNoiseShare /
                                               spectrum.rayleigh / static_cast<double>(samples));
-    if (point.period_s > longest_s) {
-        point.refusal = "fewer than " + text::fixed(options.cycles, 0) + " cycles";
-        point.needed = "a record of " +
-                       text::fixed(std::ceil(options.cycles * point.period_s / 3600.0), 0) + " h";
+    if (point.period_s > record_s / kFewestCycles) {
+        point.refusal = fmt::format("fewer than {} cycles", text::fixed(kFewestCycles, 0));
+        point.needed = fmt::format(
+            "a record of {} h", text::fixed(std::ceil(kFewestCycles * point.period_s / 3600.0), 0));
     } else if (noise * bins > kNoiseShare * tt) {
         point.refusal = "no excitation: the temperature shows the thermometer's noise";
-        point.needed = "a swing of " + text::fixed(least_swing_degc, 4) + " degC";
+        point.needed = fmt::format("a swing of {} degC", text::fixed(least_swing_degc, 4));
     } else if (radius >= std::abs(gain)) {
         point.refusal = "no coherence above chance";
-        point.needed = "a larger temperature swing or a longer record; here no response below " +
-                       text::fixed(point.gain.high, 0) + " mGal/degC can be detected";
+        point.needed = fmt::format(
+            "a larger temperature swing or a longer record; here no response below {} mGal/degC "
+            "can be detected",
+            text::fixed(point.gain.high, 0));
     }
     return point;
 }
@@ -180,10 +183,12 @@ std::vector<ResponsePoint> response_by_spectrum(std::span<const double> temperat
     const double noise = thermometer_noise(spectrum);
     const double record_s = static_cast<double>(temperature_degc.size()) * step_s;
     std::vector<ResponsePoint> points;
-    for (const Band& band : bands_of(spectrum, step_s, options)) {
+    const std::vector<Band> bands = bands_of(spectrum, step_s, options.cycle_s);
+    const double significance =
+        kSignificance / static_cast<double>(options.is_joint ? bands.size() : 1);
+    for (const Band& band : bands)
         points.push_back(
-            response_in(band, spectrum, noise, record_s, temperature_degc.size(), options));
-    }
+            response_in(band, spectrum, noise, record_s, temperature_degc.size(), significance));
     return points;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace a351::corrector {
 namespace {
@@ -30,11 +29,10 @@ StretchBuilder::StretchBuilder(int stages, std::size_t axes) : outputs_(axes + 1
 
 void StretchBuilder::push(const std::vector<std::vector<double>>& channels) {
     for (std::size_t k = 0; k < outputs_.size(); ++k) {
-        if (decimators_.empty()) {
+        if (decimators_.empty())
             outputs_[k].insert(outputs_[k].end(), channels[k].begin(), channels[k].end());
-        } else {
+        else
             decimators_[k].push(channels[k], outputs_[k]);
-        }
     }
     if (!decimators_.empty()) add_to_ranges(channels);
     input_count_ += static_cast<std::int64_t>(channels.front().size());
@@ -58,12 +56,8 @@ void StretchBuilder::add_to_ranges(const std::vector<std::vector<double>>& chann
 
 void StretchBuilder::set_time(std::int64_t k, UtcTime time) {
     const auto place = static_cast<std::size_t>(k);
-    if (place >= times_.size()) {
-        times_.resize(place + 1);
-        has_time_.resize(place + 1, false);
-    }
+    if (place >= times_.size()) times_.resize(place + 1);
     times_[place] = time;
-    has_time_[place] = true;
 }
 
 RecordStretch StretchBuilder::finish(double step_s) {
@@ -71,10 +65,8 @@ RecordStretch StretchBuilder::finish(double step_s) {
     RecordStretch stretch;
     const std::size_t count = outputs_.front().size();
     times_.resize(count);
-    has_time_.resize(count, false);
-    for (std::size_t k = 1; k < count; ++k)
-        if (!has_time_[k]) times_[k] = times_[k - 1] + from_seconds(step_s);
-    stretch.times = std::move(times_);
+    for (const auto& time : times_)
+        stretch.times.push_back(time ? *time : stretch.times.back() + from_seconds(step_s));
     stretch.acceleration_mgal.resize(count);
     for (std::size_t k = 0; k < count; ++k) stretch.acceleration_mgal[k] = norm_at(outputs_, k);
     stretch.temperature_degc = std::move(outputs_.back());

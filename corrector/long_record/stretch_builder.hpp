@@ -3,7 +3,7 @@
 /// Builds a RecordStretch from blocks of samples.
 
 #include <cstdint>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "corrector/long_record/long_record.hpp"
@@ -48,8 +48,7 @@ private:
     std::vector<Decimator> decimators_;         ///< One per channel; empty without stages.
     std::vector<std::vector<double>> outputs_;  ///< One per channel.
     std::vector<RecordStretch::RawRange> raw_;
-    std::vector<UtcTime> times_;
-    std::vector<bool> has_time_;
+    std::vector<std::optional<UtcTime>> times_;
     std::int64_t input_count_ = 0;
 };
 

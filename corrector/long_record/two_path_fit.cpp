@@ -1,10 +1,7 @@
 #include "corrector/long_record/two_path_fit.hpp"
 
-#include <nlopt.h>
-
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <numeric>
 
@@ -108,31 +105,15 @@ public:
         return 0.5 * sum;
     }
 
-    /// Returns the lags of least cost.  Without a start nearby by Subplex, with one by BOBYQA,
-    /// which needs a third of the time.
-    [[nodiscard]] Lags most_likely(Lags u, bool is_nearby) const {
-        constexpr unsigned kLags = 3;
-        const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> search(
-            nlopt_create(is_nearby ? NLOPT_LN_BOBYQA : NLOPT_LN_SBPLX, kLags), &nlopt_destroy);
-        const auto cost_of = [](unsigned, const double* point, double*, void* problem) {
-            Lags at;
-            std::transform(point, point + kLags, at.begin(), search_point);
-            return search_cost(static_cast<const Problem*>(problem)->cost(at));
-        };
-        constexpr double kFarthest = 5.0;  // bound of the search, standard deviations of the priors
-        nlopt_set_min_objective(search.get(), cost_of, const_cast<Problem*>(this));
-        nlopt_set_lower_bounds1(search.get(), -kFarthest);
-        nlopt_set_upper_bounds1(search.get(), kFarthest);
-        nlopt_set_initial_step1(search.get(), 0.3);
-        nlopt_set_xtol_abs1(search.get(), 0.01);
-        nlopt_set_maxeval(search.get(), 120);
-        double least = 0.0;
-        nlopt_optimize(search.get(), u.data(), &least);
-        for (double& value : u) value = search_point(value);
-        return u;
+    /// Returns the lags of least cost.
+    [[nodiscard]] Lags most_likely(const Lags& start, bool is_nearby) const {
+        return least_cost_point(
+            [this](const Lags& u) { return cost(u); }, start, is_nearby,
+            {.farthest = 5.0, .first_step = 0.3, .tolerance = 0.01, .most_costs = 120});
     }
 
-    /// Returns the coefficients in deviations of their priors: (X'X + 1)^-1 X'y.
+    /// Returns the coefficients, each divided by the standard deviation of its prior:
+    /// (X'X + I)^-1 X'y with X = design(u), y = readings().
     [[nodiscard]] Eigen::VectorXd coefficients(const Lags& u) const {
         const Eigen::MatrixXd x = design(u);
         return Cholesky(normal_matrix(x)).solve(x.transpose() * readings());
@@ -157,13 +138,9 @@ public:
     /// Sets the noise from the residuals.
     void update_noise(const Lags& u, const Eigen::VectorXd& beta) {
         const Eigen::VectorXd rest = readings() - design(u) * beta;
-        Eigen::VectorXd power(frequencies_);
-        for (Index k = 0; k < frequencies_; ++k) {
-            const double square =
-                rest(k) * rest(k) + rest(frequencies_ + k) * rest(frequencies_ + k);
-            power(k) = 0.5 * square * noise_(k);
-        }
-        smooth_noise(power);
+        const Eigen::ArrayXd squares =
+            rest.head(frequencies_).array().square() + rest.tail(frequencies_).array().square();
+        smooth_noise(0.5 * squares * noise_.array());
     }
 
 private:
@@ -182,12 +159,9 @@ private:
     void set_trust() {
         constexpr double kLeastPower = 3.0;
         const ThermometerSpectrum spectrum = thermometer_spectrum(temperature_.values(), step_s_);
-        signal_share_.resize(frequencies_);
-        for (Index k = 0; k < frequencies_; ++k) {
-            const double power = spectrum.power[static_cast<std::size_t>(k + 1)];
-            signal_share_(k) =
-                power < kLeastPower * spectrum.noise ? 0.0 : 1.0 - spectrum.noise / power;
-        }
+        const Eigen::Map<const Eigen::ArrayXd> power(spectrum.power.data() + 1, frequencies_);
+        signal_share_ =
+            (power < kLeastPower * spectrum.noise).select(0.0, 1.0 - spectrum.noise / power);
     }
 
     /// Returns a column of the temperature with the weights applied, except to the straight line of
@@ -254,54 +228,26 @@ private:
     Eigen::VectorXd signal_share_;  ///< Weights of the temperature's frequencies, 0 to 1.
 };
 
-FittedParameter named(TwoPathTerm term) {
-    const std::string by_days =
-        "a set point that moves by about 0.1 degC every few hours, for two days or more";
-    switch (term) {
-        case TwoPathTerm::drift:
-            return {"drift_mgal_per_h", "drift", "mGal/h", 0, 0, false, "a week or more"};
-        case TwoPathTerm::warm_up:
-            return {"warm_up_mgal",
-                    "warm-up at the start",
-                    "mGal",
-                    0,
-                    0,
-                    false,
-                    "a record that begins when the sensor is switched on"};
-        case TwoPathTerm::level:
-            return {
-                "level_mgal_per_degc", "static slope, prompt", "mGal/degC", 0, 0, false, by_days};
-        case TwoPathTerm::fast:
-            return {"fast_mgal_per_degc_per_h",
-                    "fast path",
-                    "mGal/(degC/h)",
-                    0,
-                    0,
-                    false,
-                    "a larger temperature swing at periods of 5 to 30 min"};
-        case TwoPathTerm::slow:
-            return {"slow_mgal_per_degc", "static slope, late", "mGal/degC", 0, 0, false, by_days};
-        case TwoPathTerm::fast_lag:
-            return {"fast_lag_s",
-                    "lag of the fast path",
-                    "s",
-                    0,
-                    0,
-                    false,
-                    "a larger temperature swing at periods of 4 to 8 min"};
-        case TwoPathTerm::slow_lag:
-            return {"slow_lag_s", "lag of the slow path", "s", 0, 0, false, by_days};
-        case TwoPathTerm::warm_up_time:
-            break;
-    }
-    return {"warm_up_time_s",
-            "time constant of the warm-up",
-            "s",
-            0,
-            0,
-            false,
-            "a record that begins when the sensor is switched on"};
-}
+/// A parameter in words.
+struct Named {
+    const char *key, *name, *unit, *needed;
+};
+constexpr const char* kByDays =
+    "a set point that moves by about 0.1 degC every few hours, for two days or more";
+constexpr const char* kFromPowerOn = "a record that begins when the sensor is switched on";
+/// Parameters in the order of TwoPathTerm.
+constexpr std::array<Named, kTwoPathTerms> kNamed{{
+    {"drift_mgal_per_h", "drift", "mGal/h", "a week or more"},
+    {"warm_up_mgal", "warm-up at the start", "mGal", kFromPowerOn},
+    {"level_mgal_per_degc", "static slope, prompt", "mGal/degC", kByDays},
+    {"fast_mgal_per_degc_per_h", "fast path", "mGal/(degC/h)",
+     "a larger temperature swing at periods of 5 to 30 min"},
+    {"slow_mgal_per_degc", "static slope, late", "mGal/degC", kByDays},
+    {"fast_lag_s", "lag of the fast path", "s",
+     "a larger temperature swing at periods of 4 to 8 min"},
+    {"slow_lag_s", "lag of the slow path", "s", kByDays},
+    {"warm_up_time_s", "time constant of the warm-up", "s", kFromPowerOn},
+}};
 
 }  // namespace
 
@@ -332,14 +278,18 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
         const auto place = static_cast<Index>(k);
         const bool is_lag = place >= kLinear;
         const std::size_t lag = is_lag ? k - static_cast<std::size_t>(kLinear) : 0;
-        FittedParameter& parameter = fit.parameters.at(k);
-        parameter = named(static_cast<TwoPathTerm>(k));
         units(place) = two_path_prior(static_cast<TwoPathTerm>(k)).deviation;
         const double deviation = units(place) * std::sqrt(scaled(place, place));
-        parameter.value = is_lag ? lag_s(u, lag) : units(place) * beta(place);
-        parameter.standard_error = is_lag ? parameter.value * deviation : deviation;
-        parameter.is_determined = std::sqrt(scaled(place, place)) < kDeterminedDeviation;
-        if (parameter.is_determined) parameter.needed.clear();
+        const double value = is_lag ? lag_s(u, lag) : units(place) * beta(place);
+        const bool is_determined = std::sqrt(scaled(place, place)) < kDeterminedDeviation;
+        const Named& named = kNamed.at(k);
+        fit.parameters.at(k) = {named.key,
+                                named.name,
+                                named.unit,
+                                value,
+                                is_lag ? value * deviation : deviation,
+                                is_determined,
+                                is_determined ? "" : named.needed};
     }
     fit.covariance = units.asDiagonal() * scaled * units.asDiagonal();
     constexpr auto level = static_cast<Index>(TwoPathTerm::level),
@@ -360,12 +310,8 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
     for (double& value : fit.residual_mgal) value -= mean;
     fit.residual_rms_mgal = std::sqrt(variance_of(fit.residual_mgal));
 
-    ResponseOptions test;
-    test.cycle_s = cycle_s;
-    const auto bands = response_by_spectrum(temperature_degc, fit.residual_mgal, step_s, test);
-    test.significance /= static_cast<double>(std::max<std::size_t>(bands.size(), 1));
-    for (ResponsePoint& point :
-         response_by_spectrum(temperature_degc, fit.residual_mgal, step_s, test))
+    for (ResponsePoint& point : response_by_spectrum(temperature_degc, fit.residual_mgal, step_s,
+                                                     {.cycle_s = cycle_s, .is_joint = true}))
         if (point.refusal.empty()) fit.unexplained.push_back(std::move(point));
     return fit;
 }

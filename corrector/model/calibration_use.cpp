@@ -1,11 +1,12 @@
 #include "corrector/model/calibration_use.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "protocol/core/input_error.hpp"
 #include "protocol/linear_algebra/symmetric_eigen.hpp"
 #include "protocol/text/aligned_text.hpp"
 
@@ -37,40 +38,31 @@ bool is_harmful(const CalibrationUse& use, const ModelScore& score) {
 }
 
 std::string name_of(const Calibration& calibration) {
-    return "calibration of unit " + calibration.serial_number + " (" + calibration.program +
-           ", from " + to_rfc3339(calibration.valid_from) + ")";
+    return fmt::format("calibration of unit {} ({}, from {})", calibration.serial_number,
+                       calibration.program, to_rfc3339(calibration.valid_from));
 }
 
-void remark_test(SurveyCorrection& result, const std::string& part,
+void remark_test(SurveyCorrection& result, const char* part,
                  const std::optional<Disagreement>& test) {
     if (!test)
-        result.remarks.push_back(
-            "the calibration's " + part +
-            " not tested: the readings contain no information about this part");
-    if (!is_contradicted(test)) return;
-    result.remarks.push_back("the readings contradict the calibration's " + part + ": chi-square " +
-                             text::fixed(test->chi_square, 1) + " for " +
-                             std::to_string(test->dof) +
-                             " degrees of freedom, by chance less than once in a hundred surveys; "
-                             "check that it belongs to this unit and is still valid, and correct "
-                             "the survey without it too");
+        result.remarks.push_back(fmt::format(
+            "the calibration's {} not tested: the readings contain no information about this part",
+            part));
+    if (is_contradicted(test))
+        result.remarks.push_back(fmt::format(
+            "the readings contradict the calibration's {}: chi-square {} for {} degrees of "
+            "freedom, by chance less than once in a hundred surveys; check that it belongs to this "
+            "unit and is still valid, and correct the survey without it too",
+            part, text::fixed(test->chi_square, 1), test->dof));
 }
 
-Json part_json(bool is_there, bool is_used, const char* use,
-               const std::optional<Disagreement>& test) {
+Json part_json(bool is_there, const char* use, const std::optional<Disagreement>& test) {
     if (!is_there) return nullptr;
-    Json json{{"use", is_used ? use : "none"},
-              {"chi_square", nullptr},
-              {"dof", nullptr},
-              {"p", nullptr},
-              {"contradicted", nullptr}};
-    if (test) {
-        json["contradicted"] = is_contradicted(test);
-        json["chi_square"] = test->chi_square;
-        json["dof"] = test->dof;
-        json["p"] = test->p;
-    }
-    return json;
+    return {{"use", use},
+            {"chi_square", test ? Json(test->chi_square) : Json(nullptr)},
+            {"dof", test ? Json(test->dof) : Json(nullptr)},
+            {"p", test ? Json(test->p) : Json(nullptr)},
+            {"contradicted", test ? Json(is_contradicted(test)) : Json(nullptr)}};
 }
 
 }  // namespace
@@ -81,15 +73,12 @@ bool helps_to_correct_day(const std::optional<Calibration>& calibration) {
 
 DayPriors day_priors_of(const std::optional<Calibration>& calibration) {
     DayPriors priors = usual_day_priors();
-    if (calibration && calibration->axis_bias) {
-        const AxisBias& bias = *calibration->axis_bias;
-        priors.observe(kAxisPlaces, bias.values, bias.covariance);
-    }
-    if (calibration && calibration->thermal) {
-        const ThermalResponse& thermal = *calibration->thermal;
-        priors.observe(kThermalPlaces, thermal.values,
-                       kThermalErrorFactor * kThermalErrorFactor * thermal.covariance);
-    }
+    if (!calibration) return priors;
+    if (const auto& bias = calibration->axis_bias)
+        priors.observe(kAxisPlaces, bias->values, bias->covariance);
+    if (const auto& thermal = calibration->thermal)
+        priors.observe(kThermalPlaces, thermal->values,
+                       kThermalErrorFactor * kThermalErrorFactor * thermal->covariance);
     return priors;
 }
 
@@ -136,26 +125,24 @@ void report_prior_use(SurveyCorrection& result, const DayFit& fit, const DayFit&
     for (std::size_t i = 0; i < fit.set_ups.size(); ++i)
         squares += std::pow((fit.set_ups[i].corrected - without.set_ups[i].corrected).value(), 2);
     use.effect_rms_mgal = std::sqrt(squares / static_cast<double>(fit.set_ups.size()));
-    result.remarks.push_back(
-        name_of(calibration) +
-        " as prior: " + (calibration.axis_bias ? "axis biases" : "no axis biases") +
-        (calibration.thermal ? ", thermal response with its errors doubled"
-                             : ", no thermal response") +
-        "; it changes the corrected values by " + text::fixed(use.effect_rms_mgal, 2) +
-        " mGal rms" +
-        (calibration.axis_bias
-             ? "; for the scores of other models axis bias x tilt was subtracted from the readings"
-             : ""));
+    result.remarks.push_back(fmt::format(
+        "{} as prior: {}{}; it changes the corrected values by {} mGal rms{}", name_of(calibration),
+        calibration.axis_bias ? "axis biases" : "no axis biases",
+        calibration.thermal ? ", thermal response with its errors doubled"
+                            : ", no thermal response",
+        text::fixed(use.effect_rms_mgal, 2),
+        calibration.axis_bias
+            ? "; for the scores of other models axis bias x tilt was subtracted from the readings"
+            : ""));
     if (calibration.axis_bias) remark_test(result, "axis biases", use.axis_bias);
     if (calibration.thermal) remark_test(result, "thermal response", use.thermal);
     use.loso_without_mgal = without_loso_mgal;
     if (is_harmful(use, result.score))
-        result.remarks.push_back(
+        result.remarks.push_back(fmt::format(
             "with the calibration the survey is worse: stations left out are predicted with an "
-            "error of " +
-            text::fixed(*result.score.loso_mgal, 2) + " mGal rms, without it " +
-            text::fixed(*without_loso_mgal, 2) +
-            "; check that it belongs to this unit and is still valid");
+            "error of {} mGal rms, without it {}; check that it belongs to this unit and is still "
+            "valid",
+            text::fixed(*result.score.loso_mgal, 2), text::fixed(*without_loso_mgal, 2)));
     result.calibration = use;
 }
 
@@ -181,13 +168,14 @@ SurveyCorrection correct_with_calibration(const std::vector<SurveyRow>& rows,
     }
     const auto n = static_cast<double>(result.rows.size());
     use.effect_rms_mgal = std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)));
-    std::string text = name_of(calibration) + ": ";
-    text += calibration.axis_bias
-                ? "axis bias x tilt was subtracted from the readings, for the scores of all models "
-                  "too; it scatters by " +
-                      text::fixed(use.effect_rms_mgal, 2) +
-                      " mGal rms; the calibration was not compared with the readings"
-                : "no axis biases";
+    std::string text = name_of(calibration);
+    if (calibration.axis_bias)
+        text += fmt::format(
+            ": axis bias x tilt was subtracted from the readings, for the scores of all models "
+            "too; it scatters by {} mGal rms; the calibration was not compared with the readings",
+            text::fixed(use.effect_rms_mgal, 2));
+    else
+        text += ": no axis biases";
     if (calibration.thermal)
         text += "; its thermal response is not used by the model " + result.model;
     result.remarks.push_back(text);
@@ -206,22 +194,19 @@ Json calibration_json(const SurveyCorrection& result) {
     if (!result.calibration) return nullptr;
     const Calibration& calibration = result.options.calibration.value();
     const CalibrationUse& use = *result.calibration;
-    Json json;
-    json["serial_number"] = calibration.serial_number;
-    json["program"] = calibration.program;
-    json["valid_from_utc"] = to_rfc3339(calibration.valid_from, 3);
-    json["valid_to_utc"] =
-        calibration.valid_to ? Json(to_rfc3339(*calibration.valid_to, 3)) : Json(nullptr);
-    json["axis_bias"] = part_json(calibration.axis_bias.has_value(), true,
-                                  use.is_prior ? "prior" : "fixed", use.axis_bias);
-    json["thermal"] =
-        part_json(calibration.thermal.has_value(), use.is_prior, "prior", use.thermal);
-    json["effect_rms_mgal"] = use.effect_rms_mgal;
-    json["loso_without_mgal"] =
-        use.loso_without_mgal ? Json(*use.loso_without_mgal) : Json(nullptr);
-    json["worse_with_it"] =
-        use.loso_without_mgal ? Json(is_harmful(use, result.score)) : Json(nullptr);
-    return json;
+    const auto& valid_to = calibration.valid_to;
+    const bool is_compared = use.loso_without_mgal.has_value();
+    return {{"serial_number", calibration.serial_number},
+            {"program", calibration.program},
+            {"valid_from_utc", to_rfc3339(calibration.valid_from, 3)},
+            {"valid_to_utc", valid_to ? Json(to_rfc3339(*valid_to, 3)) : Json(nullptr)},
+            {"axis_bias", part_json(calibration.axis_bias.has_value(),
+                                    use.is_prior ? "prior" : "fixed", use.axis_bias)},
+            {"thermal", part_json(calibration.thermal.has_value(), use.is_prior ? "prior" : "none",
+                                  use.thermal)},
+            {"effect_rms_mgal", use.effect_rms_mgal},
+            {"loso_without_mgal", is_compared ? Json(*use.loso_without_mgal) : Json(nullptr)},
+            {"worse_with_it", is_compared ? Json(is_harmful(use, result.score)) : Json(nullptr)}};
 }
 
 }  // namespace a351::corrector

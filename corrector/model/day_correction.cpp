@@ -1,5 +1,7 @@
 #include "corrector/model/day_correction.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -17,7 +19,7 @@ constexpr double kLongestGap_s = 1800.0;  // shorter than the slow lag
 constexpr double kWantedLead_s = 7200.0;  // several slow lags
 
 std::size_t count_of(const std::vector<bool>& rows) {
-    return static_cast<std::size_t>(std::count(rows.begin(), rows.end(), true));
+    return static_cast<std::size_t>(std::ranges::count(rows, true));
 }
 
 /// The rows of a fit.
@@ -47,7 +49,7 @@ std::vector<DayStation> stations_of(const std::vector<CorrectedRow>& rows, const
         if (set.in_use[i] && row.site != left_out)
             station.gravity = row.reference;
         else if (set.has_own_unknown(row))
-            station.unknown = number_of("row " + std::to_string(i));
+            station.unknown = number_of(fmt::format("row {}", i));
         else
             station.unknown = number_of("station " + row.site);
         stations.push_back(station);
@@ -55,36 +57,47 @@ std::vector<DayStation> stations_of(const std::vector<CorrectedRow>& rows, const
     return stations;
 }
 
+/// A fit and its stations, one per row.
+struct Fitted {
+    std::vector<DayStation> stations;
+    DayFit fit;
+
+    /// Returns gravity of the unknown of a row, with its standard error.
+    [[nodiscard]] const Estimate& unknown_of(std::size_t row) const {
+        return fit.unknown_mgal[stations[row].unknown];
+    }
+};
+
 /// The fit of one set of rows, and the fits without each station.
 struct DayFits {
-    std::vector<DayStation> stations;             ///< Stations of `fit`, one per row.
-    DayFit fit;                                   ///< Fit of all rows in use.
-    std::vector<std::string> left_out;            ///< Names of the stations left out in turn.
-    std::vector<std::vector<DayStation>> others;  ///< Stations of each fit in `without`.
-    std::vector<DayFit> without;                  ///< Fits without each station of `left_out`.
+    Fitted all;                         ///< Fit of all rows in use.
+    std::vector<std::string> left_out;  ///< Names of the stations left out in turn.
+    std::vector<Fitted> others;         ///< Fits without each station of `left_out`.
 
-    [[nodiscard]] std::optional<std::size_t> number_of(const std::string& site) const {
-        const auto found = std::find(left_out.begin(), left_out.end(), site);
-        if (found == left_out.end()) return std::nullopt;
-        return static_cast<std::size_t>(found - left_out.begin());
+    /// Returns the fit without a station; null if it is not left out.
+    [[nodiscard]] const Fitted* without(const std::string& site) const {
+        const auto found = std::ranges::find(left_out, site);
+        return found == left_out.end() ? nullptr : others.data() + (found - left_out.begin());
     }
 };
 
 DayFits fit_with_and_without(const std::vector<CorrectedRow>& rows, const RowSet& set,
                              const DayRecord& day, const DayPriors& priors) {
     DayFits fits;
-    fits.stations = stations_of(rows, set, "");
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        if (set.in_use[i] && !fits.number_of(rows[i].row.site))
-            fits.left_out.push_back(rows[i].row.site);
+    fits.all.stations = stations_of(rows, set, "");
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const std::string& site = rows[i].row.site;
+        if (set.in_use[i] && std::ranges::find(fits.left_out, site) == fits.left_out.end())
+            fits.left_out.push_back(site);
+    }
     if (fits.left_out.size() < 2)
         fits.left_out.clear();  // without the only one, no station would be held
     for (const std::string& site : fits.left_out)
-        fits.others.push_back(stations_of(rows, set, site));
-    fits.without.resize(fits.left_out.size());
-    fits.fit = fit_day(day, fits.stations, nullptr, priors).value();
-    on_all_cores(fits.left_out.size(), [&](std::size_t k) {
-        fits.without[k] = fit_day(day, fits.others[k], &fits.fit, priors).value();
+        fits.others.push_back({stations_of(rows, set, site), {}});
+    fits.all.fit = fit_day(day, fits.all.stations, nullptr, priors).value();
+    on_all_cores(fits.others.size(), [&](std::size_t k) {
+        Fitted& other = fits.others[k];
+        other.fit = fit_day(day, other.stations, &fits.all.fit, priors).value();
     });
     return fits;
 }
@@ -99,9 +112,9 @@ ModelScore score_of(const std::vector<CorrectedRow>& rows, const std::vector<boo
         if (!in_use[i]) continue;
         ++score.row_count;
         const double reference = rows[i].row.reference->value();
-        in_sample += std::pow(reference - fits.fit.set_ups[i].corrected.value(), 2);
-        const auto k = fits.number_of(rows[i].row.site);
-        if (k) left_out += std::pow(reference - fits.without[*k].set_ups[i].corrected.value(), 2);
+        in_sample += std::pow(reference - fits.all.fit.set_ups[i].corrected.value(), 2);
+        if (const Fitted* const other = fits.without(rows[i].row.site))
+            left_out += std::pow(reference - other->fit.set_ups[i].corrected.value(), 2);
     }
     score.dof = score.row_count - std::min(score.row_count, score.parameter_count);
     const auto n = static_cast<double>(score.row_count);
@@ -113,8 +126,8 @@ ModelScore score_of(const std::vector<CorrectedRow>& rows, const std::vector<boo
 std::vector<Coefficient> coefficients_of(const DayFit& fit) {
     std::vector<Coefficient> list;
     for (std::size_t k = 0; k < kDayTerms; ++k)
-        list.push_back({std::string(day_term_name(static_cast<DayTerm>(k))),
-                        fit.coefficients.at(k).value, fit.coefficients.at(k).standard_error});
+        list.push_back({std::string(kDayTermNames.at(k)), fit.coefficients.at(k).value,
+                        fit.coefficients.at(k).standard_error});
     list.push_back({"fast_lag_s", fit.fast_lag_s, std::nullopt});
     list.push_back({"slow_lag_s", fit.slow_lag_s, std::nullopt});
     list.push_back({"placement_mgal", fit.noise.placement_mgal, std::nullopt});
@@ -123,62 +136,34 @@ std::vector<Coefficient> coefficients_of(const DayFit& fit) {
     return list;
 }
 
-/// Returns gravity of the unknown of a row, with its standard error.
-Estimate unknown_of(const DayFit& fit, const std::vector<DayStation>& stations, std::size_t row) {
-    return fit.unknown_mgal[stations[row].unknown];
-}
-
 /// Returns the uncertainty of a row whose station is unknown: u^2 = (standard error of the
 /// station)^2 + placement^2 (1 - 1/count).  The second part is the difference between the row's own
 /// placement error and the mean over the `count` set-ups that share the unknown.
-MilliGal row_uncertainty(const DayFit& fit, const std::vector<DayStation>& stations,
-                         std::size_t row) {
+MilliGal row_uncertainty(const Fitted& fitted, std::size_t row) {
     double count = 0.0;
-    for (const DayStation& station : stations)
-        if (!station.gravity && station.unknown == stations[row].unknown) count += 1.0;
-    const double own = fit.noise.placement_mgal * std::sqrt(1.0 - 1.0 / count);
-    const double error = unknown_of(fit, stations, row).standard_error;
+    for (const DayStation& station : fitted.stations)
+        if (!station.gravity && station.unknown == fitted.stations[row].unknown) count += 1.0;
+    const double own = fitted.fit.noise.placement_mgal * std::sqrt(1.0 - 1.0 / count);
+    const double error = fitted.unknown_of(row).standard_error;
     return MilliGal(std::sqrt(error * error + own * own));
 }
 
-/// Sets the values that a row has if its reference is unknown.
-void set_left_out(CorrectedRow& out, MilliGal predicted, MilliGal uncertainty) {
-    out.u_corrected = uncertainty;
-    if (!out.row.reference) return;
-    out.day->left_out = predicted;
-    out.studentised_residual = (*out.row.reference - predicted).value() / uncertainty.value();
+/// Returns the sum of the samples' durations: least spacing times number of samples.
+double duration_s(const std::vector<UtcTime>& times) {
+    double spacing_s = seconds_between(times[0], times[1]);
+    for (std::size_t i = 2; i < times.size(); ++i)
+        spacing_s = std::min(spacing_s, seconds_between(times[i - 1], times[i]));
+    return spacing_s * static_cast<double>(times.size());
 }
 
-/// Times of the samples in the bins of a set-up.
-struct Averaged {
-    std::vector<UtcTime> times;
-
-    /// Returns the sum of the samples' durations: least spacing times number of samples.
-    [[nodiscard]] double seconds() const {
-        double spacing_s = seconds_between(times[0], times[1]);
-        for (std::size_t i = 2; i < times.size(); ++i)
-            spacing_s = std::min(spacing_s, seconds_between(times[i - 1], times[i]));
-        return spacing_s * static_cast<double>(times.size());
-    }
-};
-
-/// Returns the samples of every row.
-std::vector<Averaged> averaged_samples(std::size_t row_count, const DayRecord& day) {
-    std::vector<Averaged> averaged(row_count);
-    for (const DayBin& bin : day.bins) {
-        auto& times = averaged[bin.set_up].times;
-        times.insert(times.end(), bin.times.begin(), bin.times.end());
-    }
-    return averaged;
-}
-
-void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits, const Averaged& averaged) {
-    const DaySetUp& set_up = fits.fit.set_ups[i];
+void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits,
+                 const std::vector<UtcTime>& averaged) {
+    const DaySetUp& set_up = fits.all.fit.set_ups[i];
     const auto effect = [&](DayTerm term) {
         return MilliGal(set_up.effect_mgal.at(static_cast<std::size_t>(term)));
     };
-    out.row.start = averaged.times.front();
-    out.row.end = averaged.times.back();
+    out.row.start = averaged.front();
+    out.row.end = averaged.back();
     out.row.acceleration = set_up.reading;
     out.row.temperature = set_up.temperature;
     out.temperature_correction =
@@ -187,7 +172,7 @@ void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits, const Av
     out.drift_correction = -(effect(DayTerm::drift) + effect(DayTerm::warm_up));
     out.tilt_correction = -(effect(DayTerm::x) + effect(DayTerm::y));
     out.corrected = set_up.corrected;
-    out.day = WholeDayPart{.averaged_s = averaged.seconds(),
+    out.day = WholeDayPart{.averaged_s = duration_s(averaged),
                            .fast_rate_degc_per_h = set_up.rate_degc_per_h,
                            .flicker_correction = -set_up.flicker,
                            .left_out = std::nullopt};
@@ -195,29 +180,28 @@ void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits, const Av
         out.difference = out.row.acceleration - *out.row.reference - out.row.tide;
         out.residual = *out.row.reference - out.corrected;
     }
-    const auto k = fits.number_of(out.row.site);
-    if (!fits.stations[i].gravity) {
-        set_left_out(out, out.corrected, row_uncertainty(fits.fit, fits.stations, i));
-    } else if (k) {
-        set_left_out(out, fits.without[*k].set_ups[i].corrected,
-                     row_uncertainty(fits.without[*k], fits.others[*k], i));
-    }
+    // The values that the row has if its reference is unknown.
+    const Fitted* const other =
+        fits.all.stations[i].gravity ? fits.without(out.row.site) : &fits.all;
+    if (other == nullptr) return;
+    out.u_corrected = row_uncertainty(*other, i);
+    if (!out.row.reference) return;
+    out.day->left_out = other->fit.set_ups[i].corrected;
+    out.studentised_residual =
+        (*out.row.reference - *out.day->left_out).value() / out.u_corrected->value();
 }
 
 /// Returns the uncertainty of a station's value: that of its unknown, or of the mean of several.
 std::optional<MilliGal> station_uncertainty(const DayFits& fits,
                                             const std::vector<std::size_t>& members,
                                             const std::string& site) {
-    const auto k = fits.number_of(site);
     double squares = 0.0;
     std::set<std::size_t> unknowns;
     for (const std::size_t i : members) {
-        const bool is_held = fits.stations[i].gravity.has_value();
-        if (is_held && !k) return std::nullopt;
-        const DayFit& fit = is_held ? fits.without[*k] : fits.fit;
-        const auto& stations = is_held ? fits.others[*k] : fits.stations;
-        if (!unknowns.insert(stations[i].unknown).second) continue;
-        squares += std::pow(unknown_of(fit, stations, i).standard_error, 2);
+        const Fitted* const fitted = fits.all.stations[i].gravity ? fits.without(site) : &fits.all;
+        if (fitted == nullptr) return std::nullopt;
+        if (unknowns.insert(fitted->stations[i].unknown).second)
+            squares += std::pow(fitted->unknown_of(i).standard_error, 2);
     }
     return MilliGal(std::sqrt(squares) / static_cast<double>(unknowns.size()));
 }
@@ -259,24 +243,23 @@ std::optional<std::string> day_refusal(const std::vector<SurveyRow>& rows,
     const std::size_t used = count_of(in_use);
     const std::size_t fewest = is_calibrated ? 1 : kFewestRows;
     if (used < fewest)
-        return "needs at least " + std::to_string(fewest) + " rows with a reference, has " +
-               std::to_string(used);
+        return fmt::format("needs at least {} rows with a reference, has {}", fewest, used);
     if (day->temperature.longest_gap_s > kLongestGap_s)
-        return "the temperature has a gap of " +
-               std::to_string(std::lround(day->temperature.longest_gap_s / 60.0)) +
-               " min, more than the allowed " + std::to_string(std::lround(kLongestGap_s / 60.0));
+        return fmt::format("the temperature has a gap of {} min, more than the allowed {}",
+                           std::lround(day->temperature.longest_gap_s / 60.0),
+                           std::lround(kLongestGap_s / 60.0));
     std::vector<bool> has_bins(rows.size(), false);
     for (const DayBin& bin : day->bins) has_bins[bin.set_up] = true;
     for (std::size_t i = 0; i < rows.size(); ++i)
         if (!has_bins[i])
-            return rows[i].site + " (" + std::to_string(rows[i].occupation) +
-                   ") has no half minute without a disturbance";
+            return fmt::format("{} ({}) has no half minute without a disturbance", rows[i].site,
+                               rows[i].occupation);
     return std::nullopt;
 }
 
 void correct_by_day(SurveyCorrection& result, const DayRowSets& sets, const DayRecord& day) {
     result.model = "day";
-    std::vector<CorrectedRow> rows = result.rows;
+    const std::vector<CorrectedRow> rows = result.rows;
     const bool use_flags = result.options.use_flags;
     const std::vector<bool>& in_use = use_flags ? sets.used : sets.all;
     const DayPriors priors = day_priors_of(result.options.calibration);
@@ -291,20 +274,24 @@ void correct_by_day(SurveyCorrection& result, const DayRowSets& sets, const DayR
             set.scores.push_back(
                 score_of(rows, others, fit_with_and_without(rows, {others, is_used}, day, priors)));
     }
-    const std::vector<Averaged> averaged = averaged_samples(rows.size(), day);
+    std::vector<std::vector<UtcTime>> averaged(rows.size());  // times of the samples in the bins
+    for (const DayBin& bin : day.bins)
+        averaged[bin.set_up].insert(averaged[bin.set_up].end(), bin.times.begin(), bin.times.end());
     for (std::size_t i = 0; i < rows.size(); ++i) correct_row(result.rows[i], i, fits, averaged[i]);
-    result.coefficients = coefficients_of(fits.fit);
+    result.coefficients = coefficients_of(fits.all.fit);
     result.stations = station_values(result.rows, fits, {in_use, use_flags});
     if (result.options.calibration) {
         const DayFits usual =
             fit_with_and_without(rows, {in_use, use_flags}, day, usual_day_priors());
-        report_prior_use(result, fits.fit, usual.fit, score_of(rows, in_use, usual).loso_mgal);
+        report_prior_use(result, fits.all.fit, usual.all.fit,
+                         score_of(rows, in_use, usual).loso_mgal);
     }
     const double lead_s = seconds_between(day.temperature.series.start(), day.bins.front().time);
     if (lead_s < kWantedLead_s)
         result.remarks.push_back(
-            "the temperature record begins " + std::to_string(std::lround(lead_s / 60.0)) +
-            " min before the first occupation; its slow effect needs two hours");
+            fmt::format("the temperature record begins {} min before the first occupation; its "
+                        "slow effect needs two hours",
+                        std::lround(lead_s / 60.0)));
 }
 
 }  // namespace a351::corrector

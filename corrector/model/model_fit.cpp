@@ -1,9 +1,13 @@
 #include "corrector/model/model_fit.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <random>
 #include <set>
+#include <utility>
 
 #include "corrector/model/paper_correction.hpp"
 #include "protocol/core/units.hpp"
@@ -16,25 +20,6 @@ Eigen::VectorXd as_vector(const std::vector<double>& values) {
                                              static_cast<Eigen::Index>(values.size()));
 }
 
-std::vector<SurveyRow> without_station(const std::vector<SurveyRow>& rows,
-                                       const std::string& site) {
-    std::vector<SurveyRow> others;
-    for (const SurveyRow& row : rows) {
-        if (row.site != site) others.push_back(row);
-    }
-    return others;
-}
-
-std::vector<std::string> stations_of(const std::vector<SurveyRow>& rows) {
-    std::vector<std::string> stations;
-    for (const SurveyRow& row : rows) {
-        if (std::find(stations.begin(), stations.end(), row.site) == stations.end()) {
-            stations.push_back(row.site);
-        }
-    }
-    return stations;
-}
-
 using ModelOf = std::function<const LinearModel*(const std::vector<SurveyRow>&)>;
 
 /// Returns the leave-one-station-out error (mGal) of the model that `model_of` chooses for the
@@ -43,8 +28,9 @@ std::optional<double> left_out_stations_mgal(const ModelOf& model_of,
                                              const std::vector<SurveyRow>& rows, UtcTime origin,
                                              const ModelPriors& priors) {
     double sum = 0.0;
-    for (const std::string& station : stations_of(rows)) {
-        const std::vector<SurveyRow> others = without_station(rows, station);
+    for (const std::string& station : station_names(rows)) {
+        std::vector<SurveyRow> others = rows;
+        std::erase_if(others, [&](const SurveyRow& row) { return row.site == station; });
         const LinearModel* const model = model_of(others);
         if (model == nullptr) return std::nullopt;
         const auto fit = fit_model(*model, others, origin, priors);
@@ -59,25 +45,6 @@ std::optional<double> left_out_stations_mgal(const ModelOf& model_of,
         }
     }
     return std::sqrt(sum / static_cast<double>(rows.size()));
-}
-
-/// Errors (1) and (2) of the publication; (2) is empty if the drift step is refused.
-struct PaperErrors {
-    std::vector<double> before_mgal;
-    std::vector<double> after_mgal;
-};
-
-std::optional<PaperErrors> paper_errors(const std::vector<SurveyRow>& rows,
-                                        const std::vector<bool>& in_use, std::string_view base) {
-    const auto line = fit_temperature_line(rows, in_use);
-    if (!line) return std::nullopt;
-    const std::vector<double> corrected1 = temperature_corrected_mgal(rows, *line);
-    PaperErrors errors{errors_mgal(rows, corrected1), {}};
-    const DriftStep step = find_end_point_drift(rows, in_use, corrected1, base);
-    if (step.drift) {
-        errors.after_mgal = errors_mgal(rows, drift_corrected_mgal(rows, corrected1, *step.drift));
-    }
-    return errors;
 }
 
 /// Returns Error (2) of row `left_out`; line and drift are computed without this row.
@@ -102,21 +69,33 @@ bool takes_part(const LinearModel& model, const std::vector<SurveyRow>& rows,
     constexpr std::size_t kEnoughRows = 12;
     if (!(model.has_rate && model.has_time)) return true;
     std::set<int> base_stays;
-    for (const SurveyRow& row : rows) {
+    for (const SurveyRow& row : rows)
         if (row.site == base) base_stays.insert(row.occupation);
-    }
     return base_stays.size() >= kFewestBaseStays || rows.size() >= kEnoughRows;
 }
 
 }  // namespace
 
+std::vector<SurveyRow> chosen_rows(const std::vector<SurveyRow>& rows,
+                                   const std::vector<bool>& chosen) {
+    std::vector<SurveyRow> result;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (chosen[i]) result.push_back(rows[i]);
+    return result;
+}
+
+std::vector<std::string> station_names(const std::vector<SurveyRow>& rows) {
+    std::vector<std::string> names;
+    for (const SurveyRow& row : rows)
+        if (std::ranges::find(names, row.site) == names.end()) names.push_back(row.site);
+    return names;
+}
+
 const LinearModel* find_linear_model(std::string_view name) {
-    for (const LinearModel& model : kLinearModels) {
+    for (const LinearModel& model : kLinearModels)
         if (model.name == name) return &model;
-    }
-    for (const LinearModel& model : kModelsOnRequest) {
+    for (const LinearModel& model : kModelsOnRequest)
         if (model.name == name) return &model;
-    }
     return nullptr;
 }
 
@@ -130,14 +109,13 @@ Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<Survey
         if (model.has_temperature)
             columns(i, k++) = (row.temperature - kReferenceTemperature).value();
         if (model.has_rate) columns(i, k++) = row.rate_degc_per_h;
-        if (model.has_time) {
+        if (model.has_time)
             columns(i, k++) =
                 seconds_between(origin, row.time) / kSecondsPerHour - kReferenceTime_h;
-        }
         if (model.has_axes) {
-            const std::string wanted_by = "model = " + std::string(model.name);
-            columns(i, k++) = row.axes_for(wanted_by).x.mean.value();
-            columns(i, k) = row.axes_for(wanted_by).y.mean.value();
+            const RecordSummary& axes = row.axes_for(fmt::format("model = {}", model.name));
+            columns(i, k++) = axes.x.mean.value();
+            columns(i, k) = axes.y.mean.value();
         }
     }
     return columns;
@@ -193,9 +171,8 @@ ModelScore score_linear_model(const LinearModel& model, const std::vector<Survey
         if (!std::isfinite(*score.loo_mgal)) score.loo_mgal.reset();
     }
     // AICc = n ln(RSS/n) + 2K + 2K(K+1)/(n-K-1)   (Hurvich and Tsai 1989)
-    if (n - k - 1.0 > 0.0 && fit->rss > 0.0 && fit->prior_count == 0) {
+    if (n - k - 1.0 > 0.0 && fit->rss > 0.0 && fit->prior_count == 0)
         score.aicc = n * std::log(fit->rss / n) + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
-    }
     score.loso_mgal =
         left_out_stations_mgal([&model](const auto&) { return &model; }, rows, origin, priors);
     return score;
@@ -205,15 +182,18 @@ ModelScore score_paper_model(const std::vector<SurveyRow>& rows, const std::vect
                              std::string_view base) {
     ModelScore score;
     score.model = "paper";
-    score.row_count = static_cast<std::size_t>(std::count(in_use.begin(), in_use.end(), true));
+    score.row_count = static_cast<std::size_t>(std::ranges::count(in_use, true));
     score.parameter_count = 4;  // slope, intercept, and the errors at both ends of the drift
-    const auto errors = paper_errors(rows, in_use, base);
-    if (!errors) return score;
-    score.rms_before_drift_mgal = rms(errors->before_mgal, in_use).value();
-    if (errors->after_mgal.empty()) return score;
+    const auto line = fit_temperature_line(rows, in_use);
+    if (!line) return score;
+    const std::vector<double> corrected1 = temperature_corrected_mgal(rows, *line);
+    score.rms_before_drift_mgal = rms(errors_mgal(rows, corrected1), in_use).value();
+    const DriftStep step = find_end_point_drift(rows, in_use, corrected1, base);
+    if (!step.drift) return score;
     const auto n = static_cast<double>(score.row_count);
     score.dof = score.row_count - std::min(score.row_count, score.parameter_count);
-    score.rms_mgal = rms(errors->after_mgal, in_use).value();
+    const std::vector<double> corrected2 = drift_corrected_mgal(rows, corrected1, *step.drift);
+    score.rms_mgal = rms(errors_mgal(rows, corrected2), in_use).value();
     if (score.dof > 0)
         score.s_mgal = *score.rms_mgal * std::sqrt(n / static_cast<double>(score.dof));
 
@@ -228,6 +208,42 @@ ModelScore score_paper_model(const std::vector<SurveyRow>& rows, const std::vect
     return score;
 }
 
+std::optional<Interval> bootstrap_rms_interval(const std::vector<double>& errors,
+                                               const std::vector<std::string>& stations,
+                                               std::uint64_t seed) {
+    struct Station {
+        std::string name;
+        double squares = 0.0;
+        double count = 0.0;
+    };
+    std::vector<Station> sums;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        auto at = std::ranges::find(sums, stations[i], &Station::name);
+        if (at == sums.end()) at = sums.insert(sums.end(), {stations[i]});
+        at->squares += errors[i] * errors[i];
+        at->count += 1.0;
+    }
+    if (sums.size() < 2) return std::nullopt;
+
+    // The distributions of <random> differ between libraries; the generator is the same everywhere.
+    std::mt19937_64 generator(seed);
+    std::vector<double> values;
+    for (int draw = 0; draw < kBootstrapDraws; ++draw) {
+        double squares = 0.0;
+        double count = 0.0;
+        for (std::size_t k = 0; k < sums.size(); ++k) {
+            const Station& station = sums[generator() % sums.size()];
+            squares += station.squares;
+            count += station.count;
+        }
+        values.push_back(std::sqrt(squares / count));
+    }
+    std::ranges::sort(values);
+    // Values outside either limit: 2.5 % of the draws.
+    constexpr auto kTail = static_cast<std::size_t>(kBootstrapDraws / 40);
+    return Interval{values[kTail], values[values.size() - 1 - kTail]};
+}
+
 std::optional<ModelChoice> choose_model(const std::vector<SurveyRow>& rows, UtcTime origin,
                                         std::string_view base, const ModelPriors& priors) {
     std::vector<ModelScore> scores;
@@ -237,20 +253,16 @@ std::optional<ModelChoice> choose_model(const std::vector<SurveyRow>& rows, UtcT
         if (score.loso_mgal && score.row_count > score.parameter_count) scores.push_back(score);
     }
     if (scores.empty()) return std::nullopt;
-    const auto by_loso = [](const ModelScore& a, const ModelScore& b) {
-        return *a.loso_mgal < *b.loso_mgal;
-    };
-    const ModelScore& best = *std::min_element(scores.begin(), scores.end(), by_loso);
+    const ModelScore& best = *std::ranges::min_element(scores, {}, &ModelScore::loso_mgal);
     // Limit: LOSO (1 + 1 / sqrt(2 (n - p))).
     const auto dof = static_cast<double>(best.row_count - best.parameter_count);
     const double limit = *best.loso_mgal * (1.0 + 1.0 / std::sqrt(2.0 * dof));
+    const auto rank = [](const ModelScore& score) {
+        return std::pair(score.parameter_count, *score.loso_mgal);
+    };
     const ModelScore* chosen = &best;
-    for (const ModelScore& score : scores) {
-        if (*score.loso_mgal > limit) continue;
-        const bool is_smaller = score.parameter_count < chosen->parameter_count;
-        const bool is_equal = score.parameter_count == chosen->parameter_count;
-        if (is_smaller || (is_equal && by_loso(score, *chosen))) chosen = &score;
-    }
+    for (const ModelScore& score : scores)
+        if (*score.loso_mgal <= limit && rank(score) < rank(*chosen)) chosen = &score;
     return ModelChoice{chosen->model, limit};
 }
 

@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -60,6 +61,14 @@ inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
     {"t-rate-drift-axes", true, true, true, true},
     {"drift", false, false, true},
 }};
+
+/// Returns the chosen rows.
+/// @param chosen  (n) one flag per row.
+[[nodiscard]] std::vector<SurveyRow> chosen_rows(const std::vector<SurveyRow>& rows,
+                                                 const std::vector<bool>& chosen);
+
+/// Returns the names of the rows' stations, in order of their first row.
+[[nodiscard]] std::vector<std::string> station_names(const std::vector<SurveyRow>& rows);
 
 /// Returns the model of this name from kLinearModels or kModelsOnRequest; null if there is none.
 [[nodiscard]] const LinearModel* find_linear_model(std::string_view name);
@@ -141,6 +150,31 @@ struct ModelScore {
 /// @return rms_before_drift_mgal only if the drift step is refused; no score without a line.
 [[nodiscard]] ModelScore score_paper_model(const std::vector<SurveyRow>& rows,
                                            const std::vector<bool>& in_use, std::string_view base);
+
+/// Limits of a confidence interval, in the unit of the quantity.
+struct Interval {
+    double low = 0.0;
+    double high = 0.0;
+};
+
+/// Number of bootstrap draws.  Reason: enough for the second digit of the limits.
+inline constexpr int kBootstrapDraws = 1000;
+
+/// Returns the 95 % bootstrap interval of the root mean square error sqrt(sum e^2 / n).
+///
+/// Each of kBootstrapDraws draws takes as many stations as there are, with replacement, and each
+/// station with all its rows.  The limits are the 2.5 % and 97.5 % percentiles of the draws.
+/// The generator is std::mt19937_64: the same seed gives the same interval on any machine.
+///
+/// Accuracy: agrees with the normal approximation for 400 stations within 0.01, and for 100
+/// stations of four rows each within 0.02, for an rms of 1.414 (bootstrap_test.cpp).
+/// @param errors    (n) finite, any unit.
+/// @param stations  (n) name of the station of each error.
+/// @param seed      seed of the draws.
+/// @return limits in the unit of the errors; std::nullopt for fewer than two different stations.
+[[nodiscard]] std::optional<Interval> bootstrap_rms_interval(
+    const std::vector<double>& errors, const std::vector<std::string>& stations,
+    std::uint64_t seed);
 
 /// The model that was chosen, and the limit that it had to meet.
 struct ModelChoice {

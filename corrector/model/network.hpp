@@ -13,7 +13,6 @@
 /// A pause of more than kLoopPause_h begins a loop with its own constant and drift.  A loop without
 /// a reading in use has neither.  The rate R takes part only if it has a prior.
 ///
-/// Undetermined unknowns and their reason: network_diagnosis.hpp.
 /// Methods: corrector/methods.md, "Networks".
 /// Redundancy numbers: W. Baarda, A testing procedure for use in geodetic networks, Delft 1968.
 

@@ -1,9 +1,12 @@
 #include "corrector/model/network_correction.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -15,9 +18,8 @@ ModelScore score_of(const NetworkAdjustment& network, double reading_sd_mgal) {
     score.parameter_count = static_cast<std::size_t>(network.unknowns.size());
     score.dof = network.dof;
     double squares = 0.0;
-    for (std::size_t i = 0; i < network.reading_count; ++i) {
+    for (std::size_t i = 0; i < network.reading_count; ++i)
         squares += network.rows[i].residual * network.rows[i].residual;
-    }
     score.rms_mgal = std::sqrt(squares / static_cast<double>(network.reading_count));
     if (const auto s0 = network.s0()) score.s_mgal = *s0 * reading_sd_mgal;
     if (network.datum_count < 2) return score;
@@ -46,10 +48,7 @@ void set_rows(SurveyCorrection& result, const NetworkAdjustment& network,
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         CorrectedRow& out = result.rows[i];
         out.is_used = in_use[i];
-        double constant = 0.0;
-        double drift = 0.0;
-        double temperature = 0.0;
-        double rate = 0.0;
+        double constant = 0.0, drift = 0.0, temperature = 0.0, rate = 0.0;
         for (std::size_t k = 0; k < network.terms.size(); ++k) {
             const double effect = network.effect_mgal(i, k);
             const std::string& name = network.terms[k];
@@ -81,9 +80,8 @@ StationValue adjusted_station(const SurveyCorrection& result, const NetworkAdjus
     station.site = network.stations[k];
     station.gravity = network.origin + MilliGal(network.unknowns(at));
     station.u_gravity = MilliGal(std::sqrt(network.covariance(at, at)));
-    if (const auto s0 = network.s0()) {
+    if (const auto s0 = network.s0())
         station.u_a_posteriori = MilliGal(*s0 * station.u_gravity->value());
-    }
     station.redundancy = 0.0;
     for (const CorrectedRow& row : result.rows) {
         if (row.row.site != station.site) continue;
@@ -92,9 +90,8 @@ StationValue adjusted_station(const SurveyCorrection& result, const NetworkAdjus
         ++station.row_count;
         *station.redundancy += 1.0 - row.leverage.value();
     }
-    for (const NetworkRow& row : network.rows) {
+    for (const NetworkRow& row : network.rows)
         if (row.label == "datum " + station.site) *station.redundancy += row.redundancy;
-    }
     return station;
 }
 
@@ -124,33 +121,31 @@ StationValue flagged_station(const SurveyCorrection& result, const NetworkAdjust
 /// Moves rows whose loop has no constant to left_out, with a remark.
 void leave_out_untied(SurveyCorrection& result, const NetworkAdjustment& network) {
     std::vector<CorrectedRow> rows;
-    std::string names;
+    std::vector<std::string> names;
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         const SurveyRow& row = result.rows[i].row;
         if (network.is_tied[i]) {
             rows.push_back(std::move(result.rows[i]));
             continue;
         }
-        names +=
-            (names.empty() ? "" : ", ") + row.site + " (" + std::to_string(row.occupation) + ')';
+        names.push_back(fmt::format("{} ({})", row.site, row.occupation));
         result.left_out.push_back({row.site, row.occupation, row.start.value_or(row.time),
                                    row.end.value_or(row.time), "no reading of its loop in use"});
     }
     result.rows = std::move(rows);
     if (names.empty()) return;
     result.remarks.push_back(
-        "no reading in use between two pauses of more than " +
-        std::to_string(std::lround(kLoopPause_h)) +
-        " h, so the instrument's constant is undetermined there: left out are " + names);
+        fmt::format("no reading in use between two pauses of more than {} h, so the instrument's "
+                    "constant is undetermined there: left out are {}",
+                    std::lround(kLoopPause_h), text::joined(names)));
 }
 
 void set_stations(SurveyCorrection& result, const NetworkAdjustment& network) {
     for (const CorrectedRow& row : result.rows) {
         const std::string& site = row.row.site;
-        const bool is_known = std::any_of(result.stations.begin(), result.stations.end(),
-                                          [&](const auto& s) { return s.site == site; });
-        if (is_known) continue;
-        const auto at = std::find(network.stations.begin(), network.stations.end(), site);
+        if (std::ranges::find(result.stations, site, &StationValue::site) != result.stations.end())
+            continue;
+        const auto at = std::ranges::find(network.stations, site);
         result.stations.push_back(
             at == network.stations.end()
                 ? flagged_station(result, network, site)
@@ -169,33 +164,29 @@ void correct_network(SurveyCorrection& result, const std::vector<SurveyRow>& row
     const auto adjust = [&](const std::vector<bool>& in_use) {
         return adjust_network(rows, in_use, options.datum, options.priors, options.network);
     };
-    const NetworkResult network = adjust(not_flagged);
-    if (!network.adjustment) throw InputError("model = network: " + network.refusal);
+    NetworkResult adjusted = adjust(not_flagged);
+    if (!adjusted.adjustment) throw InputError("model = network: " + adjusted.refusal);
     result.model = "network";
-    result.network = network.adjustment;
-    result.score = score_of(*network.adjustment, options.priors.reading_sd_mgal);
+    const NetworkAdjustment& network = result.network.emplace(std::move(*adjusted.adjustment));
+    result.score = score_of(network, options.priors.reading_sd_mgal);
     for (ScoredRowSet& set : result.row_sets) {
         std::vector<bool> in_use;
-        in_use.reserve(rows.size());
         for (const SurveyRow& row : rows)
             in_use.push_back(!row.is_excluded && (set.rows == "all" || !row.is_flagged));
         const NetworkResult other = adjust(in_use);
-        ModelScore score;
-        score.model = "network";
-        if (other.adjustment) score = score_of(*other.adjustment, options.priors.reading_sd_mgal);
-        set.scores.push_back(score);
+        set.scores.emplace_back().model = "network";
+        if (other.adjustment)
+            set.scores.back() = score_of(*other.adjustment, options.priors.reading_sd_mgal);
     }
-    for (std::size_t k = 0; k < network.adjustment->terms.size(); ++k) {
-        const auto at = static_cast<Eigen::Index>(network.adjustment->stations.size() + k);
-        result.coefficients.push_back({network.adjustment->terms[k],
-                                       network.adjustment->unknowns(at),
-                                       std::sqrt(network.adjustment->covariance(at, at))});
+    for (std::size_t k = 0; k < network.terms.size(); ++k) {
+        const auto at = static_cast<Eigen::Index>(network.stations.size() + k);
+        result.coefficients.push_back(
+            {network.terms[k], network.unknowns(at), std::sqrt(network.covariance(at, at))});
     }
-    set_rows(result, *network.adjustment, not_flagged);
-    leave_out_untied(result, *network.adjustment);
-    set_stations(result, *network.adjustment);
-    const auto& remarks = network.adjustment->remarks;
-    result.remarks.insert(result.remarks.end(), remarks.begin(), remarks.end());
+    set_rows(result, network, not_flagged);
+    leave_out_untied(result, network);
+    set_stations(result, network);
+    result.remarks.insert(result.remarks.end(), network.remarks.begin(), network.remarks.end());
 }
 
 }  // namespace a351::corrector

@@ -1,5 +1,7 @@
 #include "corrector/model/network_system.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -17,30 +19,16 @@ struct Loops {
 
 Loops find_loops(const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use) {
     Loops loops;
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const bool is_last =
-            i + 1 == rows.size() ||
-            seconds_between(rows[i].time, rows[i + 1].time) > kLoopPause_h * kSecondsPerHour;
-        if (!is_last) continue;
-        const auto begin = in_use.begin();
-        const bool is_used = std::find(begin + static_cast<std::ptrdiff_t>(first),
-                                       begin + static_cast<std::ptrdiff_t>(i + 1),
-                                       true) != begin + static_cast<std::ptrdiff_t>(i + 1);
-        loops.of.resize(i + 1, is_used ? std::optional(loops.count) : std::nullopt);
+    for (std::size_t first = 0, end = 0; first < rows.size(); first = end) {
+        bool is_used = false;
+        do {
+            is_used = in_use[end++] || is_used;
+        } while (end < rows.size() && seconds_between(rows[end - 1].time, rows[end].time) <=
+                                          kLoopPause_h * kSecondsPerHour);
+        loops.of.resize(end, is_used ? std::optional(loops.count) : std::nullopt);
         if (is_used) ++loops.count;
-        first = i + 1;
     }
     return loops;
-}
-
-/// Returns the names of constant and drift; from the second loop on, with the number of the loop.
-std::vector<std::string> loop_terms(std::size_t loop, int drift_degree) {
-    const std::string suffix = loop == 0 ? "" : "_loop" + std::to_string(loop + 1);
-    std::vector<std::string> names{"constant_mgal" + suffix};
-    if (drift_degree >= 1) names.push_back("time_mgal_per_h" + suffix);
-    if (drift_degree >= 2) names.push_back("time2_mgal_per_h2" + suffix);
-    return names;
 }
 
 bool temperature_varies(const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use) {
@@ -71,21 +59,21 @@ void set_terms(NetworkAdjustment& network, const std::vector<SurveyRow>& rows,
                const std::vector<bool>& in_use, const ModelPriors& priors, int drift_degree) {
     const Loops loops = find_loops(rows, in_use);
     for (std::size_t loop = 0; loop < loops.count; ++loop) {
-        for (std::string& name : loop_terms(loop, drift_degree)) {
-            network.terms.push_back(std::move(name));
-        }
+        // From the second loop on, the names have the number of the loop.
+        const std::string suffix = loop == 0 ? "" : fmt::format("_loop{}", loop + 1);
+        network.terms.push_back("constant_mgal" + suffix);
+        if (drift_degree >= 1) network.terms.push_back("time_mgal_per_h" + suffix);
+        if (drift_degree >= 2) network.terms.push_back("time2_mgal_per_h2" + suffix);
     }
     const bool has_temperature =
         temperature_varies(rows, in_use) || priors.find("temperature_mgal_per_degc") != nullptr;
     const bool has_rate = priors.find("rate_mgal_per_degc_per_h") != nullptr;
-    if (has_temperature) {
+    if (has_temperature)
         network.terms.emplace_back("temperature_mgal_per_degc");
-    } else {
+    else
         network.remarks.emplace_back(
             "the temperature does not vary between the readings: its coefficient cannot be "
-            "separated "
-            "from the constant and is left out");
-    }
+            "separated from the constant and is left out");
     if (has_rate) network.terms.emplace_back("rate_mgal_per_degc_per_h");
 
     const auto degree = static_cast<Eigen::Index>(drift_degree);
@@ -104,49 +92,46 @@ void set_terms(NetworkAdjustment& network, const std::vector<SurveyRow>& rows,
         if (degree >= 1) line(k + 1) = hours;
         if (degree >= 2) line(k + 2) = hours * hours;
         k = static_cast<Eigen::Index>(loops.count) * (degree + 1);
-        if (has_temperature) {
-            line(k++) = (rows[i].temperature - kReferenceTemperature).value();
-        }
+        if (has_temperature) line(k++) = (rows[i].temperature - kReferenceTemperature).value();
         if (has_rate) line(k) = rows[i].rate_degc_per_h;
     }
 }
 
-Occupied find_stations(const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use,
-                       const std::vector<std::string>& datum) {
-    Occupied occupied;
-    auto& [stations, is_held, station_of, loop_of] = occupied.readings;
+NetworkReadings find_stations(const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use,
+                              const std::vector<std::string>& datum) {
+    NetworkReadings readings;
+    auto& [stations, is_held, station_of, loop_of, references] = readings;
     const Loops loops = find_loops(rows, in_use);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (!in_use[i]) continue;
         const std::string& site = rows[i].site;
-        const auto at = std::find(stations.begin(), stations.end(), site);
+        const auto at = std::ranges::find(stations, site);
         station_of.push_back(static_cast<std::size_t>(at - stations.begin()));
         loop_of.push_back(loops.of[i].value());
         if (at != stations.end()) continue;
-        const bool is_listed =
-            datum.empty() || std::find(datum.begin(), datum.end(), site) != datum.end();
+        const bool is_listed = datum.empty() || std::ranges::find(datum, site) != datum.end();
         stations.push_back(site);
         is_held.push_back(rows[i].reference && is_listed);
-        occupied.references.push_back(rows[i].reference.value_or(MilliGal(0.0)));
+        references.push_back(rows[i].reference.value_or(MilliGal(0.0)));
     }
-    return occupied;
+    return readings;
 }
 
 NetworkSystem build_system(NetworkAdjustment& network, const std::vector<SurveyRow>& rows,
-                           const std::vector<bool>& in_use, const Occupied& occupied,
+                           const std::vector<bool>& in_use, const NetworkReadings& readings,
                            const ModelPriors& priors, const NetworkOptions& options) {
-    const auto& is_held = occupied.readings.is_held;
-    const auto first_held = std::find(is_held.begin(), is_held.end(), true) - is_held.begin();
-    network.origin = occupied.references[static_cast<std::size_t>(first_held)];
+    const auto& is_held = readings.is_held;
+    const auto first_held = std::ranges::find(is_held, true) - is_held.begin();
+    network.origin = readings.references[static_cast<std::size_t>(first_held)];
     const auto station_count = static_cast<Eigen::Index>(network.stations.size());
     const Eigen::Index term_count = network.term_columns.cols();
     NetworkSystem system{Eigen::MatrixXd(0, station_count + term_count), Eigen::VectorXd(0)};
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (!in_use[i]) continue;
         const SurveyRow& row = rows[i];
-        const std::size_t station = occupied.readings.station_of[network.reading_count++];
+        const std::size_t station = readings.station_of[network.reading_count++];
         auto line =
-            add_row(system, network, row.site + " (" + std::to_string(row.occupation) + ")",
+            add_row(system, network, fmt::format("{} ({})", row.site, row.occupation),
                     priors.reading_sd_mgal, (row.acceleration - network.origin - row.tide).value());
         line(static_cast<Eigen::Index>(station)) = 1.0;
         line.tail(term_count) = network.term_columns.row(static_cast<Eigen::Index>(i));
@@ -155,7 +140,7 @@ NetworkSystem build_system(NetworkAdjustment& network, const std::vector<SurveyR
         if (!is_held[k]) continue;
         ++network.datum_count;
         auto line = add_row(system, network, "datum " + network.stations[k], options.datum_sd_mgal,
-                            (occupied.references[k] - network.origin).value());
+                            (readings.references[k] - network.origin).value());
         line(static_cast<Eigen::Index>(k)) = 1.0;
     }
     for (std::size_t k = 0; k < network.terms.size(); ++k) {

@@ -7,21 +7,23 @@
 #include <vector>
 
 #include "corrector/model/network.hpp"
-#include "corrector/model/network_diagnosis.hpp"
 
 namespace a351::corrector {
 
-/// Readings in use and the references of their stations.
-struct Occupied {
-    NetworkReadings readings;
-    std::vector<MilliGal> references;  ///< (stations) Known gravity; 0 for an unknown station.
+/// The readings of a network: station and loop of each.
+struct NetworkReadings {
+    std::vector<std::string> stations;    ///< (s) Names of the stations of the network.
+    std::vector<bool> is_held;            ///< (s) True for a datum.
+    std::vector<std::size_t> station_of;  ///< Number of the station of each reading, by time.
+    std::vector<std::size_t> loop_of;     ///< Number of the loop of each reading.
+    std::vector<MilliGal> references;     ///< (s) Known gravity; 0 for an unknown station.
 };
 
 /// Returns stations, loops and references of the readings in use.
 /// @param rows, in_use, datum  as adjust_network().
-[[nodiscard]] Occupied find_stations(const std::vector<SurveyRow>& rows,
-                                     const std::vector<bool>& in_use,
-                                     const std::vector<std::string>& datum);
+[[nodiscard]] NetworkReadings find_stations(const std::vector<SurveyRow>& rows,
+                                            const std::vector<bool>& in_use,
+                                            const std::vector<std::string>& datum);
 
 /// Sets `terms`, `term_columns` and `is_tied` of a network.
 ///
@@ -43,11 +45,12 @@ struct NetworkSystem {
 /// Returns the rows of readings in use, datum and priors, in this order.  Also sets `origin`,
 /// `rows` and their counts in `network`; the origin is the reference of the first station held.
 /// @param network   with stations and terms set; at least one station is held.
-/// @param occupied  find_stations() of the same rows.
+/// @param readings  find_stations() of the same rows.
 /// @param rows, in_use, priors, options  as adjust_network().
 [[nodiscard]] NetworkSystem build_system(NetworkAdjustment& network,
                                          const std::vector<SurveyRow>& rows,
-                                         const std::vector<bool>& in_use, const Occupied& occupied,
-                                         const ModelPriors& priors, const NetworkOptions& options);
+                                         const std::vector<bool>& in_use,
+                                         const NetworkReadings& readings, const ModelPriors& priors,
+                                         const NetworkOptions& options);
 
 }  // namespace a351::corrector

@@ -3,10 +3,8 @@
 /// Two independent criteria for bad rows, a physical and a statistical one.  Both are reported;
 /// neither removes a row from the fit.  Methods: corrector/methods.md, "Bad rows".
 
-#include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "corrector/model/linear_fit.hpp"
 #include "corrector/reading/survey_row.hpp"
@@ -61,32 +59,5 @@ inline constexpr double kGreatestRange_degc = 0.05;
 /// @param n    number of rows, >= 1.
 /// @param dof  degrees of freedom of the variance, > 0.
 [[nodiscard]] double studentised_limit(std::size_t n, double dof);
-
-/// A fit to the rows in use.
-struct StudentisedRows {
-    std::vector<std::optional<double>> values;  ///< (n) Studentised residuals; absent: undefined.
-    std::size_t dof = 0;                        ///< Degrees of freedom of the fit.
-};
-/// Fits the rows in use; returns std::nullopt if they do not determine the fit.
-using Refit = std::function<std::optional<StudentisedRows>(const std::vector<bool>& in_use)>;
-
-/// A row above the limit.
-struct StatisticalDoubt {
-    double studentised = 0.0;  ///< Studentised residual t.
-    double limit = 0.0;        ///< Limit of |t|.
-};
-
-/// Tests all rows.
-///
-/// As long as the largest |t| in use is above studentised_limit() with dof - 1, its row is removed
-/// and the rest is fitted again.  Then rows that were not in use from the start are tested against
-/// the last fit, with dof.  The search ends early if a fit is undetermined or has fewer than two
-/// degrees of freedom; the doubts found until then are returned.  Two bad rows of equal size may
-/// hide each other; the robust fit does not have this weakness.
-/// @param in_use  (n) rows of the first fit.
-/// @param refit   fits the rows that are left.
-/// @return (n) set for rows above the limit.
-[[nodiscard]] std::vector<std::optional<StatisticalDoubt>> find_outliers(std::vector<bool> in_use,
-                                                                         const Refit& refit);
 
 }  // namespace a351::corrector

@@ -1,5 +1,7 @@
 #include "corrector/model/paper_correction.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <limits>
 
@@ -7,19 +9,14 @@
 #include "protocol/core/units.hpp"
 
 namespace a351::corrector {
-namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-}  // namespace
-
 std::vector<double> differences_mgal(const std::vector<SurveyRow>& rows) {
     std::vector<double> differences;
-    differences.reserve(rows.size());
-    for (const SurveyRow& row : rows) {
+    for (const SurveyRow& row : rows)
         differences.push_back(row.reference ? (row.acceleration - *row.reference - row.tide).value()
                                             : kUnknown);
-    }
     return differences;
 }
 
@@ -53,10 +50,9 @@ std::vector<double> temperature_corrected_mgal(const std::vector<SurveyRow>& row
 std::vector<double> errors_mgal(const std::vector<SurveyRow>& rows,
                                 const std::vector<double>& corrected_mgal) {
     std::vector<double> errors;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t i = 0; i < rows.size(); ++i)
         errors.push_back(rows[i].reference ? rows[i].reference->value() - corrected_mgal[i]
                                            : kUnknown);
-    }
     return errors;
 }
 
@@ -70,19 +66,16 @@ MilliGal EndPointDrift::at(UtcTime time) const {
 
 DriftStep find_end_point_drift(const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use,
                                const std::vector<double>& corrected1_mgal, std::string_view base) {
-    std::vector<std::size_t> stays;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (rows[i].site == base) stays.push_back(i);
-    }
-    const auto refuse = [base](const std::string& why) {
-        return DriftStep{std::nullopt, "base " + std::string(base) + " " + why};
+    const auto refuse = [base](const char* why) {
+        return DriftStep{std::nullopt, fmt::format("base {} {}", base, why)};
     };
+    std::vector<std::size_t> stays;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (rows[i].site == base) stays.push_back(i);
     // Several set-ups of one stay are rows of one occupation, and give no drift.
-    if (stays.empty() || rows[stays.front()].occupation == rows[stays.back()].occupation) {
+    if (stays.empty() || rows[stays.front()].occupation == rows[stays.back()].occupation)
         return refuse("has fewer than two occupations, two are needed");
-    }
-    const std::size_t first = stays.front();
-    const std::size_t last = stays.back();
+    const std::size_t first = stays.front(), last = stays.back();
     if (!rows[first].reference) return refuse("has no reference gravity");
     if (!in_use[first] && !in_use[last])
         return refuse("is not in use in its first and last occupation");
@@ -96,9 +89,8 @@ std::vector<double> drift_corrected_mgal(const std::vector<SurveyRow>& rows,
                                          const std::vector<double>& corrected1_mgal,
                                          const EndPointDrift& drift) {
     std::vector<double> corrected;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t i = 0; i < rows.size(); ++i)
         corrected.push_back(corrected1_mgal[i] + drift.at(rows[i].time).value());
-    }
     return corrected;
 }
 

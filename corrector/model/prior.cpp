@@ -1,18 +1,20 @@
 #include "corrector/model/prior.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
 
 namespace a351::corrector {
 namespace {
 
 std::string allowed_range() {
-    return "mean from -" + text::shortest(kGreatestPrior) + " to " +
-           text::shortest(kGreatestPrior) + ", sd from " + text::shortest(kLeastPriorSd) + " to " +
-           text::shortest(kGreatestPrior);
+    return fmt::format("mean from -{0} to {0}, sd from {1} to {0}", text::shortest(kGreatestPrior),
+                       text::shortest(kLeastPriorSd));
 }
 
 bool is_in_range(const Prior& prior) {
@@ -29,25 +31,16 @@ const Prior* ModelPriors::find(std::string_view name) const {
     return value ? &*value : nullptr;
 }
 
-bool has_any(const ModelPriors& priors) {
-    return std::any_of(priors.values.begin(), priors.values.end(),
-                       [](const auto& value) { return value.has_value(); });
-}
-
 void set_prior(ModelPriors& priors, std::string_view origin, std::string_view name, Prior prior) {
     const auto* const at = std::find(kPriorNames.begin(), kPriorNames.end(), name);
-    const std::string start = std::string(origin) + " = " + std::string(name);
-    if (at == kPriorNames.end()) {
-        std::string names;
-        for (const std::string_view known : kPriorNames) {
-            names += (names.empty() ? "" : ", ") + std::string(known);
-        }
-        throw InputError(start + ": no such coefficient; allowed: " + names);
-    }
-    if (!is_in_range(prior)) {
-        throw InputError(start + ' ' + text::shortest(prior.mean) + ' ' + text::shortest(prior.sd) +
-                         ": out of range; allowed: " + allowed_range());
-    }
+    if (at == kPriorNames.end())
+        throw InputError(fmt::format(
+            "{} = {}: no such coefficient; allowed: {}", origin, name,
+            text::joined(std::vector<std::string>(kPriorNames.begin(), kPriorNames.end()))));
+    if (!is_in_range(prior))
+        throw InputError(fmt::format("{} = {} {} {}: out of range; allowed: {}", origin, name,
+                                     text::shortest(prior.mean), text::shortest(prior.sd),
+                                     allowed_range()));
     priors.values[static_cast<std::size_t>(at - kPriorNames.begin())] = prior;
 }
 
@@ -55,9 +48,8 @@ void read_priors(ModelPriors& priors, text::TomlTable table) {
     for (std::size_t k = 0; k < kPriorNames.size(); ++k) {
         const auto numbers = table.numbers(kPriorNames[k], -kGreatestPrior, kGreatestPrior);
         if (!table.has(kPriorNames[k])) continue;
-        if (numbers.size() != 2) {
-            table.refuse(kPriorNames[k], std::to_string(numbers.size()) + " numbers", "[mean, sd]");
-        }
+        if (numbers.size() != 2)
+            table.refuse(kPriorNames[k], fmt::format("{} numbers", numbers.size()), "[mean, sd]");
         const Prior prior{numbers[0], numbers[1]};
         if (!is_in_range(prior)) table.refuse(kPriorNames[k], "out of range", allowed_range());
         priors.values[k] = prior;

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <optional>
-#include <string>
 #include <string_view>
 
 #include "protocol/text/strict_toml.hpp"
@@ -50,9 +49,6 @@ struct ModelPriors {
     /// Returns the prior of a coefficient; null if it has none, or if there is no such coefficient.
     [[nodiscard]] const Prior* find(std::string_view name) const;
 };
-
-/// Returns true if at least one coefficient has a prior.
-[[nodiscard]] bool has_any(const ModelPriors& priors);
 
 /// Sets the prior of a coefficient by name.
 /// @param origin  option or key that gives the prior, for messages.

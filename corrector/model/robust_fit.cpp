@@ -5,6 +5,7 @@
 #include <numeric>
 #include <random>
 
+#include "corrector/model/paper_correction.hpp"
 #include "protocol/linear_algebra/pivoted_qr.hpp"
 #include "protocol/signal/median.hpp"
 
@@ -75,26 +76,25 @@ Problem problem_of(const Eigen::Ref<const Eigen::MatrixXd>& columns,
 
 /// A start of the iteration.
 struct Start {
-    double trimmed = 0.0;  ///< Sum of the h smallest squared residuals.
+    double trimmed = 0.0;  ///< Sum of the h smallest squared residuals, h rows kept.
     Eigen::VectorXd b;
 };
 
-/// Returns weights 1 for the h rows with the smallest residuals, else 0; sets the sum of their
+/// Returns weights 1 for the h rows with the smallest residuals, else 0, and the sum of their
 /// squares.
-Eigen::VectorXd best_half(const Eigen::VectorXd& residuals, Eigen::Index h, double& trimmed) {
+std::pair<Eigen::VectorXd, double> best_half(const Eigen::VectorXd& residuals, Eigen::Index h) {
     std::vector<Eigen::Index> order(static_cast<std::size_t>(residuals.size()));
     std::iota(order.begin(), order.end(), Eigen::Index(0));
-    std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
-        return std::pair(std::abs(residuals(a)), a) < std::pair(std::abs(residuals(b)), b);
-    });
+    std::ranges::sort(order, {},
+                      [&](Eigen::Index i) { return std::pair(std::abs(residuals(i)), i); });
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(residuals.size());
-    trimmed = 0.0;
+    double trimmed = 0.0;
     for (Eigen::Index k = 0; k < h; ++k) {
         const Eigen::Index i = order[static_cast<std::size_t>(k)];
         weights(i) = 1.0;
         trimmed += residuals(i) * residuals(i);
     }
-    return weights;
+    return {weights, trimmed};
 }
 
 /// Calls `visit` with the 0/1 weights of each subset of p rows.
@@ -105,9 +105,8 @@ void for_each_subset(Eigen::Index n, Eigen::Index p, const Visit& visit) {
         std::vector<bool> chosen(static_cast<std::size_t>(n), false);
         std::fill(chosen.begin(), chosen.begin() + p, true);
         do {
-            for (Eigen::Index i = 0; i < n; ++i) {
+            for (Eigen::Index i = 0; i < n; ++i)
                 weights(i) = chosen[static_cast<std::size_t>(i)] ? 1.0 : 0.0;
-            }
             visit(weights);
         } while (std::prev_permutation(chosen.begin(), chosen.end()));
         return;
@@ -150,11 +149,9 @@ std::optional<Eigen::VectorXd> least_trimmed_squares(const Problem& problem) {
     if (best.empty()) return std::nullopt;
     for (Start& start : best) {
         for (int step = 0; step < kMostSteps; ++step) {
-            double trimmed = 0.0;
-            const auto b = problem.solve(best_half(problem.residuals(start.b), h, trimmed));
+            const auto b = problem.solve(best_half(problem.residuals(start.b), h).first);
             if (!b) break;
-            Start next{0.0, *b};
-            static_cast<void>(best_half(problem.residuals(*b), h, next.trimmed));
+            Start next{best_half(problem.residuals(*b), h).second, *b};
             if (!is_better(next, start)) break;
             start = std::move(next);
         }
@@ -165,7 +162,7 @@ std::optional<Eigen::VectorXd> least_trimmed_squares(const Problem& problem) {
 double median_size(const Eigen::VectorXd& residuals) {
     std::vector<double> sizes(residuals.begin(), residuals.end());
     for (double& size : sizes) size = std::abs(size);
-    std::sort(sizes.begin(), sizes.end());
+    std::ranges::sort(sizes);
     const std::size_t n = sizes.size();
     return n % 2 == 1 ? sizes[n / 2] : 0.5 * (sizes[n / 2 - 1] + sizes[n / 2]);
 }
@@ -184,6 +181,37 @@ double covariance_scale(const RobustFit& robust) {
     const double slope = (u2 < 1.0).select((1.0 - u2) * (1.0 - 5.0 * u2), 0.0).mean();
     const auto dof = static_cast<double>(robust.fit.row_count() - robust.fit.parameter_count());
     return std::sqrt((robust.weights.array() * r).square().sum() / dof) / slope;
+}
+
+/// Returns the root mean square error (mGal) of predicting each row from the rows that `is_other`
+/// keeps for it.
+template <class IsOther>
+std::optional<double> left_out_mgal(const LinearModel& model, const std::vector<SurveyRow>& rows,
+                                    UtcTime origin, const ModelPriors& priors,
+                                    const IsOther& is_other) {
+    const Eigen::MatrixXd columns = model_columns(model, rows, origin);
+    const std::vector<double> differences = differences_mgal(rows);
+    std::vector<std::optional<double>> errors(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (errors[i]) continue;
+        std::vector<SurveyRow> others;
+        std::vector<std::size_t> left_out;
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            if (is_other(k, i))
+                others.push_back(rows[k]);
+            else
+                left_out.push_back(k);
+        }
+        const auto robust = fit_robust_model(model, others, origin, priors);
+        if (!robust) return std::nullopt;
+        for (const std::size_t k : left_out) {
+            const auto x = columns.row(static_cast<Eigen::Index>(k)).transpose();
+            errors[k] = differences[k] - robust->fit.at(x);
+        }
+    }
+    double squares = 0.0;
+    for (const auto& error : errors) squares += *error * *error;
+    return std::sqrt(squares / static_cast<double>(rows.size()));
 }
 
 }  // namespace
@@ -223,6 +251,35 @@ std::optional<RobustFit> fit_robust(const Eigen::Ref<const Eigen::MatrixXd>& col
     robust.s = covariance_scale(robust);
     if (!(robust.s > 0.0)) robust.s = robust.start_scale;
     return robust;
+}
+
+std::optional<RobustFit> fit_robust_model(const LinearModel& model,
+                                          const std::vector<SurveyRow>& rows, UtcTime origin,
+                                          const ModelPriors& priors) {
+    if (rows.empty()) return std::nullopt;
+    const std::vector<double> differences = differences_mgal(rows);
+    const Eigen::Map<const Eigen::VectorXd> y(differences.data(),
+                                              static_cast<Eigen::Index>(differences.size()));
+    return fit_robust(model_columns(model, rows, origin), y, slope_priors(model, priors));
+}
+
+ModelScore score_robust_model(const LinearModel& model, const std::vector<SurveyRow>& rows,
+                              UtcTime origin, const ModelPriors& priors) {
+    ModelScore score;
+    score.model = "robust";
+    score.row_count = rows.size();
+    score.parameter_count = model.parameter_count();
+    const auto robust = fit_robust_model(model, rows, origin, priors);
+    if (!robust) return score;
+    score.dof = score.row_count - score.parameter_count;
+    score.rms_mgal = std::sqrt(robust->fit.rss / static_cast<double>(rows.size()));
+    score.s_mgal = robust->s;
+    score.loo_mgal = left_out_mgal(model, rows, origin, priors,
+                                   [](std::size_t k, std::size_t i) { return k != i; });
+    score.loso_mgal = left_out_mgal(model, rows, origin, priors, [&](std::size_t k, std::size_t i) {
+        return rows[k].site != rows[i].site;
+    });
+    return score;
 }
 
 }  // namespace a351::corrector

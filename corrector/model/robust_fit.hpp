@@ -6,7 +6,6 @@
 /// statistics, Wiley 1981, 7.6 (covariance).
 
 #include <optional>
-#include <string>
 
 #include "corrector/model/model_fit.hpp"
 

@@ -10,10 +10,11 @@ namespace a351::corrector {
 
 /// Sets doubt_physical and doubt_statistical of every row.
 ///
-/// The statistical test is find_outliers() with the least-squares fit of the model's terms or with
-/// the network.  For the whole-day model it compares the studentised residual of the prediction
-/// without the row's station with studentised_limit().  `paper` has no statistical test.
-/// @param result  survey that has been corrected.
+/// The statistical test compares the external studentised residual of the least-squares fit of the
+/// model's terms, or of the network, with studentised_limit(), row by row.  For the whole-day model
+/// it compares the studentised residual of the prediction without the row's station with this
+/// limit.  `paper` has no statistical test.
+/// @param result  from correct_survey(); changed in place.
 void set_doubts(SurveyCorrection& result);
 
 /// Returns the doubtful rows with their reasons, one per line, or a line that there are none.

@@ -1,5 +1,7 @@
 #include "corrector/model/survey_correction.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,46 +18,25 @@
 namespace a351::corrector {
 namespace {
 
-void require_row_of(const std::vector<SurveyRow>& rows, const std::string& site,
-                    const std::string& role) {
-    std::vector<std::string> known;
-    for (const SurveyRow& row : rows) {
-        if (row.site == site) return;
-        if (std::find(known.begin(), known.end(), row.site) == known.end()) {
-            known.push_back(row.site);
-        }
-    }
-    throw InputError(role + " = " + site +
-                     ": no occupation of this site; allowed: " + text::joined(known));
+void require_row_of(const std::vector<SurveyRow>& rows, const std::string& site, const char* role) {
+    const std::vector<std::string> known = station_names(rows);
+    if (std::ranges::find(known, site) == known.end())
+        throw InputError(fmt::format("{} = {}: no occupation of this site; allowed: {}", role, site,
+                                     text::joined(known)));
 }
 
 /// Returns true if a row may enter a fit; flags are not considered.
 bool is_datum(const SurveyRow& row, const std::vector<std::string>& datum) {
     return row.reference && !row.is_excluded &&
-           (datum.empty() || std::find(datum.begin(), datum.end(), row.site) != datum.end());
-}
-
-std::vector<SurveyRow> chosen_rows(const std::vector<SurveyRow>& rows,
-                                   const std::vector<bool>& chosen) {
-    std::vector<SurveyRow> result;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (chosen[i]) result.push_back(rows[i]);
-    }
-    return result;
-}
-
-bool is_on_request(const LinearModel& model) {
-    return std::any_of(kModelsOnRequest.begin(), kModelsOnRequest.end(),
-                       [&](const LinearModel& one) { return one.name == model.name; });
+           (datum.empty() || std::ranges::find(datum, row.site) != datum.end());
 }
 
 ScoredRowSet score_all_models(const std::string& name, const std::vector<SurveyRow>& rows,
                               const std::vector<bool>& in_use, const SurveyOptions& options) {
     ScoredRowSet set{name, {score_paper_model(rows, in_use, options.base)}};
     const std::vector<SurveyRow> used = chosen_rows(rows, in_use);
-    for (const LinearModel& model : kLinearModels) {
+    for (const LinearModel& model : kLinearModels)
         set.scores.push_back(score_linear_model(model, used, rows.front().time, options.priors));
-    }
     return set;
 }
 
@@ -69,12 +50,11 @@ struct Applied {
 Applied apply_model(const LinearModel& model, const std::vector<SurveyRow>& rows,
                     const std::vector<SurveyRow>& used, UtcTime origin, const ModelPriors& priors) {
     auto fit = fit_model(model, used, origin, priors);
-    if (!fit) {
-        throw InputError("model = " + std::string(model.name) + ": " + std::to_string(used.size()) +
-                         " rows with a reference do not determine it; allowed: at least " +
-                         std::to_string(model.parameter_count()) +
-                         " rows between which temperature, rate and time vary independently");
-    }
+    if (!fit)
+        throw InputError(
+            fmt::format("model = {}: {} rows with a reference do not determine it; allowed: at "
+                        "least {} rows between which temperature, rate and time vary independently",
+                        model.name, used.size(), model.parameter_count()));
     const auto s_mgal = fit->residual_scale();
     return {std::move(*fit), model_columns(model, rows, origin), s_mgal};
 }
@@ -103,23 +83,19 @@ void correct_linear(SurveyCorrection& result, const LinearModel& model, const Ap
             out.temperature_correction = -(MilliGal(fit.coefficients(0)) + effect(k++));
         if (model.has_rate) out.rate_correction = -effect(k++);
         if (model.has_time) out.drift_correction = -effect(k++);
-        if (model.has_axes) {
-            out.tilt_correction = -(effect(k) + effect(k + 1));
-        }
+        if (model.has_axes) out.tilt_correction = -(effect(k) + effect(k + 1));
         out.corrected = out.row.acceleration - out.row.tide - MilliGal(fit.at(x));
         if (out.row.reference) out.residual = *out.row.reference - out.corrected;
         set_uncertainty(out, fit, s, x);
-        if (out.residual) {
+        if (out.residual)
             out.studentised_residual =
                 studentised_residual(out.residual->value(), out.leverage.value(), out.is_used, fit);
-        }
     }
     const std::vector<std::string> names = coefficient_names(model);
     for (std::size_t k = 0; k < names.size(); ++k) {
         const auto at = static_cast<Eigen::Index>(k);
-        std::optional<double> error;
-        if (s) error = *s * std::sqrt(fit.cofactor(at, at));
-        result.coefficients.push_back({names[k], fit.coefficients(at), error});
+        result.coefficients.push_back({names[k], fit.coefficients(at), std::nullopt});
+        if (s) result.coefficients.back().standard_error = *s * std::sqrt(fit.cofactor(at, at));
     }
 }
 
@@ -140,11 +116,11 @@ std::optional<Interval> loo_interval(const SurveyCorrection& result) {
 void correct_robust(SurveyCorrection& result, const LinearModel& model, Applied& applied,
                     const std::vector<SurveyRow>& used, UtcTime origin) {
     const auto robust = fit_robust_model(model, used, origin, result.options.priors);
-    if (!robust) {
-        throw InputError("model = robust: " + std::to_string(used.size()) +
-                         " rows with a reference are too few for " + std::string(model.name) +
-                         ", or too many of them are equal; allowed: more rows");
-    }
+    if (!robust)
+        throw InputError(
+            fmt::format("model = robust: {} rows with a reference are too few for {}, or too many "
+                        "of them are equal; allowed: more rows",
+                        used.size(), model.name));
     applied.fit = robust->fit;
     applied.s_mgal = robust->s;
     correct_linear(result, model, applied);
@@ -166,11 +142,11 @@ void correct_as_published(SurveyCorrection& result, const std::vector<SurveyRow>
     const TemperatureLine line = fit_temperature_line(rows, in_use).value();
     const std::vector<double> corrected1 = temperature_corrected_mgal(rows, line);
     const DriftStep step = find_end_point_drift(rows, in_use, corrected1, result.options.base);
-    if (!step.drift) {
-        throw InputError("model = paper: the drift step is refused, " + step.refusal +
-                         "; allowed: another base, or a model of auto, t, t-rate, t-drift, "
-                         "t-rate-drift");
-    }
+    if (!step.drift)
+        throw InputError(
+            fmt::format("model = paper: the drift step is refused, {}; allowed: another base, or a "
+                        "model of auto, t, t-rate, t-drift, t-rate-drift",
+                        step.refusal));
     const std::vector<double> corrected2 = drift_corrected_mgal(rows, corrected1, *step.drift);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         CorrectedRow& out = result.rows[i];
@@ -183,9 +159,8 @@ void correct_as_published(SurveyCorrection& result, const std::vector<SurveyRow>
                         line_fit.columns.row(static_cast<Eigen::Index>(i)).transpose());
     }
     std::optional<double> slope_error;
-    if (const auto s = line_fit.fit.residual_scale()) {
+    if (const auto s = line_fit.fit.residual_scale())
         slope_error = *s * std::sqrt(line_fit.fit.cofactor(1, 1));
-    }
     result.coefficients = {
         {"temperature_mgal_per_degc", line.slope_mgal_per_degc, slope_error},
         {"intercept_at_0_degc_mgal", line.intercept.value(), std::nullopt},
@@ -202,37 +177,31 @@ std::vector<StationValue> average_stations(const std::vector<CorrectedRow>& rows
     std::vector<StationValue> stations;
     for (const CorrectedRow& first : rows) {
         const std::string& site = first.row.site;
-        const bool is_known = std::any_of(stations.begin(), stations.end(),
-                                          [&site](const auto& s) { return s.site == site; });
-        if (is_known) continue;
+        if (std::ranges::find(stations, site, &StationValue::site) != stations.end()) continue;
         StationValue station;
         station.site = site;
         station.reference = first.row.reference;
-        bool has_unflagged = false;
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            has_unflagged = has_unflagged || (rows[i].row.site == site && not_flagged[i]);
-        }
-        station.is_flagged_only = !has_unflagged;
+        station.is_flagged_only = true;
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            if (rows[i].row.site == site && not_flagged[i]) station.is_flagged_only = false;
         double sum = 0.0;
         Eigen::VectorXd x = Eigen::VectorXd::Zero(applied.columns.cols());
         for (std::size_t i = 0; i < rows.size(); ++i) {
             if (rows[i].row.site != site) continue;
-            if (rows[i].is_used) {
+            if (rows[i].is_used)
                 station.redundancy =
                     station.redundancy.value_or(0.0) + 1.0 - rows[i].leverage.value();
-            }
-            if (has_unflagged && !not_flagged[i]) continue;
+            if (!station.is_flagged_only && !not_flagged[i]) continue;
             ++station.row_count;
             sum += rows[i].corrected.value();
             x += applied.columns.row(static_cast<Eigen::Index>(i)).transpose();
         }
         const auto n = static_cast<double>(station.row_count);
         station.gravity = MilliGal(sum / n);
-        if (s_mgal) {
-            // u = s sqrt(1/n + h of the mean of its rows)
+        // u = s sqrt(1/n + h of the mean of its rows)
+        if (s_mgal)
             station.u_gravity =
                 MilliGal(*s_mgal * std::sqrt(1.0 / n + applied.fit.leverage_at(x / n)));
-        }
         if (station.reference) station.residual = *station.reference - station.gravity;
         stations.push_back(std::move(station));
     }
@@ -241,31 +210,26 @@ std::vector<StationValue> average_stations(const std::vector<CorrectedRow>& rows
 
 }  // namespace
 
-const std::vector<std::string>& model_names() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> list{"auto", "paper", "day"};
-        for (const LinearModel& model : kLinearModels) list.emplace_back(model.name);
-        for (const LinearModel& model : kModelsOnRequest) list.emplace_back(model.name);
-        list.emplace_back("network");
-        list.emplace_back("robust");
-        return list;
-    }();
+std::vector<std::string> model_names() {
+    std::vector<std::string> names{"auto", "paper", "day"};
+    for (const LinearModel& model : kLinearModels) names.emplace_back(model.name);
+    for (const LinearModel& model : kModelsOnRequest) names.emplace_back(model.name);
+    names.insert(names.end(), {"network", "robust"});
     return names;
 }
 
 void add_left_out(SurveyCorrection& result, const std::vector<LeftOut>& occupations) {
     auto& all = result.left_out;
     all.insert(all.end(), occupations.begin(), occupations.end());
-    std::stable_sort(all.begin(), all.end(),
-                     [](const LeftOut& a, const LeftOut& b) { return a.start < b.start; });
+    std::ranges::stable_sort(all, {}, &LeftOut::start);
 }
 
 SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const SurveyOptions& options,
                                 const DayRecord* day) {
-    const auto& names = model_names();
-    if (std::find(names.begin(), names.end(), options.model) == names.end()) {
-        throw InputError("model = " + options.model + ": unknown; allowed: " + text::joined(names));
-    }
+    const std::vector<std::string> names = model_names();
+    if (std::ranges::find(names, options.model) == names.end())
+        throw InputError(
+            fmt::format("model = {}: unknown; allowed: {}", options.model, text::joined(names)));
     if (rows.empty()) throw InputError("no occupations; allowed: at least two with a reference");
     SurveyCorrection result;
     result.options = options;
@@ -274,21 +238,16 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
     for (const std::string& site : options.datum) require_row_of(rows, site, "datum");
 
     const UtcTime origin = rows.front().time;
-    std::vector<bool> not_flagged, in_use, usable;
+    std::vector<bool> not_flagged, in_use, usable, unflagged_usable;
     for (const SurveyRow& row : rows) {
         usable.push_back(is_datum(row, options.datum));
+        unflagged_usable.push_back(usable.back() && !row.is_flagged);
         not_flagged.push_back(!row.is_excluded && !(options.use_flags && row.is_flagged));
         in_use.push_back(usable.back() && not_flagged.back());
-    }
-    std::vector<bool> unflagged_usable;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        unflagged_usable.push_back(usable[i] && !rows[i].is_flagged);
         CorrectedRow out;
-        out.row = rows[i];
-        out.is_used = in_use[i];
-        if (rows[i].reference) {
-            out.difference = rows[i].acceleration - *rows[i].reference - rows[i].tide;
-        }
+        out.row = row;
+        out.is_used = in_use.back();
+        if (row.reference) out.difference = row.acceleration - *row.reference - row.tide;
         result.rows.push_back(std::move(out));
     }
     const std::string& base = result.options.base;
@@ -307,10 +266,11 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
     const std::vector<SurveyRow> used = chosen_rows(rows, in_use);
     result.model = options.model;
     auto refusal = day_refusal(rows, in_use, day, helps_to_correct_day(options.calibration));
-    if (!refusal && has_any(priors)) refusal = "uses its own priors, `prior` would be ignored";
-    if (options.model == "day" && refusal) {
+    if (!refusal &&
+        std::ranges::any_of(priors.values, [](const auto& prior) { return prior.has_value(); }))
+        refusal = "uses its own priors, `prior` would be ignored";
+    if (options.model == "day" && refusal)
         throw InputError("model = day: " + *refusal + "; allowed: another model");
-    }
     if (options.model == "day" || (options.model == "auto" && !refusal)) {
         correct_by_day(result, {usable, unflagged_usable}, *day);
         set_doubts(result);
@@ -329,20 +289,20 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
     // The line of `paper` is the publication's: it has no priors.
     Applied applied = model != nullptr ? apply_model(*model, rows, used, origin, priors)
                                        : apply_model(kLinearModels.front(), rows, used, origin, {});
+    const auto add_scores = [&](const auto& score_model) {
+        const std::vector<bool>* const sets[] = {&unflagged_usable, &usable};
+        for (std::size_t k = 0; k < 2; ++k)
+            result.row_sets[k].scores.push_back(
+                score_model(*model, chosen_rows(rows, *sets[k]), origin, priors));
+    };
     if (is_robust) {
-        for (std::size_t k = 0; k < 2; ++k) {
-            result.row_sets[k].scores.push_back(score_robust_model(
-                *model, chosen_rows(rows, k == 0 ? unflagged_usable : usable), origin, priors));
-        }
+        add_scores(score_robust_model);
         result.score = result.row_sets[options.use_flags ? 0 : 1].scores.back();
         correct_robust(result, *model, applied, used, origin);
     } else if (model != nullptr) {
-        if (is_on_request(*model)) {
-            for (std::size_t k = 0; k < 2; ++k) {
-                result.row_sets[k].scores.push_back(score_linear_model(
-                    *model, chosen_rows(rows, k == 0 ? unflagged_usable : usable), origin, priors));
-            }
-        }
+        if (std::ranges::find(kModelsOnRequest, model->name, &LinearModel::name) !=
+            kModelsOnRequest.end())
+            add_scores(score_linear_model);
         result.score = score_linear_model(*model, used, origin, priors);
         correct_linear(result, *model, applied);
         result.loo_interval_mgal = loo_interval(result);

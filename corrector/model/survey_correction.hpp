@@ -12,10 +12,8 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "corrector/model/bootstrap.hpp"
 #include "corrector/model/model_fit.hpp"
 #include "corrector/model/network.hpp"
 #include "corrector/reading/day_record.hpp"
@@ -26,7 +24,7 @@ namespace a351::corrector {
 
 /// Returns the names that SurveyOptions::model may have: auto, paper, day, those of kLinearModels
 /// and kModelsOnRequest, network, robust.
-[[nodiscard]] const std::vector<std::string>& model_names();
+[[nodiscard]] std::vector<std::string> model_names();
 
 /// Options of a correction.
 struct SurveyOptions {
@@ -120,7 +118,8 @@ struct ScoredRowSet {
 
 /// Test of the difference between the readings' estimates and the calibration.
 struct Disagreement {
-    double chi_square = 0.0;  ///< Test statistic.
+    /// s' D^-1 s of the shift s from prior to posterior, D = prior - posterior covariance.
+    double chi_square = 0.0;
     std::size_t dof = 0;  ///< Number of directions about which the readings contain information.
     double p = 1.0;       ///< Probability of at least this difference by chance.
 };
@@ -138,7 +137,7 @@ struct CalibrationUse {
     std::optional<double> loso_without_mgal;
 };
 
-/// A corrected survey.
+/// Result of correct_survey(): corrected rows, values of the stations and scores.
 struct SurveyCorrection {
     SurveyOptions options;  ///< Options as applied; `base` is filled in.
     std::string model;      ///< Model that was applied; with `auto` the chosen one.

@@ -1,5 +1,7 @@
 #include "corrector/model/tilt_series.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -27,7 +29,7 @@ bool is_in_series(const SurveyRow& row) { return !row.is_flagged && !row.is_excl
 
 [[noreturn]] void refuse(const std::string& origin, const std::string& trouble,
                          const std::string& allowed) {
-    throw InputError(origin + ": tilt series: " + trouble + "; allowed: " + allowed);
+    throw InputError(fmt::format("{}: tilt series: {}; allowed: {}", origin, trouble, allowed));
 }
 
 double tilt_deg(StandardGravity along) {
@@ -46,15 +48,16 @@ Eigen::MatrixXd tilts_deg(const OccupationRows& read) {
 }
 
 void require_both_axes(const Eigen::MatrixXd& tilts, const std::string& origin) {
-    const std::string allowed = "both axes tilted by " + text::fixed(kLeastTilt_deg, 1) +
-                                " deg or more to both sides, one at a time";
+    const std::string allowed =
+        fmt::format("both axes tilted by {} deg or more to both sides, one at a time",
+                    text::fixed(kLeastTilt_deg, 1));
     for (const Eigen::Index axis : {0, 1}) {
         const double least = tilts.col(axis).minCoeff(), greatest = tilts.col(axis).maxCoeff();
         if (least <= -kLeastTilt_deg && greatest >= kLeastTilt_deg) continue;
-        std::string trouble = axis == 0 ? "x" : "y";
-        trouble += " is tilted from ";
-        trouble += text::fixed(least, 2) + " to " + text::fixed(greatest, 2) + " deg";
-        refuse(origin, trouble, allowed);
+        refuse(origin,
+               fmt::format("{} is tilted from {} to {} deg", axis == 0 ? "x" : "y",
+                           text::fixed(least, 2), text::fixed(greatest, 2)),
+               allowed);
     }
     const Eigen::MatrixXd centred = tilts.rowwise() - tilts.colwise().mean();
     const SymmetricEigen axes =
@@ -62,8 +65,9 @@ void require_both_axes(const Eigen::MatrixXd& tilts, const std::string& origin) 
     const double across = std::sqrt(std::max(0.0, axes.values(0)));
     if (across < kLeastTilt_deg / 2.0)
         refuse(origin,
-               "x and y are tilted together: in the other direction the tilts scatter by only " +
-                   text::fixed(across, 2) + " deg",
+               fmt::format("x and y are tilted together: in the other direction the tilts scatter "
+                           "by only {} deg",
+                           text::fixed(across, 2)),
                allowed);
 }
 
@@ -81,15 +85,15 @@ void require_tilt_series(const OccupationRows& read, const TiltSeries& series,
                          const std::string& origin) {
     for (const SurveyRow& row : read.rows)
         if (row.site != read.rows.front().site)
-            refuse(origin, "set-ups at " + read.rows.front().site + " and " + row.site,
+            refuse(origin, fmt::format("set-ups at {} and {}", read.rows.front().site, row.site),
                    "one point");
     if (series.set_ups < kFewestSetUps)
-        refuse(origin, std::to_string(series.set_ups) + " set-ups",
-               std::to_string(kFewestSetUps) + " or more");
+        refuse(origin, fmt::format("{} set-ups", series.set_ups),
+               fmt::format("{} or more", kFewestSetUps));
     if (series.temperature_range_degc > kGreatestRange_degc)
         refuse(origin,
-               "the temperature moved by " + text::fixed(series.temperature_range_degc, 2) +
-                   " degC between set-ups",
+               fmt::format("the temperature moved by {} degC between set-ups",
+                           text::fixed(series.temperature_range_degc, 2)),
                text::fixed(kGreatestRange_degc, 1) + " degC");
     const DayRecord* const day = read.day ? &*read.day : nullptr;
     const auto refusal =

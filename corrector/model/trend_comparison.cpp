@@ -1,5 +1,7 @@
 #include "corrector/model/trend_comparison.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
 
 #include "protocol/text/aligned_text.hpp"
@@ -7,26 +9,22 @@
 namespace a351::corrector {
 
 std::string trend_comparison_text(const SurveyCorrection& result) {
-    double sum = 0.0;
-    double squares = 0.0;
-    double largest = 0.0;
+    double sum = 0.0, squares = 0.0, largest = 0.0, count = 0.0;
     std::string where;
-    std::size_t count = 0;
     for (const CorrectedRow& row : result.rows) {
         if (!row.row.record) continue;
         const double difference = row.row.record->smoother_minus_eemd().value();
-        ++count;
+        count += 1.0;
         sum += difference;
         squares += difference * difference;
         if (std::abs(difference) < std::abs(largest)) continue;
         largest = difference;
-        where = row.row.site + " (" + std::to_string(row.row.occupation) + ")";
+        where = fmt::format("{} ({})", row.row.site, row.row.occupation);
     }
-    if (count == 0) return {};
-    const double n = static_cast<double>(count);
-    return "trends, smoother minus EEMD: mean " + text::fixed(sum / n, 3) + ", rms " +
-           text::fixed(std::sqrt(squares / n), 3) + ", largest " + text::fixed(largest, 3) +
-           " mGal at " + where + '\n';
+    if (count == 0.0) return {};
+    return fmt::format("trends, smoother minus EEMD: mean {}, rms {}, largest {} mGal at {}\n",
+                       text::fixed(sum / count, 3), text::fixed(std::sqrt(squares / count), 3),
+                       text::fixed(largest, 3), where);
 }
 
 }  // namespace a351::corrector

@@ -1,11 +1,14 @@
 #include "corrector/reading/amendments.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
+#include "protocol/text/aligned_text.hpp"
 #include "protocol/text/strict_toml.hpp"
 
 namespace a351::corrector {
@@ -28,12 +31,10 @@ int required_count(text::TomlTable& table, std::string_view key) {
 std::string list_of(const Windows& windows, std::string (*name)(const OccupationWindow&)) {
     std::set<std::string> names;
     for (const OccupationWindow& window : windows) names.insert(name(window));
-    std::string list;
-    for (const std::string& one : names) list += (list.empty() ? "" : ", ") + one;
-    return list;
+    return text::joined({names.begin(), names.end()});
 }
 
-/// Carries out the amendments of one file, one kind after the other.
+/// Carries out single amendments on the list of occupations.
 class Amender {
 public:
     Amender(Windows& windows, const std::vector<text::Site>& sites)
@@ -57,7 +58,7 @@ public:
         const auto matches = matching(table, amendment, "times");
         if (matches.size() > 1) {
             table.refuse("set_up", "missing",
-                         "1 to " + std::to_string(matches.size()) + ", the set-up to be re-timed");
+                         fmt::format("1 to {}, the set-up to be re-timed", matches.size()));
         }
         OccupationWindow& window = windows_[matches.front()];
         window.start = start.value_or(window.start);
@@ -67,7 +68,8 @@ public:
                          "a start before " + to_rfc3339(window.end));
         }
         window.notes.emplace_back("retimed");
-        amendment.change = "to " + to_rfc3339(window.start) + " - " + to_rfc3339(window.end);
+        amendment.change =
+            fmt::format("to {} - {}", to_rfc3339(window.start), to_rfc3339(window.end));
         return amendment;
     }
 
@@ -75,9 +77,9 @@ public:
         Amendment amendment = read(table, "rename");
         const std::string to = required_string(table, "to", "the name of the site");
         if (text::find_site(sites_, to) == nullptr) {
-            std::string names;
-            for (const text::Site& site : sites_) names += (names.empty() ? "" : ", ") + site.name;
-            table.refuse("to", "no such site", names);
+            std::vector<std::string> names;
+            for (const text::Site& site : sites_) names.push_back(site.name);
+            table.refuse("to", "no such site", text::joined(names));
         }
         if (to == amendment.site) table.refuse("to", "already its name", "another site");
         const auto matches = matching(table, amendment, "name");
@@ -87,7 +89,7 @@ public:
             windows_[i].number = number;
             windows_[i].notes.emplace_back("renamed");
         }
-        amendment.change = "to " + to + " (" + std::to_string(number) + ")";
+        amendment.change = fmt::format("to {} ({})", to, number);
         return amendment;
     }
 
@@ -130,7 +132,7 @@ private:
         if (amendment.set_up) {
             const auto at = static_cast<std::size_t>(*amendment.set_up - 1);
             if (at >= stay.size()) {
-                table.refuse("set_up", "no such set-up", "1 to " + std::to_string(stay.size()));
+                table.refuse("set_up", "no such set-up", fmt::format("1 to {}", stay.size()));
             }
             stay = {stay[at]};
         }
@@ -160,12 +162,6 @@ private:
     std::vector<std::set<std::string>> changed_;  ///< Changed properties of each window.
 };
 
-std::string subject(const Amendment& amendment) {
-    std::string text = amendment.site + " (" + std::to_string(amendment.occupation) + ")";
-    if (amendment.set_up) text += ", set-up " + std::to_string(*amendment.set_up);
-    return text;
-}
-
 }  // namespace
 
 std::vector<Amendment> amend(Windows& windows, const std::filesystem::path& file,
@@ -191,7 +187,9 @@ std::vector<Amendment> amend(Windows& windows, const std::filesystem::path& file
 std::string amendments_text(const std::vector<Amendment>& amendments) {
     std::string text;
     for (const Amendment& amendment : amendments) {
-        text += "amended: " + amendment.kind + ' ' + subject(amendment);
+        text += fmt::format("amended: {} {} ({})", amendment.kind, amendment.site,
+                            amendment.occupation);
+        if (amendment.set_up) text += fmt::format(", set-up {}", *amendment.set_up);
         if (!amendment.change.empty()) text += ' ' + amendment.change;
         text += ": " + amendment.reason + '\n';
     }
@@ -201,15 +199,14 @@ std::string amendments_text(const std::vector<Amendment>& amendments) {
 nlohmann::ordered_json amendments_json(const std::vector<Amendment>& amendments) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Amendment& amendment : amendments) {
-        nlohmann::ordered_json json;
+        nlohmann::ordered_json& json = list.emplace_back();
         json["kind"] = amendment.kind;
         json["site"] = amendment.site;
         json["occupation"] = amendment.occupation;
-        json["set_up"] = amendment.set_up ? nlohmann::ordered_json(*amendment.set_up)
-                                          : nlohmann::ordered_json(nullptr);
+        json["set_up"] = nullptr;
+        if (amendment.set_up) json["set_up"] = *amendment.set_up;
         json["change"] = amendment.change;
         json["reason"] = amendment.reason;
-        list.push_back(json);
     }
     return list;
 }

@@ -8,7 +8,7 @@
 
 namespace a351::corrector {
 
-/// Samples first..last, both included, without a pulse between them.
+/// Samples first..last, both included.  No pulse (see choose_part()) is between them.
 struct Part {
     std::size_t first = 0;
     std::size_t last = 0;

@@ -12,7 +12,7 @@
 namespace a351::corrector {
 
 /// Returns the arithmetic mean of (n) values, any unit; NaN for an empty span or if a value is NaN.
-/// The sum is taken about the first value, so that 1e-9 of 980,000 is kept.
+/// Differences from the first value are summed, which keeps rounding small near 980 000 mGal.
 [[nodiscard]] double mean(std::span<const double> values);
 
 /// Returns the standard error of the mean of `values`, estimated from the means m_k of B blocks:

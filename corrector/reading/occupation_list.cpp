@@ -1,18 +1,21 @@
 #include "corrector/reading/occupation_list.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <set>
 #include <tuple>
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/events/event_log.hpp"
+#include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
 
 namespace a351::corrector {
 namespace {
 
 std::string named(const OccupationWindow& window) {
-    return window.site + " (" + std::to_string(window.number) + ") at " + to_rfc3339(window.start);
+    return fmt::format("{} ({}) at {}", window.site, window.number, to_rfc3339(window.start));
 }
 
 void sort_by_start(std::vector<OccupationWindow>& windows) {
@@ -70,11 +73,12 @@ void keep_between(std::vector<OccupationWindow>& windows, const std::optional<Ut
         return (from && window.start < *from) || (to && window.start >= *to);
     });
     if (windows.empty()) {
-        throw InputError(origin.string() + ": no occupation starts" +
-                         (from ? " from " + to_rfc3339(*from) + " on" : "") +
-                         (from && to ? " and" : "") + (to ? " before " + to_rfc3339(*to) : "") +
-                         "; allowed: a time that includes a start; the first is at " +
-                         to_rfc3339(first) + ", the last at " + to_rfc3339(last));
+        throw InputError(fmt::format(
+            "{}: no occupation starts{}{}{}; allowed: a time that includes a start; the first is "
+            "at {}, the last at {}",
+            origin.string(), from ? fmt::format(" from {} on", to_rfc3339(*from)) : "",
+            from && to ? " and" : "", to ? " before " + to_rfc3339(*to) : "", to_rfc3339(first),
+            to_rfc3339(last)));
     }
 }
 
@@ -86,11 +90,11 @@ void keep_last_day(std::vector<record::Occupation>& occupations, OccupationList&
     const UtcTime last = occupations.back().set_ups.back().start;
     occupations = record::survey_day(std::move(occupations), last);
     if (occupations.size() == all) return;
-    list.warnings.push_back(
-        origin.string() + ": only the last day is used, from " +
-        to_rfc3339(occupations.front().set_ups.front().start) +
-        " on; occupations of earlier days: " + std::to_string(all - occupations.size()) +
-        "; use from_utc and to_utc to choose others");
+    list.warnings.push_back(fmt::format(
+        "{}: only the last day is used, from {} on; occupations of earlier days: {}; use from_utc "
+        "and to_utc to choose others",
+        origin.string(), to_rfc3339(occupations.front().set_ups.front().start),
+        all - occupations.size()));
 }
 
 UtcTime instant(const text::CsvTable& table, std::size_t row, std::string_view column) {
@@ -157,17 +161,15 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
     const record::EventLog log = record::read_events(events);
     OccupationList list;
     for (const record::EventDamage& damage : log.damage) {
-        list.warnings.push_back(damage.file.filename().string() + ":" +
-                                std::to_string(damage.line) + ": not an event, skipped");
+        list.warnings.push_back(fmt::format("{}:{}: not an event, skipped",
+                                            damage.file.filename().string(), damage.line));
     }
     const std::set<UtcTime> ends = ends_without_stop(log.events);
     auto occupations = record::occupations_of(log.events);
     if (!from && !to) keep_last_day(occupations, list, events);
     for (const record::Occupation& occupation : occupations) {
-        for (const record::Occupation::SetUp& set_up : occupation.set_ups) {
-            list.windows.push_back({occupation.site, occupation.number, set_up.start, set_up.end,
-                                    !occupation.used.value_or(true)});
-        }
+        for (const record::Occupation::SetUp& set_up : occupation.set_ups)
+            list.windows.push_back({occupation.site, occupation.number, set_up.start, set_up.end});
         OccupationWindow& last = list.windows.back();
         if (ends.contains(last.end)) last.notes.emplace_back("no-stop");
     }
@@ -180,8 +182,8 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
                                     to_rfc3339(window.end));
     }
     if (const auto site = record::running_site(log.events); site && !to) {
-        list.warnings.push_back(events.string() + ": the last occupation, of " + *site +
-                                ", has no stop and is left out");
+        list.warnings.push_back(fmt::format(
+            "{}: the last occupation, of {}, has no stop and is left out", events.string(), *site));
     }
     return list;
 }
@@ -205,9 +207,9 @@ OccupationList drop_invalid_occupations(OccupationList list, const std::vector<t
     sort_by_start(list.windows);
     leave_out_overlapping(list);
     if (list.windows.empty()) {
-        std::string message = origin.string() + ": no occupation";
-        for (const std::string& warning : list.warnings) message += "; " + warning;
-        throw InputError(message + "; allowed: at least one, with its end");
+        list.warnings.insert(list.warnings.begin(), origin.string() + ": no occupation");
+        throw InputError(text::joined(list.warnings, "; ") +
+                         "; allowed: at least one, with its end");
     }
     return list;
 }
@@ -216,7 +218,7 @@ void leave_out(std::vector<LeftOut>& left_out, std::vector<std::string>& warning
                const OccupationWindow& window, const std::string& reason,
                const std::string& detail) {
     left_out.push_back({window.site, window.number, window.start, window.end, reason});
-    warnings.push_back(named(window) + " is left out: " + reason + detail);
+    warnings.push_back(fmt::format("{} is left out: {}{}", named(window), reason, detail));
 }
 
 }  // namespace a351::corrector

@@ -21,7 +21,7 @@ struct OccupationWindow {
     UtcTime end;
     bool is_flagged = false;                  ///< Marked as not to be used in the fit.
     std::optional<MilliGal> given_tide = {};  ///< Effect of the tide on gravity.
-    bool is_excluded = false;                 ///< Excluded by an amendment.
+    bool is_excluded = false;                 ///< Excluded from every fit by an amendment.
     std::vector<std::string> notes = {};      ///< Flags for the table, e.g. "no-stop".
 };
 

@@ -1,5 +1,7 @@
 #include "corrector/reading/occupation_rows.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <optional>
 #include <tuple>
@@ -20,10 +22,10 @@ UtcTime first_sample(bool is_axis, const std::vector<OccupationWindow>& windows)
 }
 
 /// Returns every file that read_samples() reads.
-std::vector<text::InputFile> archive_files(const SurveySource& source,
-                                           const record::StationCodes& codes,
-                                           const SurveyChannels& channels,
-                                           const std::vector<OccupationWindow>& windows) {
+std::vector<std::filesystem::path> archive_files(const SurveySource& source,
+                                                 const record::StationCodes& codes,
+                                                 const SurveyChannels& channels,
+                                                 const std::vector<OccupationWindow>& windows) {
     std::vector<std::string> names{channels.temperature.code};
     for (const record::ChannelScale& axis : channels.axes) names.push_back(axis.code);
     std::sort(names.begin(), names.end());
@@ -40,10 +42,7 @@ std::vector<text::InputFile> archive_files(const SurveySource& source,
         }
     }
     std::sort(files.begin(), files.end());
-    std::vector<text::InputFile> inputs;
-    inputs.reserve(files.size());
-    for (const auto& file : files) inputs.push_back(text::describe_input("archive", file));
-    return inputs;
+    return files;
 }
 
 /// Reads all samples from the first window to the last, and the temperature before.  Each channel
@@ -66,24 +65,26 @@ SurveySamples read_samples(const SurveySource& source, const record::StationCode
 
 std::vector<text::InputFile> inputs_of(const SurveySource& source, const SurveyStays& stays) {
     std::vector<text::InputFile> inputs;
-    inputs.push_back(text::describe_input("sites", source.sites));
-    inputs.push_back(text::describe_input("metadata", stays.metadata));
+    const auto add = [&inputs](const char* role, const std::filesystem::path& file) {
+        inputs.push_back(text::describe_input(role, file));
+    };
+    add("sites", source.sites);
+    add("metadata", stays.metadata);
     if (!source.occupations.empty()) {
-        inputs.push_back(text::describe_input("occupations", source.occupations));
+        add("occupations", source.occupations);
     } else {
         std::vector<std::filesystem::path> logs;
         for (const auto& entry : std::filesystem::directory_iterator(source.root / "events")) {
             if (entry.path().extension() == ".jsonl") logs.push_back(entry.path());
         }
         std::sort(logs.begin(), logs.end());
-        for (const auto& log : logs) inputs.push_back(text::describe_input("events", log));
+        for (const auto& log : logs) add("events", log);
     }
-    if (!source.amendments.empty()) {
-        inputs.push_back(text::describe_input("amendments", source.amendments));
+    if (!source.amendments.empty()) add("amendments", source.amendments);
+    for (const auto& file :
+         archive_files(source, stays.station.codes, stays.channels, stays.list.windows)) {
+        add("archive", file);
     }
-    const auto archive =
-        archive_files(source, stays.station.codes, stays.channels, stays.list.windows);
-    inputs.insert(inputs.end(), archive.begin(), archive.end());
     return inputs;
 }
 
@@ -110,8 +111,8 @@ std::pair<OccupationList, std::vector<Amendment>> read_occupations(
     return {drop_invalid_occupations(std::move(list), sites, origin), std::move(amendments)};
 }
 
-}  // namespace
-
+/// Returns the representative value of a record as a row of the survey, without reference and tide.
+/// @param value  must have a temperature.
 SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& value) {
     const TemperatureSummary& temperature = value.temperature.value();
     SurveyRow row;
@@ -125,25 +126,14 @@ SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& valu
     row.given_tide = window.given_tide;
     row.notes = window.notes;
     for (const OccupationFlag flag : value.flags) row.notes.emplace_back(flag_name(flag));
-    row.acceleration = value.acceleration;
+    row.acceleration = value.curve_mean;
     row.temperature = temperature.mean;
     row.rate_degc_per_h = temperature.slope_degc_per_h;
-
-    row.record = RecordSummary{.series_mean = value.series_mean,
-                               .curve_mean = value.acceleration,
-                               .eemd_mean = value.eemd_mean,
-                               .smoother_mean = value.smoother_mean,
-                               .smoother_standard_error = value.smoother_standard_error,
-                               .standard_error = value.standard_error,
-                               .temperature_range = temperature.range,
-                               .temperature_shape = temperature.shape,
-                               .counts = value.counts,
-                               .x = value.x,
-                               .y = value.y,
-                               .z = value.z,
-                               .rectification = value.rectification};
+    row.record = static_cast<const RecordSummary&>(value);
     return row;
 }
+
+}  // namespace
 
 SurveyStays read_survey_inputs(const SurveySource& source) {
     SurveyStays stays;
@@ -182,7 +172,7 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
             troubles[i] = "no temperature";
         } else {
             rows[i] = row_of(window, *value);
-            bins[i] = bin_set_up(0, axes, source.averaging.disturbance_threshold);
+            bins[i] = bin_set_up(0, axes, kDisturbanceThreshold);
         }
     };
     on_all_cores(list.windows.size(), average, progress);
@@ -190,7 +180,7 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     if (auto temperature = temperature_of_day(samples, channels, list.windows))
         result.day = DayRecord{std::move(*temperature), {}};
     result.left_out = list.left_out;
-    result.warnings.insert(result.warnings.end(), list.warnings.begin(), list.warnings.end());
+    result.warnings = list.warnings;
     result.amendments = amendments;
     result.sites = sites;
     for (const record::ChannelData& axis : samples.axes) add_damage(result.warnings, axis);
@@ -210,12 +200,12 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         result.records.push_back(std::move(*values[i]));
     }
     if (result.rows.empty()) {
-        throw InputError(source.path.string() + ": root = " + source.root.string() +
-                         ": no occupation has samples; last: " + result.warnings.back() +
-                         "; allowed: an archive that covers these hours");
+        throw InputError(fmt::format(
+            "{}: root = {}: no occupation has samples; last: {}; allowed: an archive that covers "
+            "these hours",
+            source.path.string(), source.root.string(), result.warnings.back()));
     }
-    std::stable_sort(result.left_out.begin(), result.left_out.end(),
-                     [](const LeftOut& a, const LeftOut& b) { return a.start < b.start; });
+    std::ranges::stable_sort(result.left_out, {}, &LeftOut::start);
     for (std::string& warning : position_warnings(result.rows, sites)) {
         result.warnings.push_back(std::move(warning));
     }

@@ -49,7 +49,7 @@ struct SurveyStays {
 
 /// The readings of a survey.
 struct OccupationRows {
-    std::vector<SurveyRow> rows;  ///< Rows in order of time; rates are those within the interval.
+    std::vector<SurveyRow> rows;  ///< In order of time; the rate is that within a row's interval.
     std::vector<RepresentativeValue> records;           ///< Record of each row.
     std::vector<MinuteTemperature> temperature_course;  ///< Temperature over the whole survey.
     std::optional<DayRecord> day;       ///< Set-ups numbered as the rows; absent: no temperature.
@@ -60,10 +60,6 @@ struct OccupationRows {
     std::vector<text::InputFile> inputs;  ///< All files that were read.
     std::string serial_number;            ///< Sensor; empty if not in the metadata.
 };
-
-/// Returns the representative value of a record as a row of the survey, without reference and tide.
-/// @param value  must have a temperature.
-[[nodiscard]] SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& value);
 
 /// Reads the table of sites, the occupations and the station's metadata.
 /// @throws InputError  one of them cannot be read.

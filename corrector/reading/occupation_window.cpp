@@ -1,10 +1,13 @@
 #include "corrector/reading/occupation_window.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -59,16 +62,17 @@ TimeSeries<StandardGravity> axis_series(const std::vector<double>& values_mps2,
 
 record::ChannelScale channel_with(const record::StationMetadata& station, const std::string& ending,
                                   const std::string& unit, const std::filesystem::path& file) {
-    std::string codes;
+    std::vector<std::string> codes;
     for (const record::ChannelScale& channel : station.channels) {
-        codes += (codes.empty() ? "" : ", ") + channel.code;
+        codes.push_back(channel.code);
         if (channel.code.size() != 3 || channel.code.substr(1) != ending) continue;
         if (channel.code.front() == 'L') continue;  // derived, 1 Hz
         if (channel.unit == unit) return channel;
-        throw InputError(file.string() + ": channel " + channel.code + ": unit = " + channel.unit +
-                         "; allowed: " + unit);
+        throw InputError(fmt::format("{}: channel {}: unit = {}; allowed: {}", file.string(),
+                                     channel.code, channel.unit, unit));
     }
-    throw InputError(file.string() + ": no channel ?" + ending + "; there are: " + codes);
+    throw InputError(fmt::format("{}: no channel ?{}; there are: {}", file.string(), ending,
+                                 text::joined(codes)));
 }
 
 }  // namespace

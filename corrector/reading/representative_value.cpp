@@ -1,11 +1,13 @@
 #include "corrector/reading/representative_value.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
 #include <stdexcept>
-#include <string>
 
 #include "corrector/reading/disturbance.hpp"
 #include "corrector/reading/interval.hpp"
@@ -17,23 +19,11 @@ namespace {
 constexpr std::size_t kShortestRun = 16;  // decimated samples, 32 s at 50 Hz
 constexpr double kBlockSeconds = 60.0;    // blocks of the standard error
 
-void validate(const RepresentativeOptions& options) {
-    if (!(options.end_margin_s >= 0.0 && options.end_margin_s < 1e6)) {
-        throw std::invalid_argument("representative_value: end_margin_s = " +
-                                    std::to_string(options.end_margin_s) + ", must be 0 to 1e6");
-    }
-    if (!(options.disturbance_threshold > 0.0)) {
-        throw std::invalid_argument("representative_value: disturbance_threshold = " +
-                                    std::to_string(options.disturbance_threshold) +
-                                    ", must be > 0");
-    }
-    if (!(options.cutoff_s >= kShortestCutoff_s && options.cutoff_s <= kLongestCutoff_s)) {
-        throw std::invalid_argument("representative_value: cutoff_s = " +
-                                    std::to_string(options.cutoff_s) + ", must be 20 to 500");
-    }
-}
+/// Largest distance from an end at which a disturbance belongs to this end; elsewhere it is a pulse.
+/// Source: decimation.md, "Interval".
+constexpr double kEndMargin_s = 60.0;
 
-/// Returns the reach of both stages together in raw samples on either side: 41 + 10 x 41.
+/// Returns the half-width of both decimation stages together, raw samples: 41 + 10 x 41 = 451.
 std::size_t reach_of(const DecimationFilter& filter) {
     return filter.half_width() * (1 + filter.factor);
 }
@@ -137,51 +127,38 @@ std::vector<OccupationFlag> flags_of(const Part& part, const Interval& interval,
 }  // namespace
 
 std::string_view flag_name(OccupationFlag flag) noexcept {
-    switch (flag) {
-        case OccupationFlag::fallback:
-            return "fallback";
-        case OccupationFlag::disturbed_start:
-            return "disturbed_start";
-        case OccupationFlag::disturbed_end:
-            return "disturbed_end";
-        case OccupationFlag::pulse:
-            return "pulse";
-        case OccupationFlag::gap:
-            return "gap";
-        case OccupationFlag::no_temperature:
-            return "no_temperature";
-        case OccupationFlag::unsettled:
-            return "unsettled";
-    }
-    return "";
+    constexpr std::array<std::string_view, 7> kNames{
+        "fallback", "disturbed_start", "disturbed_end", "pulse",
+        "gap",      "no_temperature",  "unsettled"};
+    return kNames[static_cast<std::size_t>(flag)];
 }
 
 std::optional<RepresentativeValue> representative_value(const OccupationRecord& record,
                                                         const DecimatedAxes& axes,
                                                         const RepresentativeOptions& options) {
-    validate(options);
+    if (!(options.cutoff_s >= kShortestCutoff_s && options.cutoff_s <= kLongestCutoff_s)) {
+        throw std::invalid_argument(fmt::format(
+            "representative_value: cutoff_s = {:f}, must be 20 to 500", options.cutoff_s));
+    }
     const DecimationFilter filter = design_decimation(kDecimationFactor);
     TimeSeries<MilliGal> series = gravity_series(record, axes, options.norm);
     const TimeSeries<DegC> temperature = decimate_temperature(record, filter);
     const Run run = longest_valid_run(series.values());
     if (run.size < kShortestRun) return std::nullopt;
     const auto valid = std::span(series.values()).subspan(run.begin, run.size);
-    const Disturbances found = find_disturbances(valid, options.disturbance_threshold);
-    const Part part = choose_part(found.disturbed, samples_in(options.end_margin_s, series.rate()));
+    const Disturbances found = find_disturbances(valid, kDisturbanceThreshold);
+    const Part part = choose_part(found.disturbed, samples_in(kEndMargin_s, series.rate()));
     const std::size_t part_size = part.last - part.first + 1;
     if (part_size < kShortestRun) return std::nullopt;
 
     EemdOptions decomposition;
     decomposition.seed = options.seed;
-    decomposition.threads = options.threads;
     if (options.curve != TrendCurve::paper) decomposition.ends = EndRule::mirror;
     const std::vector<double> despiked = despike(valid, found);
     const auto quiet = std::span(despiked).subspan(part.first, part_size);
-    const Trend trend = trend_curve(options.despike ? quiet : valid.subspan(part.first, part_size),
-                                    decomposition, options.curve);
+    const std::vector<double> trend = trend_curve(quiet, decomposition, options.curve);
     const SmoothTrend smoothed = smooth(quiet, options.cutoff_s * series.rate().value());
-    std::vector<double> curve =
-        options.trend == TrendMethod::smoother ? smoothed.curve : trend.curve;
+    std::vector<double> curve = options.trend == TrendMethod::smoother ? smoothed.curve : trend;
     const Interval interval = choose_interval(curve, part.disturbed_first, part.disturbed_last);
     const std::size_t part_begin = run.begin + part.first;
     const std::size_t first = part_begin + interval.first;
@@ -197,36 +174,34 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
         return summarise_axis(axis, decimated, kDecimationRatio, first, last);
     };
     const std::vector<std::size_t> present = count_present(record);
-    const auto temperature_summary = summarise_temperature(temperature, first, last);
+    const auto degc = summarise_temperature(temperature, first, last);
     const auto error = block_standard_error(in_interval, samples_in(kBlockSeconds, series.rate()));
 
-    RepresentativeValue value{
-        .acceleration = mean_of(curve),
-        .eemd_mean = mean_of(trend.curve),
-        .smoother_mean = mean_of(smoothed.curve),
-        .smoother_standard_error =
-            MilliGal(smoothed.standard_error_of_mean(interval.first, interval.last)),
-        .series_mean = MilliGal(mean(in_interval)),
-        .standard_error = error ? std::optional(MilliGal(*error)) : std::nullopt,
-        .temperature = temperature_summary,
-        .interval_start = series.time_of(static_cast<double>(first)),
-        .interval_end = series.time_of(static_cast<double>(last)),
-        .flags = flags_of(part, interval, present.back() < record.x.size(),
-                          temperature_summary.has_value(),
-                          options.trend == TrendMethod::eemd || smoothed.converged),
-        .counts = count_samples(present, series.size(), reach_of(filter)),
-        .x = summarise(record.x, axes.x),
-        .y = summarise(record.y, axes.y),
-        .z = summarise(record.z, axes.z),
-        .rectification = {},
-        .noise_level = MilliGal(trend.noise_level),
-        .series = series,
-        .curve = TimeSeries<MilliGal>(series.time_of(static_cast<double>(part_begin)),
-                                      series.rate(), std::move(curve)),
-        .temperature_series = temperature,
-    };
-    value.rectification = rectification_bias(value.x.rms, value.y.rms, value.series_mean);
-    return value;
+    RecordSummary summary;
+    summary.series_mean = MilliGal(mean(in_interval));
+    summary.curve_mean = mean_of(curve);
+    summary.eemd_mean = mean_of(trend);
+    summary.smoother_mean = mean_of(smoothed.curve);
+    summary.smoother_standard_error =
+        MilliGal(smoothed.standard_error_of_mean(interval.first, interval.last));
+    if (error) summary.standard_error = MilliGal(*error);
+    if (degc) summary.temperature_range = degc->range;
+    if (degc) summary.temperature_shape = degc->shape;
+    summary.counts = count_samples(present, series.size(), reach_of(filter));
+    summary.x = summarise(record.x, axes.x);
+    summary.y = summarise(record.y, axes.y);
+    summary.z = summarise(record.z, axes.z);
+    summary.rectification = rectification_bias(summary.x.rms, summary.y.rms, summary.series_mean);
+    return RepresentativeValue{
+        summary,
+        degc,
+        series.time_of(static_cast<double>(first)),
+        series.time_of(static_cast<double>(last)),
+        flags_of(part, interval, present.back() < record.x.size(), degc.has_value(),
+                 options.trend == TrendMethod::eemd || smoothed.converged),
+        series,
+        {series.time_of(static_cast<double>(part_begin)), series.rate(), std::move(curve)},
+        temperature};
 }
 
 }  // namespace a351::corrector

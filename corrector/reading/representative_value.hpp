@@ -30,22 +30,18 @@ struct RepresentativeOptions {
     /// Cut-off period of the smoother, s, kShortestCutoff_s to kLongestCutoff_s.  Reason for 300:
     /// decimation.md, "Smoother".
     double cutoff_s = 300.0;
-    /// Largest distance from an end at which a disturbance belongs to this end, s, 0 to below 1e6;
-    /// elsewhere it is a pulse.
-    double end_margin_s = 60.0;
-    double disturbance_threshold = 8.0;  ///< Threshold of find_disturbances(), > 0.
-    /// Replaces disturbed samples next to the ends by the running median (despike()) before the
-    /// decomposition, which would spread them over all components.  false: as published.
-    bool despike = true;
     std::uint64_t seed = 0;  ///< Seed of the decomposition's noise.
-    int threads = 1;  ///< Threads of the decomposition, >= 1; the result does not depend on it.
 };
+
+/// Threshold of find_disturbances() for an occupation, standard deviations.  Source: decimation.md,
+/// "Interval".
+inline constexpr double kDisturbanceThreshold = 8.0;
 
 /// Doubts about an occupation, in this order.
 enum class OccupationFlag {
     fallback,         ///< The trend has too few extrema; choose_interval() used a fallback.
     disturbed_start,  ///< The interval begins after a disturbance.
-    disturbed_end,    ///< The interval ends before a disturbance.
+    disturbed_end,    ///< A disturbance is near the end; the interval ends before it.
     pulse,            ///< A disturbance inside split the record; the longest part was used.
     gap,              ///< Samples are missing within the occupation.
     no_temperature,   ///< The interval has fewer than two valid temperatures.
@@ -58,29 +54,36 @@ enum class OccupationFlag {
 /// Numbers of decimated samples of an occupation, by the raw samples under both filters.
 struct SampleCounts {
     std::size_t valid = 0;    ///< All raw samples exist.
-    std::size_t partial = 0;  ///< Some raw samples are missing, or beyond either end.
+    std::size_t partial = 0;  ///< Some raw samples are missing or outside the record.
     std::size_t missing = 0;  ///< No raw sample exists.
 };
 
-/// The value of one occupation, and data to judge it.
-struct RepresentativeValue {
-    MilliGal acceleration;             ///< Mean of `curve` over the interval.
-    MilliGal eemd_mean;                ///< Mean of the decomposition's trend over the interval.
-    MilliGal smoother_mean;            ///< Mean of the smoother's trend over the interval.
+/// Statistics of the record of an occupation, within the averaging interval unless stated otherwise.
+struct RecordSummary {
+    MilliGal series_mean;              ///< Mean of the decimated norm.
+    MilliGal curve_mean;               ///< Mean of the trend chosen by the options: the value.
+    MilliGal eemd_mean;                ///< Mean of the decomposition's trend.
+    MilliGal smoother_mean;            ///< Mean of the smoother's trend.
     MilliGal smoother_standard_error;  ///< Standard error of smoother_mean, for white noise.
-    MilliGal series_mean;              ///< Mean of `series` over the interval.
     /// Standard error of series_mean, from blocks of 60 s; absent with fewer than two blocks.
     std::optional<MilliGal> standard_error;
+    DegC temperature_range;
+    TemperatureShape temperature_shape = TemperatureShape::monotone;
+    SampleCounts counts;  ///< Counts over the whole occupation.
+    AxisSummary x, y, z;  ///< Axes; z is along gravity.
+    /// rectification_bias() of the axes; part of the value if NormOrder::as_published.
+    MilliGal rectification;
+
+    [[nodiscard]] MilliGal smoother_minus_eemd() const { return smoother_mean - eemd_mean; }
+};
+
+/// The value of one occupation, which is its curve_mean, and data to judge it.
+struct RepresentativeValue : RecordSummary {
     /// Summary of the decimated temperature; absent with fewer than two valid samples.
     std::optional<TemperatureSummary> temperature;
     UtcTime interval_start;             ///< Time of the first sample of the interval.
     UtcTime interval_end;               ///< Time of the last sample of the interval.
     std::vector<OccupationFlag> flags;  ///< Doubts, in the order of the enumeration.
-    SampleCounts counts;                ///< Counts over the whole record.
-    AxisSummary x, y, z;                ///< Axes over the interval.
-    /// rectification_bias() of the axes; part of the value if NormOrder::as_published.
-    MilliGal rectification;
-    MilliGal noise_level;         ///< Std. deviation of the noise that the decomposition added.
     TimeSeries<MilliGal> series;  ///< Decimated norm of the whole record, at 1 / 100 of its rate.
     TimeSeries<MilliGal> curve;   ///< Trend of the decomposed part, by the method of the options.
     TimeSeries<DegC> temperature_series;  ///< Decimated temperature, at the instants of `series`.
@@ -102,18 +105,19 @@ struct RepresentativeValue {
 ///   four of them.
 /// - A disturbance of 10 s and 100 to 10 000 mGal at an end or inside moves the value by less than
 ///   0.6 mGal, with noise of 20 mGal, and is flagged.
-/// - The value has the same bits on any number of threads.
 ///
 /// @param record   axes in g and temperature in degC at the sensor's rate; missing samples NaN.
 /// @param axes     decimate_axes(record).
 /// @param options  see RepresentativeOptions.
 /// @return std::nullopt if the part has fewer than 16 samples (32 s at 50 Hz).  A record without
 ///         gaps needs 2452 raw samples for them.
-/// @throws std::invalid_argument  the axes, or axes and temperature, are not on one grid; an option
+/// @throws std::invalid_argument  the axes, or axes and temperature, are not on one grid; cutoff_s
 ///                                is out of range.
 /// Method: S. Matsuda, K. Nakasendo, H. Morikawa, K. Iiyama and K. Sakai, "An experimental study on
 /// basic performances of accelerometer with crystal oscillator" (in Japanese).  Different by
 /// default: the order of norm and decimation, the trend curve and its mirrored ends (eemd.md).
+/// Different always: disturbed samples next to the ends are replaced by the running median
+/// (despike()) before the decomposition, because it would spread them over all components.
 [[nodiscard]] std::optional<RepresentativeValue> representative_value(
     const OccupationRecord& record, const DecimatedAxes& axes,
     const RepresentativeOptions& options = {});

@@ -1,5 +1,7 @@
 #include "corrector/reading/smoother.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -113,7 +115,7 @@ double SmoothTrend::standard_error_of_mean(std::size_t first, std::size_t last) 
 
 SmoothTrend smooth(std::span<const double> series, double cutoff_period) {
     require(cutoff_period >= kShortestCutoff && cutoff_period <= kLongestCutoff,
-            "cutoff_period = " + std::to_string(cutoff_period) + ", must be 2 to 5000 samples");
+            fmt::format("cutoff_period = {:f}, must be 2 to 5000 samples", cutoff_period));
     std::vector<double> weights(series.size());
     double sum = 0.0;
     double largest = 0.0;
@@ -125,8 +127,7 @@ SmoothTrend smooth(std::span<const double> series, double cutoff_period) {
         largest = std::max(largest, std::abs(series[i]));
         ++count;
     }
-    require(count >= kFewestSamples,
-            "series: " + std::to_string(count) + " samples, must be 3 or more");
+    require(count >= kFewestSamples, fmt::format("series: {} samples, must be 3 or more", count));
     require(largest <= kLargestSample, "series: a sample's magnitude is beyond 1e150");
 
     // The deviation from the mean is fitted, because rounding is relative to the fitted values.

@@ -1,5 +1,7 @@
 #include "corrector/reading/survey_row.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -28,8 +30,8 @@ const TimeColumn& time_column(const text::CsvTable& table, const std::filesystem
     for (const TimeColumn& column : kTimeColumns) {
         if (!table.has_column(column.name)) continue;
         if (found != nullptr) {
-            throw InputError(file.string() + ":1: columns " + std::string(found->name) + " and " +
-                             std::string(column.name) + "; allowed: one of them");
+            throw InputError(fmt::format("{}:1: columns {} and {}; allowed: one of them",
+                                         file.string(), found->name, column.name));
         }
         found = &column;
     }
@@ -61,8 +63,8 @@ int whole_number(const text::CsvTable& table, std::size_t row, std::string_view 
 
 const RecordSummary& SurveyRow::axes_for(std::string_view wanted_by) const {
     if (record) return *record;
-    throw InputError(std::string(wanted_by) + ": " + site + " (" + std::to_string(occupation) +
-                     ") has no mean_x_g; allowed: rows from records");
+    throw InputError(fmt::format("{}: {} ({}) has no mean_x_g; allowed: rows from records",
+                                 wanted_by, site, occupation));
 }
 
 std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
@@ -86,15 +88,13 @@ std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
         // Gravity on Earth is 976000-984000 mGal, biases are some thousands.
         row.acceleration = MilliGal(table.number(i, "acceleration_mgal", 900e3, 1100e3));
         row.temperature = DegC(table.number(i, "temperature_degc", -60.0, 100.0));
-        const auto same_time = [&row](const SurveyRow& other) { return other.time == row.time; };
-        if (std::any_of(rows.begin(), rows.end(), same_time)) {
+        if (std::ranges::find(rows, row.time, &SurveyRow::time) != rows.end()) {
             table.refuse(i, column.name, "appears twice", "one row per instant");
         }
         rows.push_back(std::move(row));
     }
     if (rows.empty()) throw InputError(file.string() + ": no rows; allowed: at least one");
-    std::sort(rows.begin(), rows.end(),
-              [](const SurveyRow& a, const SurveyRow& b) { return a.time < b.time; });
+    std::ranges::sort(rows, {}, &SurveyRow::time);
     set_backward_rates(rows);
     return rows;
 }

@@ -15,25 +15,6 @@
 
 namespace a351::corrector {
 
-/// Statistics of the record from which a row was made, within the averaging interval unless stated
-/// otherwise.
-struct RecordSummary {
-    MilliGal series_mean;              ///< Mean of the decimated series.
-    MilliGal curve_mean;               ///< Mean of the trend chosen by the options.
-    MilliGal eemd_mean;                ///< Mean of the decomposition's trend.
-    MilliGal smoother_mean;            ///< Mean of the smoother's trend.
-    MilliGal smoother_standard_error;  ///< Standard error of smoother_mean, for white noise.
-    std::optional<MilliGal>
-        standard_error;  ///< Standard error of series_mean, from blocks of 60 s.
-    DegC temperature_range;
-    TemperatureShape temperature_shape = TemperatureShape::monotone;
-    SampleCounts counts;     ///< Counts over the whole occupation.
-    AxisSummary x, y, z;     ///< Axes; z is along gravity.
-    MilliGal rectification;  ///< rectification_bias().
-
-    [[nodiscard]] MilliGal smoother_minus_eemd() const { return smoother_mean - eemd_mean; }
-};
-
 /// The averages of one occupation, or one set-up of it, over an interval without disturbance.
 struct SurveyRow {
     std::string site;

@@ -26,12 +26,6 @@ enum class TrendCurve {
 /// @return (n), unit of the components.
 [[nodiscard]] std::vector<double> paper_curve(const EemdResult& components);
 
-/// The trend of a series.
-struct Trend {
-    std::vector<double> curve;  ///< (n), unit of the signal.
-    double noise_level = 0.0;   ///< Std. deviation of the added noise, unit of the signal.
-};
-
 /// Returns the trend curve of a series.
 ///
 /// Accuracy (tests/unit/reading/trend_curve_test.cpp), on 16 simulated records of 450 samples with
@@ -39,9 +33,9 @@ struct Trend {
 /// with `slow` and 0.125 with `paper` (decimation.md).
 /// @param signal         (n) as of eemd(): finite, without gaps.
 /// @param decomposition  options of eemd().
-/// @return curve of n samples in the unit of the signal.
+/// @return (n), unit of the signal.
 /// @throws               as eemd().
-[[nodiscard]] Trend trend_curve(std::span<const double> signal, const EemdOptions& decomposition,
-                                TrendCurve choice);
+[[nodiscard]] std::vector<double> trend_curve(std::span<const double> signal,
+                                              const EemdOptions& decomposition, TrendCurve choice);
 
 }  // namespace a351::corrector

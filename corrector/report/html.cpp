@@ -1,6 +1,11 @@
 #include "corrector/report/html.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
+
 #include "corrector/figure/escaping.hpp"
+#include "corrector/figure/inline_svg.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -52,18 +57,26 @@ code { font-size: .95em; }
 )";
 
 std::string cell(std::string_view tag, char alignment, std::string_view text) {
-    std::string html = "<";
-    html += tag;
-    if (alignment != 'l') html += std::string(" class=\"") + alignment + '"';
-    html += '>' + html_text(text) + "</";
-    html += tag;
-    return html + '>';
+    return fmt::format("<{0}{1}>{2}</{0}>", tag,
+                       alignment == 'l' ? "" : fmt::format(" class=\"{}\"", alignment),
+                       html_text(text));
 }
 
 std::string line(std::string_view tag, std::string_view alignment, const HtmlCells& cells) {
     std::string html = "<tr>";
     for (std::size_t i = 0; i < alignment.size(); ++i) html += cell(tag, alignment[i], cells.at(i));
     return html + "</tr>\n";
+}
+
+std::string figure_html(const Figure& figure, const Drawing& drawing) {
+    const auto picture =
+        std::ranges::find(drawing.pictures, figure.name + ".svg", &text::NamedText::first);
+    const auto svg = picture == drawing.pictures.end()
+                         ? std::nullopt
+                         : inline_svg(picture->second, figure.name + "-");
+    return fmt::format("<figure>\n{}\n<figcaption>{} <code>{}.gp</code></figcaption>\n</figure>\n",
+                       svg.value_or("<p><em>This figure is missing.</em></p>"),
+                       html_text(figure.caption), figure.name);
 }
 
 }  // namespace
@@ -81,21 +94,48 @@ std::string html_table(std::string_view alignment, const HtmlCells& header,
 std::string html_paragraph(std::string_view text) { return "<p>" + html_text(text) + "</p>\n"; }
 
 std::string html_list(const std::vector<std::string>& items) {
-    std::string html = "<ul>\n";
-    for (const std::string& item : items) html += "<li>" + html_text(item) + "</li>\n";
-    return html + "</ul>\n";
+    std::string html;
+    for (const std::string& item : items) html += fmt::format("<li>{}</li>\n", html_text(item));
+    return html.empty() ? html : fmt::format("<ul>\n{}</ul>\n", html);
+}
+
+std::string figures_html(const std::vector<Figure>& figures, const Drawing& drawing) {
+    std::string large, small;
+    for (const Figure& figure : figures) {
+        (figure.is_small ? small : large) += figure_html(figure, drawing);
+    }
+    return large + (small.empty() ? "" : "<div class=\"small\">\n" + small + "</div>\n");
+}
+
+std::string section(std::string_view title, std::string_view html) {
+    return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", html_text(title), html);
 }
 
 std::string html_page(std::string_view title, std::string_view body) {
-    std::string html =
+    return fmt::format(
         "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n"
         "<meta charset=\"utf-8\"/>\n"
-        "<meta name=\"viewport\" content=\"width=device-width\"/>\n<title>";
-    html += html_text(title) + "</title>\n<style>";
-    html += kStyle;
-    html += "</style>\n</head>\n<body>\n";
-    html += body;
-    return html + "</body>\n</html>\n";
+        "<meta name=\"viewport\" content=\"width=device-width\"/>\n<title>{}</title>\n"
+        "<style>{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
+        html_text(title), kStyle, body);
+}
+
+std::vector<std::string> missing_lines(const std::vector<std::string>& troubles) {
+    if (troubles.empty()) return {};
+    const std::size_t others = troubles.size() - 1;
+    return {fmt::format("figures are missing: {}{}", clean_utf8(troubles.front()),
+                        others == 0 ? "" : fmt::format("; {} more such", others))};
+}
+
+void add_figure_files(std::vector<text::NamedText>& files, const std::vector<Figure>& figures,
+                      Drawing& drawing) {
+    for (const Figure& figure : figures) {
+        files.emplace_back("figures/" + figure.name + ".gp", figure.script);
+        if (!figure.data.empty())
+            files.emplace_back("figures/" + figure.name + ".dat", figure.data);
+    }
+    for (text::NamedText& picture : drawing.pictures)
+        files.emplace_back("figures/" + picture.first, std::move(picture.second));
 }
 
 }  // namespace a351::corrector

@@ -1,5 +1,7 @@
 #include "corrector/report/joint_page.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,26 +16,21 @@ namespace {
 /// Returns a name as a part of a relative address (RFC 3986; unreserved characters are not
 /// changed).
 std::string address_part(const std::string& name) {
-    constexpr std::string_view kDigits = "0123456789ABCDEF";
     constexpr std::string_view kUnreserved =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~";
     std::string text;
     for (const char c : name) {
-        const auto byte = static_cast<unsigned char>(c);
         if (kUnreserved.find(c) != std::string_view::npos) {
             text += c;
         } else {
-            text += '%';
-            text += kDigits[byte >> 4U];
-            text += kDigits[byte & 0xFU];
+            text += fmt::format("%{:02X}", static_cast<unsigned char>(c));
         }
     }
     return text;
 }
 
 const StationValue* find_station(const SurveyCorrection& day, const std::string& site) {
-    const auto found = std::find_if(day.stations.begin(), day.stations.end(),
-                                    [&site](const auto& s) { return s.site == site; });
+    const auto found = std::ranges::find(day.stations, site, &StationValue::site);
     return found == day.stations.end() ? nullptr : &*found;
 }
 
@@ -50,8 +47,7 @@ std::string days_table(const std::vector<JointDay>& days) {
         cells[1] = to_rfc3339(result.rows.front().row.time);
         cells[2] = to_rfc3339(result.rows.back().row.time);
         cells[3] = result.model;
-        cells[4] =
-            std::to_string(result.score.row_count) + " of " + std::to_string(result.rows.size());
+        cells[4] = fmt::format("{} of {}", result.score.row_count, result.rows.size());
         cells[5] = text::fixed_or(result.score.rms_mgal, 3, "-");
         cells[6] = text::fixed_or(result.score.loso_mgal, 3, "-");
     }
@@ -65,9 +61,9 @@ std::string links(const std::vector<JointDay>& days) {
     std::string html;
     for (const JointDay& day : days) {
         if (day.result == nullptr) continue;
-        html += (html.empty() ? "<p>Reports: " : ", ");
-        html += "<a href=\"" + address_part(day.folder) + "/report.html\">" + html_text(day.name) +
-                "</a>";
+        html +=
+            fmt::format("{}<a href=\"{}/report.html\">{}</a>", html.empty() ? "<p>Reports: " : ", ",
+                        address_part(day.folder), html_text(day.name));
     }
     return html.empty() ? html : html + ".</p>\n";
 }
@@ -84,10 +80,7 @@ std::string stations_table(const std::vector<JointDay>& days,
     }
     std::vector<HtmlCells> rows;
     for (const JointStation& station : join_days(results)) {
-        HtmlCells& cells = rows.emplace_back(HtmlCells{
-            station.site, std::to_string(station.day_count), std::to_string(station.row_count),
-            text::fixed(station.gravity.value(), 3), text::fixed_or(station.u_gravity, 2, "-"),
-            text::fixed_or(station.reference, 3, "-"), text::fixed_or(station.residual, 3, "-")});
+        HtmlCells& cells = rows.emplace_back(joint_cells(station));
         for (const SurveyCorrection& result : results) {
             const StationValue* const value = find_station(result, station.site);
             cells.push_back(value == nullptr
@@ -102,13 +95,15 @@ std::string stations_table(const std::vector<JointDay>& days,
 std::string scatter_sentence(const std::vector<SurveyCorrection>& results) {
     const auto scatter = scatter_of_days(results);
     if (!scatter) return "No station was measured on two days, so the days cannot be compared.";
-    std::string text = "Stations measured on several days differ by " +
-                       text::fixed(scatter->rms_mgal, 2) + " mGal rms from day to day (" +
-                       std::to_string(scatter->dof) + " degrees of freedom)";
-    if (scatter->expected_mgal)
-        text += "; expected from their u: " + text::fixed(*scatter->expected_mgal, 2) +
-                ", less if a day's fit holds their references";
-    return text + '.';
+    const std::string expected = text::fixed_or(scatter->expected_mgal, 2, "");
+    return fmt::format(
+        "Stations measured on several days differ by {} mGal rms from day to day ({} degrees of "
+        "freedom){}.",
+        text::fixed(scatter->rms_mgal, 2), scatter->dof,
+        expected.empty()
+            ? ""
+            : fmt::format("; expected from their u: {}, less if a day's fit holds their references",
+                          expected));
 }
 
 }  // namespace
@@ -147,22 +142,24 @@ std::string joint_html(const std::vector<JointDay>& days) {
         if (day.result != nullptr) {
             results.push_back(*day.result);
         } else {
-            troubles.push_back(day.name + ": " + day.trouble);
+            troubles.push_back(fmt::format("{}: {}", day.name, day.trouble));
         }
     }
-    const std::string title = "Gravity survey of " + std::to_string(days.size()) + " days";
-    std::string body = "<h1>" + html_text(title) + "</h1>\n";
-    if (!troubles.empty())
-        body += html_paragraph("Not corrected, and not included below:") + html_list(troubles);
-    body += "<h2>Days</h2>\n" + days_table(days) + links(days);
-    body += "<h2>Stations</h2>\n" + stations_table(days, results) +
+    const std::string title = fmt::format("Gravity survey of {} days", days.size());
+    const std::string absent =
+        troubles.empty() ? "" : html_paragraph("Not corrected, and not included below:");
+    return html_page(
+        title,
+        fmt::format(
+            "<h1>{}</h1>\n{}{}<h2>Days</h2>\n{}{}<h2>Stations</h2>\n{}{}{}", html_text(title),
+            absent, html_list(troubles), days_table(days), links(days),
+            stations_table(days, results),
             html_paragraph(
                 "Gravity: mean of the days, each weighted by 1/u^2 (not weighted if a day has no "
                 "u). u assumes that the days are independent, although they share instrument and "
-                "references. NAME - joint: the day's value minus the mean. *: only readings "
-                "that were left out of the day's fit.") +
-            html_paragraph(scatter_sentence(results));
-    return html_page(title, body);
+                "references. NAME - joint: the day's value minus the mean. *: only readings that "
+                "were left out of the day's fit."),
+            html_paragraph(scatter_sentence(results))));
 }
 
 }  // namespace a351::corrector

@@ -1,13 +1,11 @@
-#include "corrector/report/long_record_page.hpp"
+#include <fmt/core.h>
 
 #include <nlohmann/json.hpp>
 
-#include "corrector/figure/applied_figures.hpp"
-#include "corrector/figure/escaping.hpp"
 #include "corrector/figure/long_record_figures.hpp"
 #include "corrector/long_record/applied_tables.hpp"
 #include "corrector/report/html.hpp"
-#include "corrector/report/page_parts.hpp"
+#include "corrector/report/report.hpp"
 #include "corrector/report/result_tables.hpp"
 #include "protocol/text/aligned_text.hpp"
 
@@ -18,24 +16,19 @@ std::string table_html(std::string_view alignment, const TextTable& table) {
     return html_table(alignment, table.front(), {table.begin() + 1, table.end()});
 }
 
-std::string list_html(const std::vector<std::string>& lines) {
-    return lines.empty() ? std::string() : html_list(lines);
-}
-
 std::string head_html(const RecordResult& result) {
     const RecordSegment& segment = result.segment();
     const double hours = static_cast<double>(segment.size()) * result.record.step_s / 3600.0;
+    const std::string& unit = segment.serial_number;
     return "<h1>A long record at one point</h1>\n" +
-           html_paragraph("Analysed: " +
-                          (segment.serial_number.empty()
-                               ? std::string()
-                               : "sensor " + segment.serial_number + ", ") +
-                          text::fixed(hours, 1) + " h from " + to_rfc3339(segment.start) +
-                          ", a sample every " + text::fixed(result.record.step_s, 0) + " s" +
-                          (result.record.is_tide_removed ? ", earth tide removed." : ".")) +
+           html_paragraph(fmt::format(
+               "Analysed: {}{} h from {}, a sample every {} s{}.",
+               unit.empty() ? "" : fmt::format("sensor {}, ", unit), text::fixed(hours, 1),
+               to_rfc3339(segment.start), text::fixed(result.record.step_s, 0),
+               result.record.is_tide_removed ? ", earth tide removed" : "")) +
            html_paragraph(result.analysis.reading) +
-           html_paragraph("Two-path fit: " + two_paths_reading(result) + ".") +
-           list_html(result.analysis.remarks);
+           html_paragraph(fmt::format("Two-path fit: {}.", two_paths_reading(result))) +
+           html_list(result.analysis.remarks);
 }
 
 }  // namespace
@@ -54,23 +47,23 @@ Report make_long_record_page(const RecordResult& result, const nlohmann::ordered
     page.warnings = missing_lines(drawing.troubles);
 
     std::string body = "<section class=\"first\">\n" + head_html(result) +
-                       list_html(page.warnings) + "</section>\n";
+                       html_list(page.warnings) + "</section>\n";
     if (result.applied)
         body += section("With the calibration",
-                        list_html(applied_sentences(*result.applied)) +
+                        html_list(applied_sentences(*result.applied)) +
                             table_html("lrrr", applied_bands_table(*result.applied)) +
                             figures_html(applied, drawing) +
                             table_html("lrrr", allan_table(*result.applied)));
     body += section("Response by period", table_html("lrrrrrr", response_table(result)) +
                                               figures_html(response, drawing) +
-                                              list_html(refused_bands(result)));
+                                              html_list(refused_bands(result)));
     body += section("Two paths", table_html("lrrll", two_paths_table(result)));
     body += section("The publication's statistics", table_html("lrll", statistics_table(result)) +
                                                         html_paragraph(chosen_modes(result)));
     body += section("The publication's figures", figures_html(figures, drawing));
     body +=
         section("Segments", table_html("llrrrl", segments_table(result)) +
-                                html_paragraph("* analysed") + list_html(refused_parts(result)));
+                                html_paragraph("* analysed") + html_list(refused_parts(result)));
     body += section("Settings, inputs, warnings",
                     provenance_html(settings, result.record.inputs, result.record.warnings));
     page.files.emplace_back("record.html", html_page("A long record at one point", body));

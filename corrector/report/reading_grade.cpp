@@ -1,5 +1,7 @@
 #include "corrector/report/reading_grade.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -57,14 +59,12 @@ constexpr std::array<std::string_view, 4> kTrendNotes{"fallback", "disturbed_sta
 /// @param is_day  the model averages the record without the trend, so flags of the trend do not
 ///                matter.
 void add_note(ReadingGrade& reading, const std::string& note, bool is_day) {
-    if (is_day && std::find(kTrendNotes.begin(), kTrendNotes.end(), note) != kTrendNotes.end())
-        return;
+    if (is_day && std::ranges::count(kTrendNotes, note) > 0) return;
     if (is_day && note == "pulse") {
         add(reading, Grade::care, "a knock: the samples around it were left out");
         return;
     }
-    const auto known = std::find_if(kNoteTexts.begin(), kNoteTexts.end(),
-                                    [&note](const NoteText& text) { return text.note == note; });
+    const auto known = std::ranges::find(kNoteTexts, note, &NoteText::note);
     if (known == kNoteTexts.end()) {
         add(reading, Grade::care, note);
     } else {
@@ -76,14 +76,12 @@ void add_temperature(ReadingGrade& reading, const CorrectedRow& row, bool correc
     std::string doubt = temperature_doubt(row.row);
     if (doubt.empty()) return;
     if (const auto at = doubt.find(';'); at != std::string::npos) doubt.replace(at, 1, ", ");
-    const std::string text = "temperature not steady: " + doubt;
-    if (corrects_rate) {
-        add(reading, Grade::care,
-            text + "; the value depends on a rate correction of " +
-                text::fixed(row.rate_correction.value(), 1) + " mGal");
-    } else {
-        add(reading, Grade::repeat, text + ", which the model does not correct");
-    }
+    add(reading, corrects_rate ? Grade::care : Grade::repeat,
+        fmt::format("temperature not steady: {}{}", doubt,
+                    corrects_rate
+                        ? fmt::format("; the value depends on a rate correction of {} mGal",
+                                      text::fixed(row.rate_correction.value(), 1))
+                        : ", which the model does not correct"));
 }
 
 /// Adds a reason if the residual is large.
@@ -94,9 +92,10 @@ void add_residual(ReadingGrade& reading, const CorrectedRow& row, bool is_left_o
                                      : row.residual->value() / row.u_corrected->value();
     if (std::abs(ratio) <= kCareRatio) return;
     add(reading, std::abs(ratio) > kRepeatRatio ? Grade::repeat : Grade::care,
-        "off its reference by " + text::fixed(ratio * row.u_corrected->value(), 1) + " mGal" +
-            (is_left_out ? " when its station is left out" : "") + ", " +
-            text::fixed(std::abs(ratio), 1) + " times its uncertainty");
+        fmt::format("off its reference by {} mGal{}, {} times its uncertainty",
+                    text::fixed(ratio * row.u_corrected->value(), 1),
+                    is_left_out ? " when its station is left out" : "",
+                    text::fixed(std::abs(ratio), 1)));
 }
 
 void add_trends(ReadingGrade& reading, const SurveyRow& row) {
@@ -104,7 +103,8 @@ void add_trends(ReadingGrade& reading, const SurveyRow& row) {
     const double difference = row.record->smoother_minus_eemd().value();
     if (std::abs(difference) <= kTrendDifference_mgal) return;
     add(reading, Grade::care,
-        "its two trends (smoother, EEMD) differ by " + text::fixed(difference, 2) + " mGal");
+        fmt::format("its two trends (smoother, EEMD) differ by {} mGal",
+                    text::fixed(difference, 2)));
 }
 
 /// Scatter of readings of one station after all corrections.
@@ -138,9 +138,10 @@ void add_repeats(std::vector<ReadingGrade>& readings, const SurveyCorrection& re
         const double ratio = std::abs(pair.after_all.value()) / expected_mgal;
         if (ratio <= kCareRatio) continue;
         const auto text = [&](std::size_t other) {
-            return "differs by " + text::fixed(std::abs(pair.after_all.value()), 1) +
-                   " mGal from " + reading_name(result.rows, other) + ", " + text::fixed(ratio, 1) +
-                   " times the value expected from " + scatter->name;
+            return fmt::format("differs by {} mGal from {}, {} times the value expected from {}",
+                               text::fixed(std::abs(pair.after_all.value()), 1),
+                               reading_name(result.rows, other), text::fixed(ratio, 1),
+                               scatter->name);
         };
         add(readings[pair.earlier], Grade::care, text(pair.later));
         add(readings[pair.later], Grade::care, text(pair.earlier));
@@ -150,9 +151,8 @@ void add_repeats(std::vector<ReadingGrade>& readings, const SurveyCorrection& re
 }  // namespace
 
 std::vector<ReadingGrade> grade_readings(const SurveyCorrection& result) {
-    const bool corrects_rate =
-        std::any_of(result.rows.begin(), result.rows.end(),
-                    [](const CorrectedRow& row) { return row.rate_correction != MilliGal(0.0); });
+    const bool corrects_rate = std::ranges::any_of(
+        result.rows, [](const CorrectedRow& row) { return row.rate_correction != MilliGal(0.0); });
     const bool is_day = result.model == "day";
     std::vector<ReadingGrade> readings;
     for (const CorrectedRow& row : result.rows) {

@@ -14,8 +14,12 @@ namespace a351::corrector {
 /// Returns the values of the stations.
 [[nodiscard]] std::string stations_html(const SurveyCorrection& result);
 
-/// Returns the differences of repeated stations after every correction; a sentence if there are
-/// none.
+/// Returns the table of all readings with every correction, and an explanation of its columns.  The
+/// columns are those of the model.  Occupations without a value have a row too.
+[[nodiscard]] std::string occupations_html(const SurveyCorrection& result);
+
+/// Returns a table of the difference between readings of one station, before and after each
+/// correction; a sentence if no station was read twice.
 [[nodiscard]] std::string closures_html(const SurveyCorrection& result);
 
 /// Returns the scores of all models, and the coefficients of the applied one.

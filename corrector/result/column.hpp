@@ -69,6 +69,15 @@ template <class Row>
     return line;
 }
 
+/// Returns a CSV file.
+template <class Row>
+[[nodiscard]] std::string csv_table(const std::vector<Column<Row>>& columns,
+                                    const std::vector<Row>& rows) {
+    std::string csv = csv_header(columns);
+    for (const Row& row : rows) csv += csv_line(columns, row);
+    return csv;
+}
+
 /// Returns an object with a member for each column.
 template <class Row>
 [[nodiscard]] nlohmann::ordered_json json_object(const std::vector<Column<Row>>& columns,
@@ -77,6 +86,15 @@ template <class Row>
     for (const Column<Row>& column : columns)
         object[std::string(column.key)] = json_value(column.value(row));
     return object;
+}
+
+/// Returns an array with json_object() of each row.
+template <class Row>
+[[nodiscard]] nlohmann::ordered_json json_array(const std::vector<Column<Row>>& columns,
+                                                const std::vector<Row>& rows) {
+    nlohmann::ordered_json array = nlohmann::ordered_json::array();
+    for (const Row& row : rows) array.push_back(json_object(columns, row));
+    return array;
 }
 
 }  // namespace a351::corrector

@@ -1,7 +1,6 @@
 #include "corrector/result/columns.hpp"
 
 #include "corrector/model/calibration_use.hpp"
-#include "corrector/result/table_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -17,6 +16,12 @@ Column<CorrectedRow> of_record(std::string_view key, Cell (*value)(const RecordS
     return {key, [value](const CorrectedRow& row) { return value(row.row.record.value()); }};
 }
 
+Column<CorrectedRow> of_shape(std::string_view key, TemperatureShape shape) {
+    return {key, [shape](const CorrectedRow& row) {
+                return row.row.record.value().temperature_shape == shape ? 1.0 : 0.0;
+            }};
+}
+
 Column<CorrectedRow> of_day(std::string_view key, Cell (*value)(const WholeDayPart&)) {
     return {key, [value](const CorrectedRow& row) { return value(row.day.value()); }};
 }
@@ -29,14 +34,8 @@ Columns columns_of_records() {
                   [](R r) { return cell(r.series_mean - r.curve_mean); }),
         of_record("standard_error_mgal", [](R r) { return cell(r.standard_error); }),
         of_record("temperature_range_degc", [](R r) { return cell(r.temperature_range.value()); }),
-        of_record("temperature_is_monotone",
-                  [](R r) {
-                      return cell(r.temperature_shape == TemperatureShape::monotone ? 1.0 : 0.0);
-                  }),
-        of_record("temperature_is_half_wave",
-                  [](R r) {
-                      return cell(r.temperature_shape == TemperatureShape::half_wave ? 1.0 : 0.0);
-                  }),
+        of_shape("temperature_is_monotone", TemperatureShape::monotone),
+        of_shape("temperature_is_half_wave", TemperatureShape::half_wave),
         of_record("valid_samples", [](R r) { return cell(static_cast<double>(r.counts.valid)); }),
         of_record("partial_samples",
                   [](R r) { return cell(static_cast<double>(r.counts.partial)); }),
@@ -138,7 +137,7 @@ std::vector<Column<ScoreRow>> score_columns(const SurveyCorrection& result) {
         {"loo_mgal", [](Row row) { return cell(row.score->loo_mgal); }},
         {"loso_mgal", [](Row row) { return cell(row.score->loso_mgal); }},
         {"aicc", [](Row row) { return cell(row.score->aicc); }},
-        {"selected", [&result](Row row) { return is_selected(result, *row.set, *row.score); }},
+        {"selected", [&result](Row row) { return is_selected(result, row); }},
         {"rms_before_drift_mgal", [](Row row) { return cell(row.score->rms_before_drift_mgal); }},
         {"dof", [](Row row) { return cell_of_count(row.score->dof); }},
         {"calibration",

@@ -7,6 +7,7 @@
 
 #include "corrector/model/survey_correction.hpp"
 #include "corrector/result/column.hpp"
+#include "corrector/result/table_text.hpp"
 
 namespace a351::corrector {
 
@@ -18,12 +19,6 @@ namespace a351::corrector {
 
 /// Returns the columns of stations.csv.
 [[nodiscard]] std::vector<Column<StationValue>> station_columns();
-
-/// A model and the rows that it was fitted to.
-struct ScoreRow {
-    const ScoredRowSet* set = nullptr;
-    const ModelScore* score = nullptr;
-};
 
 /// Returns the columns of models.csv.
 /// @param result  must outlive the columns.

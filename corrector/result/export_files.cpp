@@ -1,18 +1,18 @@
 #include "corrector/result/export_files.hpp"
 
-#include <algorithm>
+#include <fmt/core.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "protocol/text/aligned_text.hpp"
-#include "protocol/text/write_together.hpp"
 
 namespace a351::corrector {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Standard uncertainty of an occupation for which the fit gives none, mGal.  Source: the published
+/// Standard uncertainty used for an occupation if the fit gives none, mGal.  Source: the published
 /// scatter of the sensor.
 constexpr MilliGal kUnknownScatter{2.0};
 
@@ -52,8 +52,8 @@ Json feature(const StationValue& station, const text::Site& site) {
 /// Replaces the characters that GSadjust's reader does not accept in names: it splits lines at '/'
 /// and ':' before commas, and '%' begins a comment.
 std::string gsadjust_name(std::string name) {
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return c == '/' || c == ':' || c == '%'; }, '-');
+    for (char& c : name)
+        if (c == '/' || c == ':' || c == '%') c = '-';
     return name;
 }
 
@@ -84,31 +84,23 @@ std::string gsadjust_csv(const SurveyCorrection& result, const std::vector<text:
         const text::Site* const site = text::find_site(sites, row.row.site);
         if (site == nullptr) continue;
         const std::string time = to_rfc3339(row.row.time);
-        const std::string date =
-            time.substr(5, 2) + '/' + time.substr(8, 2) + '/' + time.substr(0, 4);
         const MilliGal u = row.u_corrected.value_or(kUnknownScatter);
         const bool is_kept_out =
             row.row.is_excluded || (row.row.is_flagged && result.options.use_flags);
         const MilliGal gravity = row.row.acceleration - row.row.tide + row.temperature_correction +
                                  row.rate_correction + row.tilt_correction_or_zero();
         for (const MilliGal value : {gravity - u, gravity + u}) {
-            if (is_kept_out) csv += "% ";
-            csv += gsadjust_name(row.row.site) + ',' + text::fixed(site->latitude.value(), 7) +
-                   ',' + text::fixed(site->longitude.value(), 7) + ',' +
-                   text::fixed(site->altitude.value(), 3) + ',' + text::fixed(value.value(), 6) +
-                   ',' + text::fixed(u.value(), 6) + ",0,0," +
-                   text::fixed(row.row.temperature.value(), 4) + ',' +
-                   text::fixed(-row.row.tide.value(), 6) + ',' + duration_s(row.row) + ",0," +
-                   time.substr(11, 8) + ",0,0," + date + '\n';
+            csv += fmt::format(
+                "{}{},{},{},{},{},{},0,0,{},{},{},0,{},0,0,{}/{}/{}\n", is_kept_out ? "% " : "",
+                gsadjust_name(row.row.site), text::fixed(site->latitude.value(), 7),
+                text::fixed(site->longitude.value(), 7), text::fixed(site->altitude.value(), 3),
+                text::fixed(value.value(), 6), text::fixed(u.value(), 6),
+                text::fixed(row.row.temperature.value(), 4), text::fixed(-row.row.tide.value(), 6),
+                duration_s(row.row), time.substr(11, 8), time.substr(5, 2), time.substr(8, 2),
+                time.substr(0, 4));
         }
     }
     return csv;
-}
-
-std::vector<text::NamedText> export_files(const SurveyCorrection& result,
-                                          const std::vector<text::Site>& sites) {
-    return {{"stations.geojson", stations_geojson(result, sites)},
-            {"gsadjust.csv", gsadjust_csv(result, sites)}};
 }
 
 }  // namespace a351::corrector

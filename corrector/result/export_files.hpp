@@ -8,7 +8,6 @@
 
 #include "corrector/model/survey_correction.hpp"
 #include "protocol/text/sites.hpp"
-#include "protocol/text/write_together.hpp"
 
 namespace a351::corrector {
 
@@ -26,10 +25,5 @@ namespace a351::corrector {
 /// for the columns; obstree/station.py, stdev(), and obstree/loop.py, populate(), for their use.
 [[nodiscard]] std::string gsadjust_csv(const SurveyCorrection& result,
                                        const std::vector<text::Site>& sites);
-
-/// Returns both, named stations.geojson and gsadjust.csv.
-/// @param sites  must contain the sites of all stations.
-[[nodiscard]] std::vector<text::NamedText> export_files(const SurveyCorrection& result,
-                                                        const std::vector<text::Site>& sites);
 
 }  // namespace a351::corrector

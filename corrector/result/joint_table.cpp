@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "corrector/result/column.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
 
 JointStation join(const std::string& site, const std::vector<StationValue>& days) {
-    const bool is_weighted = std::all_of(days.begin(), days.end(), [](const StationValue& day) {
+    const bool is_weighted = std::ranges::all_of(days, [](const StationValue& day) {
         return day.u_gravity && day.u_gravity->value() > 0.0;
     });
     JointStation joint;
@@ -36,46 +38,47 @@ JointStation join(const std::string& site, const std::vector<StationValue>& days
 
 std::vector<JointStation> join_days(const std::vector<SurveyCorrection>& days) {
     std::vector<std::string> sites;
+    std::map<std::string, std::vector<StationValue>> values;
     for (const SurveyCorrection& day : days) {
         for (const StationValue& station : day.stations) {
-            if (std::find(sites.begin(), sites.end(), station.site) == sites.end()) {
-                sites.push_back(station.site);
-            }
+            std::vector<StationValue>& of_site = values[station.site];
+            if (of_site.empty()) sites.push_back(station.site);
+            of_site.push_back(station);
         }
     }
     std::vector<JointStation> joint;
-    for (const std::string& site : sites) {
-        std::vector<StationValue> values;
-        for (const SurveyCorrection& day : days) {
-            std::copy_if(day.stations.begin(), day.stations.end(), std::back_inserter(values),
-                         [&site](const StationValue& station) { return station.site == site; });
-        }
-        joint.push_back(join(site, values));
-    }
+    for (const std::string& site : sites) joint.push_back(join(site, values[site]));
     return joint;
 }
 
+std::vector<std::string> joint_cells(const JointStation& station) {
+    return {station.site,
+            std::to_string(station.day_count),
+            std::to_string(station.row_count),
+            text::fixed(station.gravity.value(), 3),
+            text::fixed_or(station.u_gravity, 2, "-"),
+            text::fixed_or(station.reference, 3, "-"),
+            text::fixed_or(station.residual, 3, "-")};
+}
+
 std::string joint_csv(const std::vector<JointStation>& stations) {
-    std::string csv = "site,days,n,gravity_mgal,u_gravity_mgal,reference_mgal,residual_mgal\n";
-    for (const JointStation& station : stations) {
-        csv += station.site + ',' + std::to_string(station.day_count) + ',' +
-               std::to_string(station.row_count) + ',' + text::fixed(station.gravity.value(), 6) +
-               ',' + text::fixed_or(station.u_gravity, 6, "") + ',' +
-               text::fixed_or(station.reference, 6, "") + ',' +
-               text::fixed_or(station.residual, 6, "") + '\n';
-    }
-    return csv;
+    using Station = const JointStation&;
+    const std::vector<Column<JointStation>> columns{
+        {"site", [](Station station) { return station.site; }},
+        {"days", [](Station station) { return cell_of_count(station.day_count); }},
+        {"n", [](Station station) { return cell_of_count(station.row_count); }},
+        {"gravity_mgal", [](Station station) { return cell(station.gravity); }},
+        {"u_gravity_mgal", [](Station station) { return cell(station.u_gravity); }},
+        {"reference_mgal", [](Station station) { return cell(station.reference); }},
+        {"residual_mgal", [](Station station) { return cell(station.residual); }},
+    };
+    return csv_table(columns, stations);
 }
 
 std::string joint_text(const std::vector<JointStation>& stations) {
     std::vector<std::vector<std::string>> rows{
         {"station", "days", "n", "gravity mGal", "u", "reference", "residual"}};
-    for (const JointStation& station : stations) {
-        rows.push_back(
-            {station.site, std::to_string(station.day_count), std::to_string(station.row_count),
-             text::fixed(station.gravity.value(), 3), text::fixed_or(station.u_gravity, 2, "-"),
-             text::fixed_or(station.reference, 3, "-"), text::fixed_or(station.residual, 3, "-")});
-    }
+    for (const JointStation& station : stations) rows.push_back(joint_cells(station));
     return text::aligned(rows);
 }
 

@@ -24,6 +24,9 @@ struct JointStation {
 /// Returns the stations in the order of their first appearance.
 [[nodiscard]] std::vector<JointStation> join_days(const std::vector<SurveyCorrection>& days);
 
+/// Returns site, days, rows, gravity, u, reference and residual of a station as text.
+[[nodiscard]] std::vector<std::string> joint_cells(const JointStation& station);
+
 /// Returns the stations as joint.csv.
 [[nodiscard]] std::string joint_csv(const std::vector<JointStation>& stations);
 /// Returns the stations as an aligned table.

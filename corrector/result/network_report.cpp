@@ -1,5 +1,8 @@
 #include "corrector/result/network_report.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -20,10 +23,9 @@ ReferenceCheck check_references(const SurveyCorrection& result) {
     ReferenceCheck check;
     double squares = 0.0;
     for (const StationValue& station : result.stations) {
-        bool is_held = false;
-        for (const NetworkRow& row : result.network->rows) {
-            is_held = is_held || row.label == "datum " + station.site;
-        }
+        const bool is_held = std::ranges::any_of(result.network->rows, [&](const NetworkRow& row) {
+            return row.label == "datum " + station.site;
+        });
         if (is_held || station.is_flagged_only || !station.residual) continue;
         ++check.station_count;
         squares += station.residual->value() * station.residual->value();
@@ -39,30 +41,35 @@ ReferenceCheck check_references(const SurveyCorrection& result) {
 std::string network_text(const SurveyCorrection& result) {
     if (!result.network) return {};
     const NetworkAdjustment& network = *result.network;
-    std::string text = "network: " + std::to_string(network.rows.size()) + " rows (" +
-                       std::to_string(network.reading_count) + " readings, " +
-                       std::to_string(network.datum_count) + " datum of sd " +
-                       text::fixed(result.options.network.datum_sd_mgal, 3) + " mGal), " +
-                       std::to_string(network.unknowns.size()) +
-                       " unknowns, dof = " + std::to_string(network.dof) + '\n';
+    std::string text = fmt::format(
+        "network: {} rows ({} readings, {} datum of sd {} mGal), {} unknowns, dof = {}\n",
+        network.rows.size(), network.reading_count, network.datum_count,
+        text::fixed(result.options.network.datum_sd_mgal, 3), network.unknowns.size(), network.dof);
     const std::string sd = text::fixed(result.options.priors.reading_sd_mgal, 2);
     if (const auto passes = network.passes_global_test()) {
-        text += "global test at 5 %: v'Wv = " + text::fixed(network.weighted_square, 2) +
-                " within " + text::fixed(network.chi_square_low, 2) + " to " +
-                text::fixed(network.chi_square_high, 2) + ": " + (*passes ? "passed" : "FAILED") +
-                "; s0 = " + text::fixed(*network.s0(), 3) + " for readings of sd " + sd + " mGal\n";
+        text += fmt::format(
+            "global test at 5 %: v'Wv = {} within {} to {}: {}; s0 = {} for readings of sd {} "
+            "mGal\n",
+            text::fixed(network.weighted_square, 2), text::fixed(network.chi_square_low, 2),
+            text::fixed(network.chi_square_high, 2), *passes ? "passed" : "FAILED",
+            text::fixed(*network.s0(), 3), sd);
         if (!*passes) {
-            text += "  the scatter of the readings agrees with reading_sd_mgal = " +
-                    text::fixed(result.score.s_mgal.value(), 3) + "; first look for a fault\n";
+            text += fmt::format(
+                "  the scatter of the readings agrees with reading_sd_mgal = {}; first look for a "
+                "fault\n",
+                text::fixed(result.score.s_mgal.value(), 3));
         }
     }
-    text += "u of the stations: a priori (readings of sd " + sd +
-            " mGal); times s0, a posteriori: stations.csv\n";
+    text += fmt::format(
+        "u of the stations: a priori (readings of sd {} mGal); times s0, a posteriori: "
+        "stations.csv\n",
+        sd);
     const ReferenceCheck check = check_references(result);
     if (check.station_count > 0) {
-        text += "stations whose reference is known but not held: " +
-                std::to_string(check.station_count) + ", off by " + text::fixed(check.rms_mgal, 3) +
-                " mGal rms (not in sample)\n";
+        text += fmt::format(
+            "stations whose reference is known but not held: {}, off by {} mGal rms (not in "
+            "sample)\n",
+            check.station_count, text::fixed(check.rms_mgal, 3));
     }
     return text;
 }

@@ -1,11 +1,13 @@
 #include "corrector/result/result_files.hpp"
 
+#include <fmt/core.h>
+
 #include <nlohmann/json.hpp>
 
 #include "corrector/model/calibration_use.hpp"
 #include "corrector/result/columns.hpp"
+#include "corrector/result/export_files.hpp"
 #include "corrector/result/network_report.hpp"
-#include "corrector/result/table_text.hpp"
 
 namespace a351::corrector {
 namespace {
@@ -34,35 +36,22 @@ std::string occupations_csv(const SurveyCorrection& result) {
     const auto columns = occupation_columns(result);
     std::string csv = csv_header(columns);
     const std::string rest(columns.size() - 7, ',');
-    auto left_out = result.left_out.begin();
-    const auto add_left_out_before = [&](UtcTime time) {
-        for (; left_out != result.left_out.end() && left_out->start < time; ++left_out) {
-            csv += left_out->site + ',' + std::to_string(left_out->occupation) + ",," +
-                   to_rfc3339(left_out->start, 3) + ',' + to_rfc3339(left_out->end, 3) + ",0," +
-                   flag_of(*left_out) + rest + '\n';
-        }
-    };
-    for (const CorrectedRow& row : result.rows) {
-        add_left_out_before(row.row.time);
-        csv += csv_line(columns, row);
-    }
-    add_left_out_before(UtcTime::max());
+    in_order_of_time(
+        result, [&](std::size_t i) { csv += csv_line(columns, result.rows[i]); },
+        [&](const LeftOut& stay) {
+            csv += fmt::format("{},{},,{},{},0,{}{}\n", stay.site, stay.occupation,
+                               to_rfc3339(stay.start, 3), to_rfc3339(stay.end, 3), flag_of(stay),
+                               rest);
+        });
     return csv;
 }
 
 std::string stations_csv(const SurveyCorrection& result) {
-    const auto columns = station_columns();
-    std::string csv = csv_header(columns);
-    for (const StationValue& station : result.stations) csv += csv_line(columns, station);
-    return csv;
+    return csv_table(station_columns(), result.stations);
 }
 
 std::string models_csv(const SurveyCorrection& result) {
-    const auto columns = score_columns(result);
-    std::string csv = csv_header(columns);
-    for (const ScoredRowSet& set : result.row_sets)
-        for (const ModelScore& score : set.scores) csv += csv_line(columns, ScoreRow{&set, &score});
-    return csv;
+    return csv_table(score_columns(result), score_rows(result));
 }
 
 std::string result_json(const SurveyCorrection& result, const Json& settings,
@@ -105,23 +94,9 @@ std::string result_json(const SurveyCorrection& result, const Json& settings,
     json["network"] = network_json(result);
     json["calibration"] = calibration_json(result);
     json["remarks"] = result.remarks;
-    json["models"] = Json::array();
-    const auto of_scores = score_columns(result);
-    for (const ScoredRowSet& set : result.row_sets) {
-        for (const ModelScore& score : set.scores) {
-            json["models"].push_back(json_object(of_scores, ScoreRow{&set, &score}));
-        }
-    }
-    json["stations"] = Json::array();
-    const auto of_stations = station_columns();
-    for (const StationValue& station : result.stations) {
-        json["stations"].push_back(json_object(of_stations, station));
-    }
-    json["occupations"] = Json::array();
-    const auto columns = occupation_columns(result);
-    for (const CorrectedRow& row : result.rows) {
-        json["occupations"].push_back(json_object(columns, row));
-    }
+    json["models"] = json_array(score_columns(result), score_rows(result));
+    json["stations"] = json_array(station_columns(), result.stations);
+    json["occupations"] = json_array(occupation_columns(result), result.rows);
     json["left_out"] = Json::array();
     for (const LeftOut& occupation : result.left_out) {
         json["left_out"].push_back({{"site", occupation.site},
@@ -135,11 +110,14 @@ std::string result_json(const SurveyCorrection& result, const Json& settings,
 }
 
 std::vector<text::NamedText> result_files(const SurveyCorrection& result, const Json& settings,
-                                          const std::vector<text::InputFile>& inputs) {
+                                          const std::vector<text::InputFile>& inputs,
+                                          const std::vector<text::Site>& sites) {
     return {{"occupations.csv", occupations_csv(result)},
             {"stations.csv", stations_csv(result)},
             {"models.csv", models_csv(result)},
-            {"result.json", result_json(result, settings, inputs)}};
+            {"result.json", result_json(result, settings, inputs)},
+            {"stations.geojson", stations_geojson(result, sites)},
+            {"gsadjust.csv", gsadjust_csv(result, sites)}};
 }
 
 }  // namespace a351::corrector

@@ -9,6 +9,7 @@
 
 #include "corrector/model/survey_correction.hpp"
 #include "protocol/text/input_file.hpp"
+#include "protocol/text/sites.hpp"
 #include "protocol/text/write_together.hpp"
 
 namespace a351::corrector {
@@ -26,9 +27,11 @@ namespace a351::corrector {
                                       const nlohmann::ordered_json& settings,
                                       const std::vector<text::InputFile>& inputs);
 
-/// Returns the four files of a survey.
+/// Returns these four files of a survey, stations.geojson and gsadjust.csv (export_files.hpp).
+/// @param sites  must contain the sites of all stations.
 [[nodiscard]] std::vector<text::NamedText> result_files(const SurveyCorrection& result,
                                                         const nlohmann::ordered_json& settings,
-                                                        const std::vector<text::InputFile>& inputs);
+                                                        const std::vector<text::InputFile>& inputs,
+                                                        const std::vector<text::Site>& sites);
 
 }  // namespace a351::corrector

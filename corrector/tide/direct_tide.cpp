@@ -68,9 +68,8 @@ Ecliptic moon_position(double t) {
         distance_m += scale(term.argument) * term.distance_m * cos_deg(argument);
     }
     double latitude_udeg = 0.0;
-    for (const LatitudeTerm& term : kLatitudeTerms) {
+    for (const LatitudeTerm& term : kLatitudeTerms)
         latitude_udeg += scale(term.argument) * term.latitude_udeg * sin_deg(angle(term.argument));
-    }
     return {mean_longitude + 1e-6 * longitude_udeg, 1e-6 * latitude_udeg, distance_m};
 }
 
@@ -162,26 +161,18 @@ MilliGal direct_tide(UtcTime time, const TideStation& station, TideFactors facto
         280.46061837 + 360.98564736629 * utc_days + 0.000387933 * t_ut * t_ut;
 
     const StationFrame at = station_frame(station);
-    const Ecliptic moon = moon_position(t);
-    const Ecliptic sun = sun_position(t);
-    const double pull =
-        pull_mps2(kGmMoon, moon.distance_m,
-                  earth_fixed_direction(moon, obliquity_deg, sidereal_deg), at, factors) +
-        pull_mps2(kGmSun, sun.distance_m, earth_fixed_direction(sun, obliquity_deg, sidereal_deg),
-                  at, factors);
-    return MilliGal(-kMilliGalPerMps2 * pull);
+    const auto pull = [&](double gm, const Ecliptic& body) {
+        return pull_mps2(gm, body.distance_m,
+                         earth_fixed_direction(body, obliquity_deg, sidereal_deg), at, factors);
+    };
+    return MilliGal(-kMilliGalPerMps2 *
+                    (pull(kGmMoon, moon_position(t)) + pull(kGmSun, sun_position(t))));
 }
 
 MilliGal earth_tide(TideModel model, UtcTime time, const TideStation& station,
                     TideFactors factors) {
-    switch (model) {
-        case TideModel::none:
-            break;
-        case TideModel::direct:
-            return direct_tide(time, station, factors);
-        case TideModel::longman:
-            return longman_tide(time, station, factors);
-    }
+    if (model == TideModel::direct) return direct_tide(time, station, factors);
+    if (model == TideModel::longman) return longman_tide(time, station, factors);
     return MilliGal(0.0);
 }
 

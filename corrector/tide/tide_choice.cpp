@@ -1,5 +1,7 @@
 #include "corrector/tide/tide_choice.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
@@ -10,46 +12,49 @@
 namespace a351::corrector {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 constexpr std::array<std::string_view, 5> kNames{"given", "direct", "catalogue", "longman", "none"};
 
 void set_series_tide(std::vector<SurveyRow>& rows, const std::filesystem::path& file) {
     const TideSeries series = TideSeries::read(file);
     for (SurveyRow& row : rows) {
         const auto tide = series.at(row.time);
-        if (!tide) {
-            throw InputError(file.string() + ": time = " + to_rfc3339(row.time) + ", site " +
-                             row.site + ": outside the series, or in one of its gaps; allowed: " +
-                             to_rfc3339(series.first()) + " to " + to_rfc3339(series.last()) +
-                             " in steps of at most " + std::to_string(kLongestTideStep.count()) +
-                             " s");
-        }
+        if (!tide)
+            throw InputError(fmt::format(
+                "{}: time = {}, site {}: outside the series, or in one of its gaps; "
+                "allowed: {} to {} in steps of at most {} s",
+                file.string(), to_rfc3339(row.time), row.site, to_rfc3339(series.first()),
+                to_rfc3339(series.last()), kLongestTideStep.count()));
         row.tide = *tide;
     }
 }
 
-bool is_computed(const TideChoice& choice) {
-    return choice.series.empty() && choice.source != "given" && choice.source != "none";
+void set_given_tide(std::vector<SurveyRow>& rows) {
+    for (SurveyRow& row : rows) {
+        if (!row.given_tide)
+            throw InputError(
+                fmt::format("tide = given: {} has no earth_tide_mgal; allowed: direct, catalogue, "
+                            "longman, none, or a CSV time,tide_mgal",
+                            row.site));
+        row.tide = *row.given_tide;
+    }
 }
 
 std::string_view model_text(const TideChoice& choice) {
     if (!choice.series.empty()) return "series of the file, cubic between its rows";
     if (choice.source == "given") return "column earth_tide_mgal";
-    switch (tide_model(choice.source)) {
-        case TideModel::none:
-            break;
-        case TideModel::direct:
-            return "positions of Moon and Sun, degrees 2 and 3, along the ellipsoid's normal";
-        case TideModel::longman:
-            return "Longman 1959, along the geocentric radius";
-    }
-    return "none";
+    const TideModel model = tide_model(choice.source);
+    if (model == TideModel::direct)
+        return "positions of Moon and Sun, degrees 2 and 3, along the ellipsoid's normal";
+    return model == TideModel::longman ? "Longman 1959, along the geocentric radius" : "none";
 }
 
 }  // namespace
 
 bool set_tide_source(TideChoice& choice, const std::string& text,
                      const std::filesystem::path& directory) {
-    const bool is_name = std::find(kNames.begin(), kNames.end(), text) != kNames.end();
+    const bool is_name = std::ranges::find(kNames, text) != kNames.end();
     const std::filesystem::path file = is_name ? std::filesystem::path() : directory / text;
     if (!is_name && !std::filesystem::is_regular_file(file)) return false;
     choice.series = file;
@@ -59,62 +64,41 @@ bool set_tide_source(TideChoice& choice, const std::string& text,
 
 void set_tide_option(TideChoice& choice, const std::string& text) {
     if (set_tide_source(choice, text, "")) return;
-    throw InputError("--tide = " + text +
-                     ": neither a source nor a file; allowed: " + std::string(kTideSources));
+    throw InputError(
+        fmt::format("--tide = {}: neither a source nor a file; allowed: {}", text, kTideSources));
 }
 
 TideModel tide_model(const std::string& source) {
-    // One model for both names: direct is within 0.0001 mGal of the full harmonic catalogue.
+    // Both names use one model: it is within 0.0001 mGal of the harmonic catalogue (methods.md).
     if (source == "direct" || source == "catalogue") return TideModel::direct;
     if (source == "longman") return TideModel::longman;
     if (source == "none") return TideModel::none;
-    throw InputError("tide = " + source + ": unknown; allowed: " + std::string(kTideSources));
-}
-
-void set_tide(std::vector<SurveyRow>& rows, const std::vector<text::Site>& sites, TideModel model,
-              TideFactors factors) {
-    for (SurveyRow& row : rows) {
-        const text::Site* const site = text::find_site(sites, row.site);
-        if (site == nullptr) {
-            throw InputError("site " + row.site +
-                             ": unknown; allowed: a name of the table of sites");
-        }
-        row.tide =
-            earth_tide(model, row.time, {site->latitude, site->longitude, site->altitude}, factors);
-    }
-}
-
-void set_given_tide(std::vector<SurveyRow>& rows) {
-    for (SurveyRow& row : rows) {
-        if (!row.given_tide) {
-            throw InputError("tide = given: " + row.site +
-                             " has no earth_tide_mgal; allowed: direct, catalogue, longman, none, "
-                             "or a CSV time,tide_mgal");
-        }
-        row.tide = *row.given_tide;
-    }
+    throw InputError(fmt::format("tide = {}: unknown; allowed: {}", source, kTideSources));
 }
 
 void apply_tide(std::vector<SurveyRow>& rows, const std::vector<text::Site>& sites,
                 const TideChoice& choice) {
-    if (!choice.series.empty()) {
-        set_series_tide(rows, choice.series);
-    } else if (choice.source == "given") {
-        set_given_tide(rows);
-    } else {
-        set_tide(rows, sites, tide_model(choice.source), choice.factors);
+    if (!choice.series.empty()) return set_series_tide(rows, choice.series);
+    if (choice.source == "given") return set_given_tide(rows);
+    const TideModel model = tide_model(choice.source);
+    for (SurveyRow& row : rows) {
+        const text::Site* const site = text::find_site(sites, row.site);
+        if (site == nullptr)
+            throw InputError(
+                fmt::format("site {}: unknown; allowed: a name of the table of sites", row.site));
+        row.tide = earth_tide(model, row.time, {site->latitude, site->longitude, site->altitude},
+                              choice.factors);
     }
 }
 
-void describe_tide(nlohmann::ordered_json& settings, const TideChoice& choice) {
+void describe_tide(Json& settings, const TideChoice& choice) {
     settings["tide"] = choice.source;
     settings["tide_model"] = model_text(choice);
     settings["tide_sign"] = "effect on gravity: positive where gravity is larger; subtracted";
-    settings["delta2"] = nullptr;
-    settings["delta3"] = nullptr;
-    if (!is_computed(choice)) return;
-    settings["delta2"] = choice.factors.delta2;
-    settings["delta3"] = choice.factors.delta3;
+    const bool is_computed =
+        choice.series.empty() && choice.source != "given" && choice.source != "none";
+    settings["delta2"] = is_computed ? Json(choice.factors.delta2) : Json(nullptr);
+    settings["delta3"] = is_computed ? Json(choice.factors.delta3) : Json(nullptr);
 }
 
 }  // namespace a351::corrector

@@ -40,18 +40,9 @@ void set_tide_option(TideChoice& choice, const std::string& text);
 /// @throws InputError  if the source is another one; names those allowed.
 [[nodiscard]] TideModel tide_model(const std::string& source);
 
-/// Sets the tide of each row by a model, at the time and site of the row.
-/// @throws InputError  if a row's site is not in `sites`.
-void set_tide(std::vector<SurveyRow>& rows, const std::vector<text::Site>& sites, TideModel model,
-              TideFactors factors);
-
-/// Sets the tide of each row to the tide given in its table.
-/// @throws InputError  if a row has none.
-void set_given_tide(std::vector<SurveyRow>& rows);
-
 /// Sets the tide of every row from the chosen source.
-/// @throws InputError  as set_tide(), set_given_tide() or TideSeries::read(), or if the series does
-///                     not cover a row.
+/// @throws InputError  as tide_model() or TideSeries::read(); if a row's site is not in `sites`, a
+///                     row has no given tide, or the series does not cover a row.
 void apply_tide(std::vector<SurveyRow>& rows, const std::vector<text::Site>& sites,
                 const TideChoice& choice);
 

@@ -1,16 +1,15 @@
 #include "corrector/tide/tide_series.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 
 namespace a351::corrector {
-namespace {
 
 constexpr std::size_t kPoints = 4;  // points that determine a cubic
-
-}  // namespace
 
 TideSeries TideSeries::read(const std::filesystem::path& file) {
     const text::CsvTable table = text::read_csv(file);
@@ -18,17 +17,15 @@ TideSeries TideSeries::read(const std::filesystem::path& file) {
     for (std::size_t row = 0; row < table.row_count(); ++row) {
         const auto time = parse_rfc3339(table.cell(row, "time"));
         if (!time) table.refuse(row, "time", "not an instant", "YYYY-MM-DDThh:mm:ss with zone");
-        if (!series.times_.empty() && *time <= series.times_.back()) {
+        if (!series.times_.empty() && *time <= series.times_.back())
             table.refuse(row, "time", "not after the row before it", "ascending times");
-        }
         series.times_.push_back(*time);
         // No solid-Earth tide exceeds 0.3 mGal; the limit 1 finds a wrong unit.
         series.values_mgal_.push_back(table.number(row, "tide_mgal", -1.0, 1.0));
     }
-    if (series.times_.size() < kPoints) {
-        throw InputError(file.string() + ": too few rows; allowed: " + std::to_string(kPoints) +
-                         " or more");
-    }
+    if (series.times_.size() < kPoints)
+        throw InputError(
+            fmt::format("{}: too few rows; allowed: {} or more", file.string(), kPoints));
     return series;
 }
 
@@ -45,9 +42,8 @@ std::optional<MilliGal> TideSeries::at(UtcTime time) const {
 }
 
 bool TideSeries::has_gap(std::size_t first) const {
-    for (std::size_t i = first + 1; i < first + kPoints; ++i) {
+    for (std::size_t i = first + 1; i < first + kPoints; ++i)
         if (times_[i] - times_[i - 1] > kLongestTideStep) return true;
-    }
     return false;
 }
 

@@ -18,15 +18,15 @@ std::vector<double> lagged(const TimeSeries<DegC>& series, double tau_s) {
     return y;
 }
 
-BinMeans::BinMeans(const TimeSeries<DegC>& grid, const std::vector<DayBin>& bins)
-    : grid_size_(grid.size()) {
+BinMeans::BinMeans(const TimeSeries<DegC>& grid, const std::vector<DayBin>& bins) {
     const auto last = static_cast<double>(grid.size() - 1);
     for (const DayBin& bin : bins) {
         for (const UtcTime time : bin.times) {
             const double place =
                 std::clamp(seconds_between(grid.start(), time) * grid.rate().value(), 0.0, last);
             const double before = std::min(std::floor(place), std::max(last - 1.0, 0.0));
-            places_.push_back({static_cast<std::size_t>(before), place - before});
+            const auto first = static_cast<std::size_t>(before);
+            places_.push_back({first, std::min(first + 1, grid.size() - 1), place - before});
         }
         ends_.push_back(places_.size());
     }
@@ -40,8 +40,7 @@ Eigen::VectorXd BinMeans::of(const std::vector<double>& values) const {
         double sum = 0.0;
         for (; i < ends_[bin]; ++i) {
             const Place& place = places_[i];
-            const std::size_t after = std::min(place.before + 1, grid_size_ - 1);
-            sum += (1.0 - place.share) * values[place.before] + place.share * values[after];
+            sum += (1.0 - place.share) * values[place.before] + place.share * values[place.after];
         }
         means(static_cast<Eigen::Index>(bin)) = sum / static_cast<double>(i - begin);
     }

@@ -42,10 +42,9 @@ public:
 private:
     /// Position of a sample between two samples of the grid.
     struct Place {
-        std::size_t before;  ///< Number of the grid's sample before it.
-        double share;        ///< Weight of the next one, 0 to 1.
+        std::size_t before, after;  ///< Numbers of the grid's samples beside it.
+        double share;               ///< Weight of the second, 0 to 1.
     };
-    std::size_t grid_size_;
     std::vector<Place> places_;      ///< Positions of all samples, bin by bin.
     std::vector<std::size_t> ends_;  ///< End of each bin in places_.
 };

@@ -16,18 +16,16 @@ using Index = Eigen::Index;
 struct Estimates {
     Eigen::VectorXd values, standard_errors;  ///< (estimated) Terms, then unknowns.
     Eigen::VectorXd placement_mgal;           ///< (set-ups) Expectation, given all readings.
-    DayPriors::Vector shift;
-    DayPriors::Matrix shift_covariance;
 };
 
-/// Returns values by least squares at the point u, and errors with the lags as two more terms and
-/// with the expected noise.
+/// Returns values by least squares at the fit's point, and errors with the lags as two more terms
+/// and with the expected noise; sets the shift and its covariance.
 Estimates estimate(const DayProblem& problem, const DayRecord& record, std::size_t set_ups,
-                   const DayProblem::Point& u) {
-    const DayNoise noise = problem.noise(u);
+                   DayFit& fit) {
+    const DayFit::Point& u = fit.point;
     const Index estimated = problem.estimated();
     Eigen::MatrixXd columns = problem.scaled(u);
-    whiten(record.bins, noise, columns);
+    whiten(record.bins, fit.noise, columns);
     const auto x = columns.rightCols(estimated);
     // (X'X + 1)^-1 X'y: least squares with priors of variance 1
     const Eigen::VectorXd scaled = Cholesky(normal_matrix(x)).solve(x.transpose() * columns.col(0));
@@ -44,19 +42,20 @@ Estimates estimate(const DayProblem& problem, const DayRecord& record, std::size
     const Eigen::MatrixXd unscaling = problem.unscaling();
     result.standard_errors =
         (unscaling * covariance * unscaling.transpose()).diagonal().cwiseSqrt();
-    result.shift << u[kFastLag], u[kSlowLag], scaled.head(kTerms);
+    fit.shift << u[kFastLag], u[kSlowLag], scaled.head(kTerms);
     // The lags are last in `covariance` and first in the shift.
-    result.shift_covariance << covariance.bottomRightCorner(kLags, kLags),
+    fit.shift_covariance << covariance.bottomRightCorner(kLags, kLags),
         covariance.bottomLeftCorner(kLags, kTerms), covariance.topRightCorner(kTerms, kLags),
         covariance.topLeftCorner(kTerms, kTerms);
 
-    // Expected placement: placement^2 M' C^-1 r, with residuals r and membership M of the set-ups.
+    // Expected placement of each set-up: placement^2 M' C^-1 r.  C is the covariance of the noise, r
+    // the residuals; M(i, s) = 1 if bin i belongs to set-up s, else 0.
     Eigen::MatrixXd members = Eigen::MatrixXd::Zero(x.rows(), static_cast<Index>(set_ups));
     for (std::size_t i = 0; i < record.bins.size(); ++i)
         members(static_cast<Index>(i), static_cast<Index>(record.bins[i].set_up)) = 1.0;
-    whiten(record.bins, noise, members);
+    whiten(record.bins, fit.noise, members);
     result.placement_mgal =
-        noise.placement_mgal * noise.placement_mgal * (members.transpose() * left);
+        fit.noise.placement_mgal * fit.noise.placement_mgal * (members.transpose() * left);
     return result;
 }
 
@@ -75,7 +74,6 @@ std::vector<DaySetUp> means_of_set_ups(const DayProblem& problem, const DayRecor
         DaySetUp& mean = means[bin.set_up];
         const auto row = static_cast<Index>(i);
         const double weight = static_cast<double>(bin.times.size()) / counts[bin.set_up];
-        mean.has_bins = true;
         mean.reading = mean.reading + MilliGal(weight * problem.readings_mgal()(row));
         mean.temperature = mean.temperature + DegC(weight * temperature(row));
         mean.rate_degc_per_h += weight * x(row, static_cast<Index>(DayTerm::fast));
@@ -89,37 +87,50 @@ std::vector<DaySetUp> means_of_set_ups(const DayProblem& problem, const DayRecor
 
 }  // namespace
 
-std::string_view day_term_name(DayTerm term) {
-    constexpr std::array<std::string_view, kDayTerms> kNames{"constant_mgal",
-                                                             "temperature_mgal_per_degc",
-                                                             "slow_temperature_mgal_per_degc",
-                                                             "rate_mgal_per_degc_per_h",
-                                                             "time_mgal_per_h",
-                                                             "warm_up_mgal",
-                                                             "x_mgal_per_g",
-                                                             "y_mgal_per_g"};
-    return kNames.at(static_cast<std::size_t>(term));
+void DayPriors::observe(const std::vector<Eigen::Index>& places, const Eigen::VectorXd& values,
+                        const Eigen::MatrixXd& covariance) {
+    const Matrix before = factor * factor.transpose();
+    const Eigen::MatrixXd innovation = before(places, places) + covariance;
+    const Eigen::MatrixXd gain = Cholesky(innovation).solve(before(places, Eigen::all)).transpose();
+    // K = P H' (H P H' + R)^-1
+    mean += gain * (values - Eigen::VectorXd(mean(places)));
+    // Joseph's form, P = (1 - K H) P (1 - K H)' + K R K': the result remains a covariance, however
+    // exact the measurement is.
+    Matrix left = Matrix::Identity();
+    for (std::size_t k = 0; k < places.size(); ++k)
+        left.col(places[k]) -= gain.col(static_cast<Eigen::Index>(k));
+    const Matrix after = left * before * left.transpose() + gain * covariance * gain.transpose();
+    factor = Cholesky(0.5 * (after + after.transpose())).lower();
+}
+
+// fit_day() lists the priors; corrector/methods.md gives their origin.
+DayPriors usual_day_priors() {
+    constexpr double kFreeDeviation_mgal = 1e4;
+    constexpr double kLagFactor = 1.5;
+    DayPriors priors;
+    priors.mean << std::log(43.0), std::log(2700.0), 0.0, -12.0, -20.0, 11.3, 0.0, 0.0, 0.0, 0.0;
+    DayPriors::Vector deviations;
+    deviations << std::log(kLagFactor), std::log(kLagFactor), kFreeDeviation_mgal, 12.0, 20.0, 11.3,
+        1.0, 36.0, 2000.0, 2000.0;
+    priors.factor = deviations.asDiagonal();
+    return priors;
 }
 
 std::optional<DayFit> fit_day(const DayRecord& record, const std::vector<DayStation>& stations,
                               const DayFit* nearby, const DayPriors& priors) {
-    const bool is_held = std::any_of(record.bins.begin(), record.bins.end(), [&](const auto& bin) {
+    const auto is_held = [&](const DayBin& bin) {
         return stations[bin.set_up].gravity.has_value();
-    });
-    if (!is_held) return std::nullopt;
+    };
+    if (std::ranges::none_of(record.bins, is_held)) return std::nullopt;
     const DayProblem problem(record, stations, priors);
-    const DayProblem::Point u =
-        problem.most_likely(nearby != nullptr ? std::optional(nearby->point) : std::nullopt);
-    const Estimates estimates = estimate(problem, record, stations.size(), u);
-
     DayFit fit;
-    fit.point = u;
+    fit.point =
+        problem.most_likely(nearby != nullptr ? std::optional(nearby->point) : std::nullopt);
+    const DayFit::Point& u = fit.point;
     fit.noise = problem.noise(u);
-    fit.shift = estimates.shift;
-    fit.shift_covariance = estimates.shift_covariance;
+    const Estimates estimates = estimate(problem, record, stations.size(), fit);
     fit.fast_lag_s = problem.lag_s(u, kFastLag);
     fit.slow_lag_s = problem.lag_s(u, kSlowLag);
-    fit.log_likelihood = -problem.cost(u);
     for (std::size_t k = 0; k < kDayTerms; ++k) {
         const auto term = static_cast<Index>(k);
         fit.coefficients.at(k) = {estimates.values(term), estimates.standard_errors(term)};
@@ -132,7 +143,6 @@ std::optional<DayFit> fit_day(const DayRecord& record, const std::vector<DayStat
     fit.set_ups = means_of_set_ups(problem, record, stations.size(), u, estimates.values);
     for (std::size_t s = 0; s < stations.size(); ++s) {
         DaySetUp& set_up = fit.set_ups[s];
-        if (!set_up.has_bins) continue;
         const DayStation& station = stations[s];
         const double base =
             station.gravity ? station.gravity->value() : problem.rough_mgal()[station.unknown];

@@ -17,15 +17,63 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "corrector/reading/day_record.hpp"
 #include "corrector/whole_day/day_noise.hpp"
-#include "corrector/whole_day/day_priors.hpp"
 
 namespace a351::corrector {
+
+/// Terms of the model: c, rA, rS, rF, d, w, bx, by.
+enum class DayTerm { constant, level, slow, fast, drift, warm_up, x, y };
+/// Number of terms.
+inline constexpr std::size_t kDayTerms = 8;
+/// Names of the terms with their units, as in result.json.
+inline constexpr std::array<std::string_view, kDayTerms> kDayTermNames{
+    "constant_mgal",
+    "temperature_mgal_per_degc",
+    "slow_temperature_mgal_per_degc",
+    "rate_mgal_per_degc_per_h",
+    "time_mgal_per_h",
+    "warm_up_mgal",
+    "x_mgal_per_g",
+    "y_mgal_per_g"};
+
+/// Number of lags: fast tF, slow tS.  In DayPriors they are before the terms.
+inline constexpr std::size_t kDayLags = 2;
+
+/// Joint normal prior: natural logarithms of the lags in seconds, then the terms in their units.
+struct DayPriors {
+    static constexpr int kCount = static_cast<int>(kDayLags + kDayTerms);
+    using Vector = Eigen::Matrix<double, kCount, 1>;
+    using Matrix = Eigen::Matrix<double, kCount, kCount>;
+
+    Vector mean = Vector::Zero();
+    Matrix factor = Matrix::Identity();  ///< Lower triangular L of the covariance L L'.
+
+    /// Combines the prior with an independent measurement of some of its quantities (Kalman
+    /// update).
+    ///
+    /// The measurement may be very exact: variances down to 1e-20 leave a finite prior with this
+    /// standard deviation (day_model_test.cpp).
+    /// @param places      (m) places of the quantities, see place_of(); 0 and 1 are the lags.
+    /// @param values      (m) measured values; of a lag ln(s).
+    /// @param covariance  (m, m) of the values, positive definite.
+    /// @throws std::invalid_argument  if the resulting covariance is not positive definite.
+    void observe(const std::vector<Eigen::Index>& places, const Eigen::VectorXd& values,
+                 const Eigen::MatrixXd& covariance);
+
+    /// Returns the index of a term in `mean`, which is also its row and column in `factor`.
+    [[nodiscard]] static constexpr Eigen::Index place_of(DayTerm term) {
+        return static_cast<Eigen::Index>(kDayLags) + static_cast<Eigen::Index>(term);
+    }
+};
+
+/// Returns the priors for a unit without calibration; fit_day() lists them.
+[[nodiscard]] DayPriors usual_day_priors();
 
 /// The station of a set-up: its gravity is held or unknown.
 struct DayStation {
@@ -33,9 +81,6 @@ struct DayStation {
     std::optional<MilliGal> gravity;  ///< Gravity that is held; absent: unknown.
     std::size_t unknown = 0;          ///< Number of the unknown, shared by set-ups of one station.
 };
-
-/// Returns the name of a term with its unit, as in result.json.
-[[nodiscard]] std::string_view day_term_name(DayTerm term);
 
 /// An estimated value.
 struct Estimate {
@@ -45,7 +90,6 @@ struct Estimate {
 
 /// One set-up.  Effects are means over its bins, mGal, with the sign that they have in the reading.
 struct DaySetUp {
-    bool has_bins = false;  ///< False: all other members are empty.
     MilliGal reading;
     DegC temperature;
     double rate_degc_per_h = 0.0;                 ///< (T - lag(T, tF)) / tF.
@@ -60,9 +104,8 @@ struct DayFit {
     using Point = std::array<double, 5>;
 
     Point point{};
-    DayNoise noise;                             ///< Most likely noise.
-    double fast_lag_s = 0.0, slow_lag_s = 0.0;  ///< tF, tS.
-    double log_likelihood = 0.0;                ///< Restricted, with the priors; plus a constant.
+    DayNoise noise;                                ///< Most likely noise.
+    double fast_lag_s = 0.0, slow_lag_s = 0.0;     ///< tF, tS.
     std::array<Estimate, kDayTerms> coefficients;  ///< Errors include those of the lags.
     std::vector<Estimate> unknown_mgal;            ///< Gravity of each unknown.
     /// Posterior mean of lags and terms, in coordinates in which their priors are independent and
@@ -91,7 +134,7 @@ struct DayFit {
 /// within 1 % and gravity within 0.001 mGal.  With a placement of 1.2 mGal, the rms error of an
 /// unknown station is below 1.6 mGal over 40 days, and 55 to 85 % are within the stated error.  The
 /// fit has the same bits each time.  From nearby an unknown agrees within 0.005 mGal.
-/// @param record    record of the day, finite.
+/// @param record    record of the day, finite; each set-up has a bin.
 /// @param stations  one per set-up, in the record's numbering; unknowns are numbered from 0.
 /// @param nearby    fit of a similar problem as start of the search, which is then faster; or null.
 /// @param priors    priors of lags and terms.

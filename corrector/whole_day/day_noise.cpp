@@ -4,14 +4,6 @@
 #include <numbers>
 
 namespace a351::corrector {
-namespace {
-
-/// Returns the correlation exp(-2 pi |dt| / period) of a process.
-double decay(double period_s, double lag_s) {
-    return std::exp(-2.0 * std::numbers::pi * std::abs(lag_s) / period_s);
-}
-
-}  // namespace
 
 double whiten(const std::vector<DayBin>& bins, const DayNoise& noise, Eigen::MatrixXd& columns) {
     constexpr auto kFlicker = static_cast<Eigen::Index>(kFlickerPeriods_s.size());
@@ -31,7 +23,8 @@ double whiten(const std::vector<DayBin>& bins, const DayNoise& noise, Eigen::Mat
         if (i > 0) {
             const double lag_s = seconds_between(bins[i - 1].time, bins[i].time);
             for (Eigen::Index k = 0; k < kFlicker; ++k)
-                keep(k) = decay(kFlickerPeriods_s.at(static_cast<std::size_t>(k)), lag_s);
+                keep(k) = std::exp(-2.0 * std::numbers::pi * std::abs(lag_s) /
+                                   kFlickerPeriods_s.at(static_cast<std::size_t>(k)));
         }
         if (i == 0 || bins[i].set_up != bins[i - 1].set_up) keep(kFlicker) = 0.0;
         // Prediction: x = K x, P = K P K + Q.  A new set-up has a new placement.

@@ -31,10 +31,10 @@ inline constexpr std::array<double, 7> kFlickerPeriods_s{40.0,   126.5,   400.0,
 /// plus white^2 kBinSamples / samples on the diagonal.  A Kalman filter runs over every column; its
 /// time is proportional to bins x columns.
 ///
-/// Accuracy: agrees with the dense factorisation within 1e-9, the determinant's logarithm within
+/// Accuracy: agrees with the dense factorisation within 1e-9 of the norm, the determinant's logarithm within
 /// 1e-12 of its value (day_noise_test.cpp).
 /// @param bins     (n) in order of set-up and time, each with at least one sample.
-/// @param noise    standard deviations, >= 0, of which at least one is > 0.
+/// @param noise    standard deviations, >= 0; white > 0, or flicker > 0 and no two bins at one time.
 /// @param columns  (n, c) finite, changed in place; one row per bin.
 /// @return ln det of the covariance.
 /// Source: A. C. Harvey, Forecasting, Structural Time Series Models and the Kalman Filter,

@@ -1,10 +1,7 @@
 #include "corrector/whole_day/day_problem.hpp"
 
-#include <nlopt.h>
-
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <utility>
 
 #include "corrector/whole_day/search_grid.hpp"
@@ -25,7 +22,6 @@ constexpr double kFreeDeviation_mgal = 1e4;  // deviation of gravity's prior: pr
 // fit_day() lists the priors; corrector/methods.md gives their origin.
 constexpr LogNormalPrior kPlacementPrior_mgal{1.2, 2.0}, kFlickerPrior_mgal{1.2, 2.0};
 constexpr double kWhiteFactor = 2.0;
-constexpr double kFarthest = 12.0;  // bound of the search, standard deviations of the priors
 
 std::size_t unknown_count(const std::vector<DayStation>& stations) {
     std::size_t count = 0;
@@ -46,8 +42,6 @@ double bin_scatter_mgal(const std::vector<DayBin>& bins) {
 }
 
 }  // namespace
-
-double LogNormalPrior::at(double u) const { return median * std::pow(factor, u); }
 
 DayProblem::DayProblem(const DayRecord& record, const std::vector<DayStation>& stations,
                        const DayPriors& priors)
@@ -91,7 +85,7 @@ void DayProblem::set_readings() {
 
 void DayProblem::set_fixed_columns() {
     const auto count = static_cast<Index>(record_.bins.size());
-    fixed_ = Eigen::MatrixXd::Zero(count, static_cast<Index>(kDayTerms) + unknowns_);
+    fixed_ = Eigen::MatrixXd::Zero(count, estimated());
     const auto column = [this](DayTerm term) { return fixed_.col(static_cast<Index>(term)); };
     column(DayTerm::constant).setOnes();
     column(DayTerm::level) =
@@ -107,8 +101,7 @@ void DayProblem::set_fixed_columns() {
         column(DayTerm::x)(i) = bin.x.value();
         column(DayTerm::y)(i) = bin.y.value();
         const DayStation& station = stations_[bin.set_up];
-        if (!station.gravity)
-            fixed_(i, static_cast<Index>(kDayTerms) + static_cast<Index>(station.unknown)) = 1.0;
+        if (!station.gravity) fixed_(i, kTerms + static_cast<Index>(station.unknown)) = 1.0;
     }
 }
 
@@ -219,28 +212,10 @@ double DayProblem::cost(const Point& u) const {
     return 0.5 * sum;
 }
 
-// Without a start nearby: Subplex, which no shape of the cost stops too early.  With one: BOBYQA,
-// which needs a fifth of the time.
 DayProblem::Point DayProblem::most_likely(const std::optional<Point>& nearby) const {
-    constexpr auto kCount = static_cast<unsigned>(std::tuple_size_v<Point>);
-    const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> search(
-        nlopt_create(nearby ? NLOPT_LN_BOBYQA : NLOPT_LN_SBPLX, kCount), &nlopt_destroy);
-    const auto cost_of = [](unsigned, const double* u, double*, void* problem) {
-        Point point;
-        std::transform(u, u + kCount, point.begin(), search_point);
-        return search_cost(static_cast<const DayProblem*>(problem)->cost(point));
-    };
-    nlopt_set_min_objective(search.get(), cost_of, const_cast<DayProblem*>(this));
-    nlopt_set_lower_bounds1(search.get(), -kFarthest);
-    nlopt_set_upper_bounds1(search.get(), kFarthest);
-    nlopt_set_initial_step1(search.get(), 0.5);
-    nlopt_set_xtol_abs1(search.get(), 1e-3);
-    nlopt_set_maxeval(search.get(), 2000);
-    Point u = nearby.value_or(Point{});
-    double least = 0.0;
-    nlopt_optimize(search.get(), u.data(), &least);
-    for (double& value : u) value = search_point(value);
-    return u;
+    return least_cost_point(
+        [this](const Point& u) { return cost(u); }, nearby.value_or(Point{}), nearby.has_value(),
+        {.farthest = 12.0, .first_step = 0.5, .tolerance = 1e-3, .most_costs = 2000});
 }
 
 }  // namespace a351::corrector

@@ -4,7 +4,7 @@
 /// and noise.
 
 #include <Eigen/Core>
-#include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -21,7 +21,7 @@ inline constexpr auto kTerms = static_cast<Eigen::Index>(kDayTerms);
 struct LogNormalPrior {
     double median = 0.0, factor = 1.0;
     /// Returns median x factor^u.
-    [[nodiscard]] double at(double u) const;
+    [[nodiscard]] double at(double u) const { return median * std::pow(factor, u); }
 };
 
 /// Places in DayFit::Point.
@@ -38,12 +38,8 @@ public:
     DayProblem(const DayRecord& record, const std::vector<DayStation>& stations,
                const DayPriors& priors);
 
-    /// Returns the number of unknowns.
-    [[nodiscard]] Eigen::Index unknowns() const { return unknowns_; }
     /// Returns the number of terms and unknowns.
-    [[nodiscard]] Eigen::Index estimated() const {
-        return static_cast<Eigen::Index>(kDayTerms) + unknowns_;
-    }
+    [[nodiscard]] Eigen::Index estimated() const { return kTerms + unknowns_; }
 
     /// Returns the estimates (estimated) in the units of the terms: a linear function of the
     /// point's lags and of the scaled coefficients.
@@ -105,7 +101,7 @@ private:
     LogNormalPrior white_mgal_;
     std::vector<double> rough_mgal_;
     Eigen::VectorXd readings_mgal_;
-    Eigen::MatrixXd fixed_;  ///< The columns, 0 in those that depend on the lags.
+    Eigen::MatrixXd fixed_;  ///< All columns of design(); 0 where one depends on the lags.
 };
 
 }  // namespace a351::corrector

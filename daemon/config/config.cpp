@@ -1,13 +1,15 @@
 #include "daemon/config/config.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <set>
 
-#include "daemon/config/unit_thresholds.hpp"
 #include "daemon/config/verdict_config.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/strict_toml.hpp"
+#include "protocol/wire/device_profile.hpp"
 
 namespace a351::daemon {
 namespace {
@@ -16,8 +18,8 @@ using text::TomlTable;
 
 bool is_code(std::string_view text, std::size_t shortest, std::size_t longest) {
     return text.size() >= shortest && text.size() <= longest &&
-           std::all_of(text.begin(), text.end(),
-                       [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); });
+           std::ranges::all_of(
+               text, [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); });
 }
 
 std::string code_or_refuse(TomlTable& table, std::string_view key, const char* fallback,
@@ -39,25 +41,23 @@ std::array<std::string, 3> read_axes(TomlTable& table, const std::string& joined
     const bool has_form = joined.size() == 5 && joined[1] == ',' && joined[3] == ',';
     if (has_form) axes = {joined.substr(0, 1), joined.substr(2, 1), joined.substr(4, 1)};
     const std::set<std::string> distinct(axes.begin(), axes.end());
-    const bool are_codes = std::all_of(axes.begin(), axes.end(),
-                                       [](const std::string& axis) { return is_code(axis, 1, 1); });
-    if (!are_codes || distinct.size() != axes.size()) {
+    const auto is_suffix = [](const std::string& axis) { return is_code(axis, 1, 1); };
+    if (!std::ranges::all_of(axes, is_suffix) || distinct.size() != axes.size()) {
         table.refuse("axes", "not three channel suffixes",
                      "three different characters A-Z 0-9 for x, y, z, as \"1,2,Z\"");
     }
     return axes;
 }
 
-StationConfig read_station(TomlTable table) {
-    StationConfig station;
+record::StationDescription read_station(TomlTable table) {
+    record::StationDescription station;
     station.codes.network =
         code_or_refuse(table, "network", "XX", 1, 2, "1 to 2 characters A-Z 0-9");
     station.codes.station =
         code_or_refuse(table, "station", "A351", 1, 5, "1 to 5 characters A-Z 0-9");
     station.codes.location = table.string_or("location", "00");
-    if (!station.codes.location.empty() && !is_code(station.codes.location, 2, 2)) {
+    if (!station.codes.location.empty() && !is_code(station.codes.location, 2, 2))
         table.refuse("location", "not a SEED code", "2 characters A-Z 0-9, or empty");
-    }
     station.latitude =
         Degrees(required_number(table, "latitude", -90, 90, "degrees north, -90 to 90"));
     station.longitude =
@@ -68,36 +68,47 @@ StationConfig read_station(TomlTable table) {
     return station;
 }
 
-std::string joined(const auto& values, const auto& text_of) {
+/// Joins the allowed values for a refusal.
+std::string joined(const auto& values) {
     std::string list;
-    for (const auto& value : values) list += (list.empty() ? "" : ", ") + text_of(value);
+    for (const auto& value : values) list += fmt::format("{}{}", list.empty() ? "" : ", ", value);
     return list;
 }
 
 int coded_value(TomlTable& table, std::string_view key, int fallback,
                 std::span<const wire::Coded> choices) {
     const auto value = static_cast<int>(table.integer_or(key, fallback, 0, 10'000'000));
-    const bool is_known =
-        std::any_of(choices.begin(), choices.end(),
-                    [value](const wire::Coded& choice) { return choice.value == value; });
-    if (!is_known) {
-        table.refuse(key, "not a known value", joined(choices, [](const wire::Coded& choice) {
-                         return std::to_string(choice.value);
-                     }));
-    }
+    std::vector<int> known;
+    for (const wire::Coded& choice : choices) known.push_back(choice.value);
+    if (std::ranges::count(known, value) == 0)
+        table.refuse(key, "not a known value", joined(known));
     return value;
+}
+
+/// Reads `VID:PID:SERIAL` (two hexadecimal numbers of four digits; the serial may contain colons).
+/// @return std::nullopt if the text has another form.
+std::optional<UsbAddress> parse_usb_address(std::string_view text) {
+    constexpr std::size_t kDigits = 4, kSerialAt = 2 * (kDigits + 1);
+    if (text.size() <= kSerialAt || text[kDigits] != ':' || text[kSerialAt - 1] != ':')
+        return std::nullopt;
+    const auto read = [](const char* digits, int& value) {
+        return std::from_chars(digits, digits + kDigits, value, 16).ptr == digits + kDigits &&
+               value >= 0;
+    };
+    UsbAddress address{.serial = std::string(text.substr(kSerialAt))};
+    if (!read(text.data(), address.vendor) || !read(text.data() + kDigits + 1, address.product))
+        return std::nullopt;
+    return address;
 }
 
 PortAddress read_address(TomlTable& table) {
     PortAddress address;
     address.path = table.path_or_empty("port");
     const std::string usb = table.string_or("usb", "");
-    if (!usb.empty()) {
-        address.usb = parse_usb_address(usb);
-        if (!address.usb) {
-            table.refuse("usb", "not an adapter's address",
-                         "VID:PID:SERIAL as printed by a351d --list-ports");
-        }
+    if (!usb.empty()) address.usb = parse_usb_address(usb);
+    if (!usb.empty() && !address.usb) {
+        table.refuse("usb", "not an adapter's address",
+                     "VID:PID:SERIAL as printed by a351d --list-ports");
     }
     if (address.path.empty() == !address.usb) {
         table.refuse("port",
@@ -107,23 +118,23 @@ PortAddress read_address(TomlTable& table) {
     return address;
 }
 
-void read_filter(TomlTable& table, SensorConfig& sensor) {
+void read_filter(TomlTable& table, LinkOptions& sensor, record::StationDescription& station) {
     const int rate_hz = sensor.settings.output_rate_hz;
-    sensor.filter = table.string_or("filter", "k512_fc9");
-    const wire::FilterSpec* const filter = sensor.profile->filter_named(sensor.filter);
+    station.filter = table.string_or("filter", "k512_fc9");
+    const wire::FilterSpec* const filter = sensor.profile->filter_named(station.filter);
     const auto rates = filter == nullptr ? std::span<const int>() : filter->allowed_rates_hz;
-    if (std::find(rates.begin(), rates.end(), rate_hz) == rates.end()) {
-        table.refuse("filter",
-                     "not usable at " + std::to_string(rate_hz) + " Hz with profile " +
-                         std::string(sensor.profile->name),
-                     joined(sensor.profile->filters_allowed_at(rate_hz),
-                            [](std::string_view name) { return std::string(name); }));
+    if (std::ranges::count(rates, rate_hz) == 0) {
+        table.refuse(
+            "filter",
+            fmt::format("not usable at {} Hz with profile {}", rate_hz, sensor.profile->name),
+            joined(sensor.profile->filters_allowed_at(rate_hz)));
     }
     sensor.settings.filter_code = filter->code;
+    station.group_delay = sensor.profile->group_delay(*filter);
 }
 
-SensorConfig read_sensor(TomlTable table, record::StationCodes& codes) {
-    SensorConfig sensor;
+LinkOptions read_sensor(TomlTable table, record::StationDescription& station) {
+    LinkOptions sensor;
     sensor.address = read_address(table);
     std::vector<std::string> profiles;
     for (const auto& profile : wire::all_profiles()) profiles.emplace_back(profile.name);
@@ -132,17 +143,20 @@ SensorConfig read_sensor(TomlTable table, record::StationCodes& codes) {
     sensor.baud = coded_value(table, "baud", 460800, sensor.profile->baud_rates);
     sensor.settings.output_rate_hz =
         coded_value(table, "output_rate_hz", 50, sensor.profile->output_rates_hz);
-    read_filter(table, sensor);
+    read_filter(table, sensor, station);
 
     constexpr int kBitsPerByte = 10;  // 8N1: start bit, eight data bits, stop bit.
     const int needed = sensor.settings.output_rate_hz *
                        static_cast<int>(sensor.settings.layout.frame_size()) * kBitsPerByte;
     if (needed > sensor.baud) {
         table.refuse("baud", "too slow for the output rate",
-                     "at least " + std::to_string(needed) + " bit/s");
+                     fmt::format("at least {} bit/s", needed));
     }
-    sensor.serial_number = table.string_or("serial_number", "");
-    codes.axes = read_axes(table, table.string_or("axes", "1,2,Z"));
+    sensor.expected_serial_number = table.string_or("serial_number", "");
+    station.codes.axes = read_axes(table, table.string_or("axes", "1,2,Z"));
+    station.profile = sensor.profile->name;
+    station.is_profile_verified = sensor.profile->is_verified;
+    station.output_rate_hz = sensor.settings.output_rate_hz;
     table.require_all_read();
     return sensor;
 }
@@ -160,28 +174,23 @@ bool is_same_port(const std::filesystem::path& one, const std::filesystem::path&
 /// Reads [oven].  The table is also checked if it is not enabled.
 std::optional<OvenLinkOptions> read_oven(TomlTable table, const PortAddress& sensor) {
     // Rates that libmodbus can set and a line of 500 m can carry; controllers support some of them.
-    constexpr std::array<std::int64_t, 8> kBauds{1200,  2400,  4800,  9600,
-                                                 19200, 38400, 57600, 115200};
+    constexpr std::array kBauds{1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200};
     const bool is_enabled = table.boolean_or("enabled", false);
     OvenLinkOptions oven;
     oven.line.port = table.path_or_empty("port");
     oven.line.baud = static_cast<int>(table.integer_or("baud", 9600, 1200, 115200));
-    if (std::find(kBauds.begin(), kBauds.end(), oven.line.baud) == kBauds.end()) {
-        table.refuse("baud", "not a known value",
-                     joined(kBauds, [](std::int64_t baud) { return std::to_string(baud); }));
-    }
+    if (std::ranges::count(kBauds, oven.line.baud) == 0)
+        table.refuse("baud", "not a known value", joined(kBauds));
     oven.line.parity = table.choice_or("parity", "E", {"E", "O", "N"}).front();
     // 1 ... 99 by H175-E1, section 1; 0 would address all units.
     oven.line.unit = static_cast<int>(table.integer_or("unit", 1, 1, 99));
     oven.line.is_rs485 = table.boolean_or("rs485", false);
     oven.poll_interval = from_seconds(table.number_or("poll_s", 1.0, 0.1, 3600.0));
     oven.decimals = static_cast<int>(table.integer_or("decimals", 1, 0, oven::kMostDecimals));
-    if (is_enabled && oven.line.port.empty()) {
+    if (is_enabled && oven.line.port.empty())
         table.refuse("port", "missing", "the controller's serial port");
-    }
-    if (is_enabled && !sensor.path.empty() && is_same_port(oven.line.port, sensor.path)) {
+    if (is_enabled && !sensor.path.empty() && is_same_port(oven.line.port, sensor.path))
         table.refuse("port", "the sensor's port", "a port other than sensor.port");
-    }
     table.require_all_read();
     return is_enabled ? std::optional(oven) : std::nullopt;
 }
@@ -211,9 +220,8 @@ PageConfig read_page(TomlTable table) {
     page.listen = *address;
     page.hosts = table.strings("hosts");
     page.token = table.string_or("token", "");
-    if (!page.token.empty() && !is_token(page.token)) {
+    if (!page.token.empty() && !is_token(page.token))
         table.refuse("token", "too weak", "16 or more visible ASCII characters, or \"\"");
-    }
     page.assets = table.path_or_empty("assets");
     if (!page.assets.empty() && !std::filesystem::is_directory(page.assets)) {
         table.refuse("assets", "no such directory: " + page.assets.string(),
@@ -229,19 +237,18 @@ PageConfig read_page(TomlTable table) {
 
 SurveyConfig read_survey(TomlTable table) {
     SurveyConfig survey;
-    if (const auto file = table.path_or_empty("sites"); !file.empty()) {
-        if (!std::filesystem::exists(file)) {
-            table.refuse("sites", "no such file: " + file.string(), "a CSV file of sites, or \"\"");
-        }
+    const auto file_at = [&table](std::string_view key, std::string_view allowed) {
+        auto file = table.path_or_empty(key);
+        if (!file.empty() && !std::filesystem::exists(file))
+            table.refuse(key, "no such file: " + file.string(), allowed);
+        return file;
+    };
+    if (const auto file = file_at("sites", "a CSV file of sites, or \"\""); !file.empty())
         survey.sites = text::read_sites(file);
-    }
-    if (const auto file = table.path_or_empty("calibration"); !file.empty()) {
-        if (!std::filesystem::exists(file)) {
-            table.refuse("calibration", "no such file: " + file.string(),
-                         "a calibration file written by a351-correct, or \"\"");
-        }
+    if (const auto file =
+            file_at("calibration", "a calibration file written by a351-correct, or \"\"");
+        !file.empty())
         survey.calibration = corrector::read_calibration(file);
-    }
     survey.planned = from_seconds(60.0 * table.number_or("occupation_min", 10.0, 1.0, 240.0));
     table.require_all_read();
     return survey;
@@ -249,33 +256,14 @@ SurveyConfig read_survey(TomlTable table) {
 
 }  // namespace
 
-std::optional<UsbAddress> parse_usb_address(std::string_view text) {
-    constexpr std::size_t kDigits = 4;
-    const auto hex = [&text](std::size_t at) -> std::optional<int> {
-        if (text.size() < at + kDigits) return std::nullopt;
-        int value = 0;
-        const char* const first = text.data() + at;
-        const auto parsed = std::from_chars(first, first + kDigits, value, 16);
-        if (parsed.ec != std::errc() || parsed.ptr != first + kDigits || value < 0) {
-            return std::nullopt;
-        }
-        return value;
-    };
-    constexpr std::size_t kSerialAt = 2 * (kDigits + 1);
-    const auto vendor = hex(0);
-    const auto product = hex(kDigits + 1);
-    if (!vendor || !product || text.size() <= kSerialAt) return std::nullopt;
-    if (text[kDigits] != ':' || text[kSerialAt - 1] != ':') return std::nullopt;
-    return UsbAddress{*vendor, *product, std::string(text.substr(kSerialAt))};
-}
-
 Config read_config(const std::filesystem::path& file) {
     TomlTable root = text::read_toml(file);
     Config config;
     config.file = file;
     config.station = read_station(root.table("station"));
-    config.sensor = read_sensor(root.table("sensor"), config.station.codes);
+    config.sensor = read_sensor(root.table("sensor"), config.station);
     config.oven = read_oven(root.table("oven"), config.sensor.address);
+    config.station.has_oven = config.oven.has_value();
     config.storage = read_storage(root.table("storage"), config.sensor.settings.output_rate_hz);
     config.page = read_page(root.table("page"));
     config.survey = read_survey(root.table("survey"));
@@ -284,6 +272,21 @@ Config read_config(const std::filesystem::path& file) {
         read_verdict(root.table("verdict"), unit ? thresholds_for(*unit) : VerdictOptions{});
     root.require_all_read();
     return config;
+}
+
+record::JournalHeader journal_header(const Config& config, const HostClock& clock) {
+    record::JournalHeader header;
+    header.boot_id = clock.boot_id();
+    header.program_version = A351_VERSION;
+    header.codes = config.station.codes;
+    header.profile = config.station.profile;
+    header.output_rate_hz = config.station.output_rate_hz;
+    header.filter = config.station.filter;
+    header.burst_ctrl = config.sensor.settings.layout.burst_ctrl();
+    header.baud = config.sensor.baud;
+    header.declared_rate_hz = config.storage.declared_rate_hz;
+    if (config.oven) header.oven_interval = archived_interval(*config.oven, clock);
+    return header;
 }
 
 }  // namespace a351::daemon

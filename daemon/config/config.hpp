@@ -2,39 +2,22 @@
 /// @file
 /// The daemon's configuration: one strict TOML file (config/a351d.toml is the annotated example).
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "daemon/config/listen_address.hpp"
+#include "daemon/source/host_clock.hpp"
 #include "daemon/source/oven_link.hpp"
-#include "daemon/source/port.hpp"
+#include "daemon/source/sensor_link.hpp"
 #include "daemon/verdict/verdict_options.hpp"
-#include "protocol/core/units.hpp"
 #include "protocol/journal/journal.hpp"
+#include "protocol/station/station_xml.hpp"
 #include "protocol/text/sites.hpp"
 #include "protocol/unit/calibration.hpp"
-#include "protocol/wire/device_profile.hpp"
-#include "protocol/wire/handshake.hpp"
 
 namespace a351::daemon {
-
-struct StationConfig {
-    record::StationCodes codes;
-    Degrees latitude, longitude;  ///< Position of the base station.
-    Metres elevation;
-};
-
-struct SensorConfig {
-    PortAddress address;
-    const wire::DeviceProfile* profile = nullptr;  ///< Never null after read_config().
-    int baud = 460800;
-    wire::SensorSettings settings;
-    std::string filter;         ///< Name of settings.filter_code.
-    std::string serial_number;  ///< Only serial number accepted; empty accepts any.
-};
 
 struct StorageConfig {
     std::filesystem::path root;
@@ -56,9 +39,9 @@ struct SurveyConfig {
 };
 
 struct Config {
-    std::filesystem::path file;  ///< Path of the file.
-    StationConfig station;
-    SensorConfig sensor;
+    std::filesystem::path file;           ///< Path of the file.
+    record::StationDescription station;   ///< Device and times are added for each session.
+    LinkOptions sensor;                   ///< Header and known stream are added at the start.
     std::optional<OvenLinkOptions> oven;  ///< Absent if not enabled.
     StorageConfig storage;
     PageConfig page;
@@ -70,8 +53,7 @@ struct Config {
 /// @throws InputError  with file, line, key, value and the allowed values.
 [[nodiscard]] Config read_config(const std::filesystem::path& file);
 
-/// Reads `VID:PID:SERIAL` (two hexadecimal numbers of four digits; the serial may contain colons).
-/// @return std::nullopt if the text has another form.
-[[nodiscard]] std::optional<UsbAddress> parse_usb_address(std::string_view text);
+/// Makes the header of the journal; session and device are filled in by the sensor's link.
+[[nodiscard]] record::JournalHeader journal_header(const Config& config, const HostClock& clock);
 
 }  // namespace a351::daemon

@@ -1,6 +1,7 @@
 #include "daemon/config/listen_address.hpp"
 
 #include <arpa/inet.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>
@@ -44,13 +45,13 @@ std::optional<ListenAddress> parse_listen(std::string_view text) {
 }
 
 std::string to_string(const ListenAddress& address) {
-    const std::string host = address.is_v6 ? "[" + address.ip + "]" : address.ip;
-    return host + ":" + std::to_string(address.port);
+    return address.is_v6 ? fmt::format("[{}]:{}", address.ip, address.port)
+                         : fmt::format("{}:{}", address.ip, address.port);
 }
 
 bool is_token(std::string_view text) {
     return text.size() >= kShortestToken &&
-           std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c < '\x7f'; });
+           std::ranges::all_of(text, [](char c) { return c > ' ' && c < '\x7f'; });
 }
 
 }  // namespace a351::daemon

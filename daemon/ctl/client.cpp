@@ -1,5 +1,7 @@
 #include "daemon/ctl/client.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 
@@ -45,8 +47,9 @@ Reply ask(const Url& url, http::request<http::string_body> request) {
     asio::co_spawn(io, exchange(url, request, answer, error), asio::detached);
     io.run();
     if (error) {
-        throw NoDaemon("no daemon answers at http://" + url.authority() + ": " + error.message() +
-                       "; check that a351d is running");
+        throw NoDaemon(
+            fmt::format("no daemon answers at http://{}: {}; check that a351d is running",
+                        url.authority(), error.message()));
     }
     return {static_cast<int>(answer.get().result_int()), std::move(answer.get().body())};
 }
@@ -55,13 +58,13 @@ Reply ask(const Url& url, http::request<http::string_body> request) {
 
 std::string Url::authority() const {
     const bool is_v6 = host.find(':') != std::string::npos;
-    return (is_v6 ? "[" + host + "]" : host) + ":" + port;
+    return is_v6 ? fmt::format("[{}]:{}", host, port) : host + ":" + port;
 }
 
 Url parse_url(std::string_view text) {
     const auto refuse = [&]() {
-        throw InputError("--url = " + std::string(text) +
-                         ": not an address; allowed: http://HOST:PORT");
+        throw InputError(
+            fmt::format("--url = {}: not an address; allowed: http://HOST:PORT", text));
     };
     constexpr std::string_view kScheme = "http://";
     if (!text.starts_with(kScheme)) refuse();
@@ -83,11 +86,10 @@ Url parse_url(std::string_view text) {
         rest = "";
     }
     const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-    const bool is_number = !url.port.empty() && url.port.size() <= 5 &&
-                           std::all_of(url.port.begin(), url.port.end(), is_digit);
-    const bool is_clean = std::all_of(url.host.begin(), url.host.end(), [](char c) {
-        return c > ' ' && c < '\x7f' && c != '/' && c != '@';
-    });
+    const bool is_number =
+        !url.port.empty() && url.port.size() <= 5 && std::ranges::all_of(url.port, is_digit);
+    const bool is_clean = std::ranges::all_of(
+        url.host, [](char c) { return c > ' ' && c < '\x7f' && c != '/' && c != '@'; });
     if (url.host.empty() || !rest.empty() || !is_number || !is_clean) refuse();
     return url;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -38,8 +37,6 @@ public:
     [[nodiscard]] Reply get(const std::string& path) const;
     [[nodiscard]] Reply post(const std::string& path, const std::string& json,
                              const std::string& token) const;
-
-    [[nodiscard]] const Url& url() const noexcept { return url_; }
 
 private:
     Url url_;

@@ -1,3 +1,4 @@
+#include <fmt/core.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -58,7 +59,7 @@ std::optional<json> accepted(const Reply& reply) {
     const auto error = body.find("error");
     complain(error != body.end() && error->is_string()
                  ? error->get<std::string>()
-                 : "the daemon answered with status " + std::to_string(reply.status));
+                 : fmt::format("the daemon answered with status {}", reply.status));
     return std::nullopt;
 }
 
@@ -137,13 +138,13 @@ int show(const Client& client, const std::string& path, std::string (*table)(con
 
 void check(const Arguments& arguments) {
     if (!arguments.at.empty() && !parse_rfc3339(arguments.at)) {
-        throw InputError("--at = " + arguments.at +
-                         ": not an instant; allowed: RFC 3339 such as 2026-01-31T09:30:00Z");
+        throw InputError(
+            fmt::format("--at = {}: not an instant; allowed: RFC 3339 such as 2026-01-31T09:30:00Z",
+                        arguments.at));
     }
     const auto now = std::chrono::time_point_cast<Nanoseconds>(std::chrono::system_clock::now());
-    if (!arguments.clock.empty() && !parse_clock_scale(arguments.clock, now)) {
+    if (!arguments.clock.empty() && !parse_clock_scale(arguments.clock, now))
         throw InputError("--clock = " + arguments.clock + ": allowed: scaled:FACTOR@UTC[,HOST]");
-    }
 }
 
 }  // namespace
@@ -182,7 +183,7 @@ int main(int argc, char** argv) {
                                       "Show the status on one screen; exit status 0 good, 1 "
                                       "warning, 2 fault, 3 not running or bad usage");
     status->add_flag("--json", a.json, "Print the daemon's answer unchanged (JSON)");
-    auto* watching = app.add_subcommand("watch", "Show the status every second until interrupted");
+    app.add_subcommand("watch", "Show the status every second until interrupted");
     auto* start = app.add_subcommand("start", "Start an occupation at a benchmark");
     start->add_option("SITE", a.site, "Benchmark")->type_name("")->required();
     add_at(start);
@@ -193,8 +194,7 @@ int main(int argc, char** argv) {
     auto* setup = app.add_subcommand(
         "setup", "Begin a further set-up: the sensor was lifted and set down again");
     add_at(setup);
-    auto* discard =
-        app.add_subcommand("discard", "Discard the running occupation, or else the last one");
+    app.add_subcommand("discard", "Discard the running occupation, or else the last one");
     auto* rename = app.add_subcommand(
         "rename", "Correct the site of the running occupation, or else of the last");
     rename->add_option("NAME", a.site, "Benchmark")->type_name("")->required();
@@ -205,26 +205,23 @@ int main(int argc, char** argv) {
     target->add_option("MGAL", a.target_mgal, "Standard error, 0.01-1000 mGal")
         ->type_name("")
         ->required();
-    auto* sites =
-        app.add_subcommand("sites", "List the benchmarks, nearest to the last occupation first");
-    auto* list = app.add_subcommand("list", "List the finished occupations");
+    app.add_subcommand("sites", "List the benchmarks, nearest to the last occupation first");
+    app.add_subcommand("list", "List the finished occupations");
 
     const auto usage_status = [&] { return *status ? kNoDaemon : kUsage; };
     try {
         app.parse(argc, argv);
         check(a);
         const Client client(parse_url(a.url));
-        if (*status) return show_status(client, a);
-        if (*watching) return watch(client);
-        if (*start) return change(client, a, "/api/occupation/start", order(a));
-        if (*stop) return change(client, a, "/api/occupation/stop", order(a));
-        if (*setup) return change(client, a, "/api/occupation/setup", order(a));
-        if (*discard) return change(client, a, "/api/occupation/discard", order(a));
-        if (*rename) return change(client, a, "/api/occupation/rename", order(a));
-        if (*note) return change(client, a, "/api/note", order(a));
-        if (*target) return change(client, a, "/api/target", json{{"target_mgal", a.target_mgal}});
-        if (*sites) return show(client, "/api/sites", site_table);
-        if (*list) return show(client, "/api/occupations", occupation_table);
+        const std::string command = app.get_subcommands().front()->get_name();
+        if (command == "status") return show_status(client, a);
+        if (command == "watch") return watch(client);
+        if (command == "sites") return show(client, "/api/sites", site_table);
+        if (command == "list") return show(client, "/api/occupations", occupation_table);
+        if (command == "note") return change(client, a, "/api/note", order(a));
+        if (command == "target")
+            return change(client, a, "/api/target", json{{"target_mgal", a.target_mgal}});
+        return change(client, a, "/api/occupation/" + command, order(a));
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         complain(std::string(error.what()) + "; see a351ctl --help");
@@ -239,5 +236,4 @@ int main(int argc, char** argv) {
         complain(error.what());
         return *status ? kNoDaemon : kRefused;
     }
-    return kUsage;
 }

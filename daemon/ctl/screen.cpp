@@ -1,10 +1,9 @@
 #include "daemon/ctl/screen.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstdio>
-#include <iterator>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <vector>
 
 namespace a351::daemon {
@@ -25,32 +24,27 @@ constexpr std::string_view kNoTrouble[] = {"bytes",
                                            "journal_segments_removed"};
 
 /// Returns the member at a path such as "device/port"; null if there is none.
-const json& at(const json& object, std::string_view path) {
+const json& at(const json& object, const std::string& path) {
     static const json kNull;
-    const json* here = &object;
-    while (!path.empty()) {
-        const auto slash = std::min(path.find('/'), path.size());
-        const auto found = here->find(std::string(path.substr(0, slash)));
-        if (!here->is_object() || found == here->end()) return kNull;
-        here = &*found;
-        path.remove_prefix(std::min(slash + 1, path.size()));
-    }
-    return *here;
+    const json::json_pointer pointer("/" + path);
+    return object.contains(pointer) ? object.at(pointer) : kNull;
 }
 
 std::string text_of(const json& value) {
-    if (value.is_string() && !value.get_ref<const std::string&>().empty()) {
-        return printable(value.get_ref<const std::string&>());
-    }
     if (value.is_number_integer()) return value.dump();
-    return "-";
+    const std::string text =
+        value.is_string() ? printable(value.get_ref<const std::string&>()) : "";
+    return text.empty() ? "-" : text;
+}
+std::string text_of(const json& object, const std::string& path) {
+    return text_of(at(object, path));
 }
 
 std::string number_of(const json& value, const char* format) {
-    if (!value.is_number()) return "-";
-    char text[64];
-    std::snprintf(text, sizeof text, format, value.get<double>());
-    return text;
+    return value.is_number() ? fmt::format(fmt::runtime(format), value.get<double>()) : "-";
+}
+std::string number_of(const json& object, const std::string& path, const char* format) {
+    return number_of(at(object, path), format);
 }
 
 std::string joined(const json& list) {
@@ -60,15 +54,13 @@ std::string joined(const json& list) {
 }
 
 std::string line(const char* name, const std::string& text) {
-    std::string result = name;
-    result.resize(13, ' ');
-    return result + text + "\n";
+    return fmt::format("{:13}{}\n", name, text);
 }
 
 std::string coloured(const std::string& text, const std::string& level, bool is_coloured) {
     if (!is_coloured) return text;
     const char* code = level == "good" ? "32" : level == "warning" ? "33" : "31";
-    return std::string("\x1b[1;") + code + "m" + text + "\x1b[0m";
+    return fmt::format("\x1b[1;{}m{}\x1b[0m", code, text);
 }
 
 /// Returns the index and its distance from the last sample received.
@@ -78,21 +70,17 @@ std::string lag(const json& status, const char* index) {
     if (!received.is_number_integer() || !here.is_number_integer()) return "-";
     const auto samples = received.get<std::int64_t>() - here.get<std::int64_t>();
     const json& rate = at(status, "device/output_rate_hz");
-    std::string text = text_of(here) + ", " + std::to_string(samples) + " behind";
-    if (rate.is_number() && rate.get<double>() > 0.0) {
-        char seconds[32];
-        std::snprintf(seconds, sizeof seconds, " (%.1f s)",
-                      static_cast<double>(samples) / rate.get<double>());
-        text += seconds;
-    }
+    std::string text = fmt::format("{}, {} behind", text_of(here), samples);
+    if (rate.is_number() && rate.get<double>() > 0.0)
+        text += fmt::format(" ({:.1f} s)", static_cast<double>(samples) / rate.get<double>());
     return text;
 }
 
 std::string axes(const json& status) {
     const json& values = at(status, "sample/acceleration_mg");
     if (!values.is_array() || values.size() != 3) return "-";
-    return "x " + number_of(values[0], "%.3f") + "   y " + number_of(values[1], "%.3f") + "   z " +
-           number_of(values[2], "%.3f") + " mg";
+    return fmt::format("x {}   y {}   z {} mg", number_of(values[0], "{:.3f}"),
+                       number_of(values[1], "{:.3f}"), number_of(values[2], "{:.3f}"));
 }
 
 /// Returns each counter of trouble that is not zero, with its name.
@@ -101,11 +89,9 @@ std::string troubles(const json& status) {
     const json& counters = at(status, "counters");
     if (!counters.is_object()) return "-";
     for (const auto& [name, count] : counters.items()) {
-        if (std::find(std::begin(kNoTrouble), std::end(kNoTrouble), name) != std::end(kNoTrouble)) {
-            continue;
-        }
+        if (std::ranges::count(kNoTrouble, name) > 0) continue;
         if (!count.is_number_integer() || count == 0) continue;
-        text += (text.empty() ? "" : "  ") + printable(name) + " " + count.dump();
+        text += fmt::format("{}{} {}", text.empty() ? "" : "  ", printable(name), count.dump());
     }
     return text.empty() ? "none" : text;
 }
@@ -113,33 +99,33 @@ std::string troubles(const json& status) {
 std::string occupation(const json& status) {
     const json& running = at(status, "occupation");
     if (!running.is_object()) return "none running";
-    std::string text = text_of(at(running, "site")) + ", stay " + text_of(at(running, "number")) +
-                       ", since " + text_of(at(running, "start")) + " (" +
-                       number_of(at(running, "running_s"), "%.0f") + " s)";
-    if (at(running, "set_up") != at(running, "start")) {
-        text += ", set up " + text_of(at(running, "set_up"));
-    }
+    std::string text = fmt::format("{}, stay {}, since {} ({} s)", text_of(running, "site"),
+                                   text_of(running, "number"), text_of(running, "start"),
+                                   number_of(running, "running_s", "{:.0f}"));
+    if (at(running, "set_up") != at(running, "start"))
+        text += ", set up " + text_of(running, "set_up");
     return text;
 }
 
 std::string verdict(const json& status) {
     const json& why = at(status, "verdict/reasons");
     const json& held_s = at(status, "verdict/held_s");
-    return text_of(at(status, "verdict/state")) +
-           (held_s.is_number() ? number_of(held_s, " for %.0f s") : "") +
+    return text_of(status, "verdict/state") +
+           (held_s.is_number() ? number_of(held_s, " for {:.0f} s") : "") +
            (why.empty() ? "" : ": " + joined(why));
 }
 
 /// Returns the reading of the running set-up, with advice and warnings for the operator.
 std::string reading(const json& status) {
     const json& reading = at(status, "occupation/reading");
-    std::string text = number_of(at(reading, "value_mgal"), "%.2f") + " +- " +
-                       number_of(at(reading, "standard_error_mgal"), "%.2f mGal") + ", target " +
-                       number_of(at(status, "target_mgal"), "%.2f mGal");
+    std::string text =
+        fmt::format("{} +- {}, target {}", number_of(reading, "value_mgal", "{:.2f}"),
+                    number_of(reading, "standard_error_mgal", "{:.2f} mGal"),
+                    number_of(status, "target_mgal", "{:.2f} mGal"));
     if (at(reading, "is_good_enough") == true)
         text += ": good enough";
     else if (at(reading, "needed_s").is_number())
-        text += number_of(at(reading, "needed_s"), ": %.0f s more");
+        text += number_of(reading, "needed_s", ": {:.0f} s more");
     if (at(status, "occupation/propose_set_up") == true)
         text += "; half time: lift the box, set it down again, then run a351ctl setup";
     for (const json& warning : at(status, "occupation/warnings")) text += "; " + text_of(warning);
@@ -148,55 +134,51 @@ std::string reading(const json& status) {
 
 std::string tilt(const json& status) {
     const json& advice = at(status, "tilt/advice");
-    return "x " + number_of(at(status, "tilt/x_arcmin"), "%+.1f'") + "   y " +
-           number_of(at(status, "tilt/y_arcmin"), "%+.1f'") + " compared with " +
-           text_of(at(status, "tilt/reference/site")) +
-           (advice.empty() ? "" : ": " + joined(advice));
+    return fmt::format(
+        "x {}   y {} compared with {}{}", number_of(status, "tilt/x_arcmin", "{:+.1f}'"),
+        number_of(status, "tilt/y_arcmin", "{:+.1f}'"), text_of(status, "tilt/reference/site"),
+        advice.empty() ? "" : ": " + joined(advice));
 }
 
 std::string device(const json& status) {
-    std::string text = text_of(at(status, "device/product_id")) + " " +
-                       text_of(at(status, "device/serial_number")) + ", " +
-                       text_of(at(status, "device/state")) + " on " +
-                       text_of(at(status, "device/port"));
-    const auto trouble = text_of(at(status, "device/trouble"));
-    return trouble == "-" ? text : text + ": " + trouble;
+    const auto trouble = text_of(status, "device/trouble");
+    return fmt::format("{} {}, {} on {}{}", text_of(status, "device/product_id"),
+                       text_of(status, "device/serial_number"), text_of(status, "device/state"),
+                       text_of(status, "device/port"), trouble == "-" ? "" : ": " + trouble);
 }
 
 std::string oven(const json& status) {
-    const std::string state = text_of(at(status, "oven/state"));
+    const std::string state = text_of(status, "oven/state");
     if (!at(status, "oven/age_s").is_number()) {
-        const auto trouble = text_of(at(status, "oven/trouble"));
+        const auto trouble = text_of(status, "oven/trouble");
         return trouble == "-" ? state : state + ": " + trouble;
     }
-    return number_of(at(status, "oven/process_value_degc"), "%.1f degC") + ", set point " +
-           number_of(at(status, "oven/set_point_degc"), "%.1f degC") + ", heating " +
-           number_of(at(status, "oven/heating_percent"), "%.1f %%") +
-           (at(status, "oven/has_input_error") == true ? ", input error" : "") + ", " + state +
-           (at(status, "oven/is_stale") == true
-                ? number_of(at(status, "oven/age_s"), ", %.0f s old")
-                : "");
+    const bool is_stale = at(status, "oven/is_stale") == true;
+    return fmt::format("{}, set point {}, heating {}{}, {}{}",
+                       number_of(status, "oven/process_value_degc", "{:.1f} degC"),
+                       number_of(status, "oven/set_point_degc", "{:.1f} degC"),
+                       number_of(status, "oven/heating_percent", "{:.1f} %"),
+                       at(status, "oven/has_input_error") == true ? ", input error" : "", state,
+                       is_stale ? number_of(status, "oven/age_s", ", {:.0f} s old") : "");
 }
 
 std::string rate(const json& status) {
     const bool is_verified = at(status, "device/profile_verified") == true;
-    return text_of(at(status, "device/output_rate_hz")) + " Hz, filter " +
-           text_of(at(status, "device/filter")) + ", profile " +
-           text_of(at(status, "device/profile")) + (is_verified ? "" : " (not verified)");
+    return fmt::format("{} Hz, filter {}, profile {}{}", text_of(status, "device/output_rate_hz"),
+                       text_of(status, "device/filter"), text_of(status, "device/profile"),
+                       is_verified ? "" : " (not verified)");
 }
 
 /// Formats rows as a table; each column is as wide as its widest cell.
 std::string table(const std::vector<std::vector<std::string>>& rows) {
     std::vector<std::size_t> widths(rows.front().size(), 0);
-    for (const auto& row : rows) {
+    for (const auto& row : rows)
         for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-    }
     std::string text;
     for (const auto& row : rows) {
         std::string shown;
-        for (std::size_t i = 0; i < row.size(); ++i) {
+        for (std::size_t i = 0; i < row.size(); ++i)
             shown += row[i] + std::string(widths[i] - row[i].size() + 2, ' ');
-        }
         text += shown.substr(0, shown.find_last_not_of(' ') + 1) + "\n";
     }
     return text;
@@ -218,37 +200,38 @@ std::string printable(std::string_view text) {
 }
 
 std::string status_screen(const json& status, bool is_coloured) {
-    const std::string level = text_of(at(status, "level"));
+    const std::string level = text_of(status, "level");
     const json& reasons = at(status, "reasons");
     std::string screen =
-        line("a351d", text_of(at(status, "version")) + "   " + text_of(at(status, "now")) + "   " +
-                          coloured(level, level, is_coloured) +
-                          (reasons.empty() ? "" : ": " + joined(reasons)));
+        line("a351d", fmt::format("{}   {}   {}{}", text_of(status, "version"),
+                                  text_of(status, "now"), coloured(level, level, is_coloured),
+                                  reasons.empty() ? "" : ": " + joined(reasons)));
     screen += line("device", device(status));
     screen += line("sampling", rate(status));
     screen += line("verdict", verdict(status));
     screen += line("axes", axes(status));
-    screen += line("temperature", number_of(at(status, "sample/temperature_degc"), "%.3f degC"));
+    screen += line("temperature", number_of(status, "sample/temperature_degc", "{:.3f} degC"));
     screen += line("oven", oven(status));
-    screen += line("last sample", text_of(at(status, "received")) + " at " +
-                                      text_of(at(status, "sample/utc")) + ", " +
-                                      number_of(at(status, "sample/age_s"), "%.1f s ago"));
+    screen += line("last sample", fmt::format("{} at {}, {}", text_of(status, "received"),
+                                              text_of(status, "sample/utc"),
+                                              number_of(status, "sample/age_s", "{:.1f} s ago")));
     screen += line("journal", lag(status, "journaled"));
     screen += line("archive", lag(status, "archived"));
-    screen += line("timing", text_of(at(status, "timing/state")) + ", uncertainty " +
-                                 number_of(at(status, "timing/uncertainty_ms"), "%.2f ms"));
+    screen += line("timing", text_of(status, "timing/state") + ", uncertainty " +
+                                 number_of(status, "timing/uncertainty_ms", "{:.2f} ms"));
     if (at(status, "timing/rate/measured_hz").is_number()) {
-        screen += line("rate",
-                       number_of(at(status, "timing/rate/measured_hz"), "%.6f Hz +- ") +
-                           number_of(at(status, "timing/rate/uncertainty_ppm"), "%.2f ppm over ") +
-                           number_of(at(status, "timing/rate/span_h"), "%.1f h"));
+        screen +=
+            line("rate", number_of(status, "timing/rate/measured_hz", "{:.6f} Hz +- ") +
+                             number_of(status, "timing/rate/uncertainty_ppm", "{:.2f} ppm over ") +
+                             number_of(status, "timing/rate/span_h", "{:.1f} h"));
     }
-    screen += line("counters", "frames " + text_of(at(status, "counters/frames")) + "  sessions " +
-                                   text_of(at(status, "counters/sessions")));
+    screen +=
+        line("counters", fmt::format("frames {}  sessions {}", text_of(status, "counters/frames"),
+                                     text_of(status, "counters/sessions")));
     screen += line("troubles", troubles(status));
     const json& free_bytes = at(status, "disk/free_bytes");
     const json free_gb = free_bytes.is_number() ? json(free_bytes.get<double>() / 1e9) : json();
-    screen += line("disk", number_of(free_gb, "%.1f GB free"));
+    screen += line("disk", number_of(free_gb, "{:.1f} GB free"));
     screen += line("occupation", occupation(status));
     if (at(status, "occupation/reading").is_object()) screen += line("reading", reading(status));
     if (at(status, "tilt").is_object()) screen += line("tilt", tilt(status));
@@ -259,11 +242,10 @@ std::string site_table(const json& answer) {
     std::vector<std::vector<std::string>> rows = {
         {"site", "longitude_deg", "latitude_deg", "altitude_m", "gravity_mgal", "distance_m"}};
     for (const auto& site : at(answer, "sites")) {
-        rows.push_back({text_of(at(site, "site")), number_of(at(site, "longitude_deg"), "%.6f"),
-                        number_of(at(site, "latitude_deg"), "%.6f"),
-                        number_of(at(site, "altitude_m"), "%.2f"),
-                        number_of(at(site, "gravity_mgal"), "%.3f"),
-                        number_of(at(site, "distance_m"), "%.0f")});
+        rows.push_back(
+            {text_of(site, "site"), number_of(site, "longitude_deg", "{:.6f}"),
+             number_of(site, "latitude_deg", "{:.6f}"), number_of(site, "altitude_m", "{:.2f}"),
+             number_of(site, "gravity_mgal", "{:.3f}"), number_of(site, "distance_m", "{:.0f}")});
     }
     return table(rows);
 }
@@ -271,11 +253,11 @@ std::string site_table(const json& answer) {
 std::string occupation_table(const json& answer) {
     std::vector<std::vector<std::string>> rows = {{"site", "stay", "start", "end", "mgal", "note"}};
     for (const auto& one : at(answer, "occupations")) {
-        std::string note = text_of(at(one, "note"));
-        std::string value = number_of(at(one, "reading/value_mgal"), "%.2f");
+        std::string note = text_of(one, "note");
+        std::string value = number_of(one, "reading/value_mgal", "{:.2f}");
         for (const auto& set_up : at(one, "set_ups")) {
-            rows.push_back({text_of(at(one, "site")), text_of(at(one, "number")),
-                            text_of(at(set_up, "start")), text_of(at(set_up, "end")), value, note});
+            rows.push_back({text_of(one, "site"), text_of(one, "number"), text_of(set_up, "start"),
+                            text_of(set_up, "end"), value, note});
             note = value = "";
         }
     }

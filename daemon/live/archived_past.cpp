@@ -1,9 +1,11 @@
-#include "daemon/live/archived_past.hpp"
+/// @file
+/// The last day of data from the archive, for a live record that begins.
 
 #include <algorithm>
 #include <string>
 #include <utility>
 
+#include "daemon/live/live_record.hpp"
 #include "protocol/archive/archive_reader.hpp"
 #include "protocol/archive/channel_code.hpp"
 

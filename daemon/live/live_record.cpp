@@ -1,7 +1,10 @@
 #include "daemon/live/live_record.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "protocol/oven/controller_values.hpp"
@@ -16,6 +19,12 @@ constexpr int kRecentSeconds = 90;  // The page shows 60.
 constexpr int kLeastRecent = 50'000 / 4;
 constexpr std::size_t kLevelSeconds = 2;  // Traffic of 20 mGal changes the tilt by 0.1' or less.
 constexpr Nanoseconds kOvenStep = std::chrono::seconds(2);
+
+constexpr double kArcminPerRadian = 60.0 * 180.0 / std::numbers::pi;
+
+double elevation_arcmin(StandardGravity reading) {
+    return kArcminPerRadian * std::asin(std::clamp(reading.value(), -1.0, 1.0));
+}
 
 template <class Point>
 void keep_a_day(std::deque<Point>& points) {
@@ -155,14 +164,20 @@ std::optional<Level> LiveRecord::level_against(UtcTime from, UtcTime to) const {
     }
     const auto now = recent_.mean_of_last(kLevelSeconds * static_cast<std::size_t>(rate_hz_));
     if (stood_mgal[0].empty() || !now) return std::nullopt;
-    std::array<StandardGravity, 2> horizontal{}, reference{};
+    Level level;
     const double g_per_count = profile_.acceleration(1).value();
     for (std::size_t axis = 0; axis < 2; ++axis) {
-        horizontal[axis] = StandardGravity(g_per_count * (*now)[axis]);
-        reference[axis] =
-            to_standard_gravity(MilliGal(corrector::median(std::move(stood_mgal[axis]))));
+        const MilliGal reference(corrector::median(std::move(stood_mgal[axis])));
+        const double tilt = elevation_arcmin(StandardGravity(g_per_count * (*now)[axis])) -
+                            elevation_arcmin(to_standard_gravity(reference));
+        level.tilt_arcmin[axis] = tilt;
+        if (std::abs(tilt) <= kMostTiltArcmin) continue;
+        level.is_within = false;
+        level.advice.push_back(fmt::format("{} the +{} side by {:.1f}'",
+                                           tilt > 0.0 ? "lower" : "raise", axis == 0 ? 'x' : 'y',
+                                           std::abs(tilt)));
     }
-    return level(horizontal, reference);
+    return level;
 }
 
 }  // namespace a351::daemon

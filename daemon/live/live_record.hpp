@@ -7,14 +7,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "daemon/live/history.hpp"
-#include "daemon/live/level.hpp"
 #include "daemon/live/live_thinning.hpp"
-#include "daemon/live/recent_samples.hpp"
 #include "daemon/verdict/running_value.hpp"
 #include "daemon/verdict/verdict.hpp"
 #include "protocol/journal/journal.hpp"
@@ -31,6 +31,24 @@ struct OvenPoint {
 
 /// Converts a poll of the oven; std::nullopt unless it was answered.
 [[nodiscard]] std::optional<OvenPoint> oven_point(const record::OvenChunk& poll, UtcTime time);
+
+/// The tilt of the box relative to the day's first set-up.  If the horizontal axes read the same at
+/// each set-up, level or not, the effect of their biases on the norm is the same everywhere.
+///
+///     tilt = asin(a) - asin(reference)
+///
+/// An axis at rest that points up reads +1 g, so its reading in g is the sine of its elevation.
+/// For a sensor of opposite sign the advice reverses.
+struct Level {
+    /// Tilt of x and y; positive if the + end is higher than at the first set-up.
+    std::array<double, 2> tilt_arcmin{};
+    bool is_within = true;            ///< Both are within kMostTiltArcmin.
+    std::vector<std::string> advice;  ///< "lower the +x side by 2.4'"; empty if within.
+};
+
+/// Limit of the tilt in arc minutes, 0.02 deg.  With 10 mg bias of a horizontal axis it changes the
+/// norm by 3.4 mGal.
+inline constexpr double kMostTiltArcmin = 1.2;
 
 /// Keeps 24 h of envelopes and of the 2 s series, and at least 90 s at full rate; 7 MB at 50 Hz.
 /// Thread-safe.
@@ -95,5 +113,12 @@ private:
     std::optional<UtcTime> last_;
     std::optional<UtcTime> history_end_;  ///< Set while a replay may deliver old samples again.
 };
+
+/// Loads the 24 h before `now` from the archive into `record` (above 50 Hz the same number of
+/// samples), so that history, verdict and running occupation are the same after a restart.  Damaged
+/// data are skipped.
+/// @throws std::system_error  a file cannot be read; data before it were loaded.
+void take_archived_past(const std::filesystem::path& archive, const record::StationCodes& codes,
+                        UtcTime now, LiveRecord& record);
 
 }  // namespace a351::daemon

@@ -25,10 +25,8 @@ LiveThinning::LiveThinning(const wire::DeviceProfile& profile, int rate_hz)
 void LiveThinning::begin_run() {
     first_.assign(kLiveChannelCount, corrector::Decimator(to_5_hz_));
     second_.assign(kLiveChannelCount, corrector::Decimator(by_ten_));
-    for (std::size_t channel = 0; channel < kLiveChannelCount; ++channel) {
-        block_[channel].clear();
-        thinned_[channel].clear();
-    }
+    block_.fill({});
+    thinned_.fill({});
     begins_.clear();
     last_.reset();
 }

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "daemon/live/recent_samples.hpp"
+#include "daemon/live/history.hpp"
 #include "daemon/verdict/live_sample.hpp"
 #include "protocol/signal/decimator.hpp"
 #include "protocol/wire/device_profile.hpp"

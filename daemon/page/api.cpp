@@ -1,15 +1,12 @@
 #include "daemon/page/api.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <exception>
 #include <nlohmann/json.hpp>
-#include <span>
 
-#include "daemon/page/field_json.hpp"
 #include "daemon/page/history_json.hpp"
-#include "daemon/page/metrics.hpp"
-#include "daemon/page/order.hpp"
-#include "daemon/page/query.hpp"
 #include "daemon/page/status_json.hpp"
 #include "protocol/core/input_error.hpp"
 
@@ -31,8 +28,44 @@ constexpr std::string_view kChangeable[] = {"/api/occupation/start",
                                             "/api/note",
                                             "/api/target"};
 
-bool contains(std::span<const std::string_view> list, std::string_view path) {
-    return std::find(list.begin(), list.end(), path) != list.end();
+/// The body of a POST: a JSON object whose values are texts.  A key that is absent, null or ""
+/// counts as not given.
+struct Order {
+    std::string site;
+    Remark remark;  ///< Keys operator and note.
+    std::optional<UtcTime> at;
+};
+
+/// Reads the body of a POST.
+/// @param allowed  keys that may be given; others are refused.
+/// @throws InputError  not a JSON object, a key that is not allowed, a value that is not a text, or
+///                     an `at` that is not RFC 3339; names the key.
+Order parse_order(std::string_view body, const std::vector<std::string>& allowed) {
+    const auto parsed = json::parse(body, nullptr, false);
+    if (!parsed.is_object()) throw InputError("body: not a JSON object");
+    Order order;
+    for (const auto& [key, value] : parsed.items()) {
+        require_allowed("body", key, allowed);
+        if (value.is_null()) continue;
+        if (!value.is_string()) throw InputError("body: key " + key + ": not a text");
+        const auto text = value.get<std::string>();
+        if (key == "site") order.site = text;
+        if (key == "operator") order.remark.operator_name = text;
+        if (key == "note") order.remark.note = text;
+        if (key == "at" && !text.empty()) order.at = parse_instant("body", key, text);
+    }
+    return order;
+}
+
+/// Reads the body {"target_mgal": number}.
+/// @throws InputError  anything else.
+MilliGal parse_target(std::string_view body) {
+    const auto parsed = json::parse(body, nullptr, false);
+    if (!parsed.is_object() || parsed.size() != 1 || !parsed.contains("target_mgal"))
+        throw InputError("body: allowed: one key, target_mgal");
+    const auto& target = parsed.at("target_mgal");
+    if (!target.is_number()) throw InputError("body: key target_mgal: not a number");
+    return MilliGal(target.get<double>());
 }
 
 /// Makes an answer of this body.  Texts from files and devices may be invalid UTF-8; invalid parts
@@ -78,24 +111,21 @@ std::optional<json> Api::status() noexcept {
 
 std::optional<std::string> Api::urgent_status() noexcept {
     try {
-        return urgent_status_now();
+        const Status status = sources_.status();
+        const bool is_fresh =
+            status.last_sample && status.now - *status.last_sample <= sources_.stale_after;
+        auto text = fmt::format("{}{}{}", to_text(status.level), status.link_state,
+                                is_fresh ? to_text(status.verdict.state) : "stale");
+        if (const auto& running = sources_.occupations.running()) {
+            text += running->site + to_rfc3339(running->start) +
+                    to_rfc3339(running->set_ups.back()) + running->remark.operator_name +
+                    running->remark.note;
+        }
+        return text;
     } catch (...) {
         ++use_.failures;
         return std::nullopt;
     }
-}
-
-std::string Api::urgent_status_now() {
-    const Status status = sources_.status();
-    const bool is_fresh =
-        status.last_sample && status.now - *status.last_sample <= sources_.stale_after;
-    auto text = std::to_string(static_cast<int>(status.level)) + status.link_state;
-    text += is_fresh ? to_text(status.verdict.state) : "stale";
-    if (const auto& running = sources_.occupations.running()) {
-        text += running->site + to_rfc3339(running->start) + to_rfc3339(running->set_ups.back()) +
-                running->remark.operator_name + running->remark.note;
-    }
-    return text;
 }
 
 json Api::status_now() {
@@ -110,11 +140,11 @@ Response Api::route(const Request& request) {
     const auto path = target.substr(0, mark);
     const auto query = mark == std::string_view::npos ? "" : target.substr(mark + 1);
 
-    const bool is_readable = contains(kReadable, path) || assets_.contains(path);
-    if (!is_readable && !contains(kChangeable, path)) return refusal(404, "there is no such path");
-    if (is_readable && (request.method == "GET" || request.method == "HEAD")) {
+    const bool is_readable = std::ranges::count(kReadable, path) > 0 || assets_.contains(path);
+    if (!is_readable && std::ranges::count(kChangeable, path) == 0)
+        return refusal(404, "there is no such path");
+    if (is_readable && (request.method == "GET" || request.method == "HEAD"))
         return read(path, query);
-    }
     if (!is_readable && request.method == "POST") {
         if (!query.empty()) throw InputError("query: none is allowed here");
         return change(path, request.body);
@@ -126,14 +156,12 @@ Response Api::route(const Request& request) {
 
 Response Api::read(std::string_view path, std::string_view query) {
     if (path == "/api/events") return events_since(query);
-    if (path == "/api/history") {
+    if (path == "/api/history")
         return {.body = history_json(sources_.live, query, sources_.status().now)};
-    }
     if (!query.empty()) throw InputError("query: none is allowed here");
     if (path == "/api/status") return ok(status_now());
-    if (path == "/metrics") {
+    if (path == "/metrics")
         return {.content_type = kMetricsType, .body = metrics_of(status_now(), use_)};
-    }
     if (path == "/api/sites") return sites_around();
     if (path == "/api/occupations") return occupations_so_far();
     if (path == "/api/token") {
@@ -176,9 +204,7 @@ Response Api::events_since(std::string_view query) {
     std::optional<UtcTime> since;
     if (const auto given = keys.find("since"); given != keys.end()) {
         since = parse_rfc3339(given->second);
-        if (!since) {
-            throw InputError("query: since: not an instant; allowed: RFC 3339 in UTC");
-        }
+        if (!since) throw InputError("query: since: not an instant; allowed: RFC 3339 in UTC");
     }
     auto events = sources_.events();
     if (since) std::erase_if(events, [&](const auto& event) { return event.utc < *since; });
@@ -186,9 +212,8 @@ Response Api::events_since(std::string_view query) {
     const auto count = std::min(events.size(), kEventsPerAnswer);
     const auto first = since ? 0 : events.size() - count;
     json list = json::array();
-    for (std::size_t i = first; i < first + count; ++i) {
+    for (std::size_t i = first; i < first + count; ++i)
         list.push_back(json::parse(record::to_json(events[i])));
-    }
     return ok({{"events", list}, {"complete", count == events.size()}});
 }
 
@@ -202,9 +227,8 @@ Response Api::change(std::string_view path, const std::string& body) {
     } else if (path == "/api/occupation/stop") {
         const auto order = parse_order(body, {"site", "operator", "note", "at"});
         const auto& running = occupations.running();
-        if (running && !order.site.empty() && order.site != running->site) {
+        if (running && !order.site.empty() && order.site != running->site)
             return refusal(409, running->site + " is running, not " + order.site);
-        }
         outcome = occupations.stop(order.remark, order.at);
     } else if (path == "/api/occupation/setup") {
         outcome = occupations.setup(parse_order(body, {"at"}).at);

@@ -12,7 +12,6 @@
 /// security, 404 and 405 unknown path or method, 409 not allowed now, 500 not on disk or an
 /// internal error.  GET changes nothing.
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
@@ -24,7 +23,7 @@
 #include "daemon/live/live_record.hpp"
 #include "daemon/page/assets.hpp"
 #include "daemon/page/message.hpp"
-#include "daemon/page/page_use.hpp"
+#include "daemon/page/metrics.hpp"
 #include "daemon/status/status.hpp"
 #include "daemon/survey/occupations.hpp"
 #include "protocol/core/utc_time.hpp"
@@ -68,7 +67,6 @@ public:
 
 private:
     [[nodiscard]] nlohmann::json status_now();
-    [[nodiscard]] std::string urgent_status_now();
     [[nodiscard]] Response route(const Request& request);
     [[nodiscard]] Response read(std::string_view path, std::string_view query);
     [[nodiscard]] Response change(std::string_view path, const std::string& body);

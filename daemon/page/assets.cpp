@@ -15,8 +15,7 @@ const Asset* find(std::string_view path) noexcept {
     if (!path.starts_with('/')) return nullptr;
     const auto name = path == "/" ? kIndex : path.substr(1);
     const auto assets = compiled_assets();
-    const auto found = std::find_if(assets.begin(), assets.end(),
-                                    [&](const Asset& asset) { return asset.name == name; });
+    const auto found = std::ranges::find(assets, name, &Asset::name);
     return found == assets.end() ? nullptr : &*found;
 }
 
@@ -31,16 +30,11 @@ std::string content_type(std::string_view name) {
 /// Escapes a text for HTML: a configured token may contain any visible character.
 std::string as_html(std::string_view text) {
     std::string html;
-    for (const char c : text) {
-        if (c == '&') {
-            html += "&amp;";
-        } else if (c == '<') {
-            html += "&lt;";
-        } else if (c == '"') {
-            html += "&quot;";
-        } else {
-            html += c;
-        }
+    for (const char& c : text) {
+        html += c == '&'   ? "&amp;"
+                : c == '<' ? "&lt;"
+                : c == '"' ? "&quot;"
+                           : std::string_view(&c, 1);
     }
     return html;
 }
@@ -59,15 +53,12 @@ Response Assets::answer(std::string_view path) const {
     response.content_type = content_type(asset->name);
     response.body = asset->bytes;
     if (!directory_.empty()) {
-        if (std::ifstream file(directory_ / asset->name, std::ios::binary); file) {
+        if (std::ifstream file(directory_ / asset->name, std::ios::binary); file)
             response.body.assign(std::istreambuf_iterator<char>(file), {});
-        }
     }
-    if (asset->name == kIndex) {
-        if (const auto at = response.body.find(kTokenMark); at != std::string::npos) {
-            response.body.replace(at, kTokenMark.size(), token_);
-        }
-    }
+    if (const auto at = response.body.find(kTokenMark);
+        asset->name == kIndex && at != std::string::npos)
+        response.body.replace(at, kTokenMark.size(), token_);
     return response;
 }
 

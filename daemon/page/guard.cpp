@@ -1,5 +1,6 @@
 #include "daemon/page/guard.hpp"
 
+#include <fmt/core.h>
 #include <sys/random.h>
 
 #include <algorithm>
@@ -12,9 +13,8 @@ namespace {
 
 std::string lower(std::string_view text) {
     std::string result(text);
-    for (char& c : result) {
+    for (char& c : result)
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
     return result;
 }
 
@@ -31,30 +31,36 @@ bool is_json(std::string_view content_type) {
 }
 
 bool asks_for_stream(const Request& request) {
-    for (const auto& protocol : request.values("Upgrade")) {
-        if (lower(protocol).find("websocket") != std::string::npos) return true;
-    }
-    return false;
+    return std::ranges::any_of(request.values("Upgrade"), [](const std::string& protocol) {
+        return lower(protocol).find("websocket") != std::string::npos;
+    });
+}
+
+/// Compares two texts in a time that does not depend on where they differ.
+bool is_same_secret(std::string_view given, std::string_view expected) noexcept {
+    if (given.size() != expected.size() || expected.empty()) return false;
+    volatile unsigned char difference = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        difference = static_cast<unsigned char>(difference | (given[i] ^ expected[i]));
+    return difference == 0;
 }
 
 }  // namespace
 
 Guard::Guard(std::uint16_t port, const std::vector<std::string>& hosts, std::string token)
     : token_(std::move(token)) {
-    std::string suffix = ":";
-    suffix += std::to_string(port);
+    const std::string suffix = fmt::format(":{}", port);
     for (const char* name : {"127.0.0.1", "localhost", "[::1]"}) hosts_.push_back(name + suffix);
     for (const auto& host : hosts) hosts_.push_back(lower(has_port(host) ? host : host + suffix));
 }
 
 std::optional<Response> Guard::refuse(const Request& request) const {
     const auto is_listed = [&](std::string_view name) {
-        return std::find(hosts_.begin(), hosts_.end(), lower(name)) != hosts_.end();
+        return std::ranges::count(hosts_, lower(name)) > 0;
     };
     const auto host = request.values("Host");
-    if (host.size() != 1 || !is_listed(host.front())) {
+    if (host.size() != 1 || !is_listed(host.front()))
         return refusal(421, "Host is not a name of this daemon; add it to [page] hosts");
-    }
     const bool is_read = request.method == "GET" || request.method == "HEAD";
     const bool is_stream = asks_for_stream(request);
     if (is_read && !is_stream) return std::nullopt;
@@ -62,19 +68,16 @@ std::optional<Response> Guard::refuse(const Request& request) const {
     constexpr std::string_view kScheme = "http://";
     const auto origins = request.values("Origin");
     for (const auto& origin : origins) {
-        if (!lower(origin).starts_with(kScheme) || !is_listed(origin.substr(kScheme.size()))) {
+        if (!lower(origin).starts_with(kScheme) || !is_listed(origin.substr(kScheme.size())))
             return refusal(403, "Origin is not a name of this daemon");
-        }
     }
     if (is_read && !origins.empty()) return std::nullopt;
     const auto type = request.values("Content-Type");
-    if (!is_read && (type.size() != 1 || !is_json(type.front()))) {
+    if (!is_read && (type.size() != 1 || !is_json(type.front())))
         return refusal(403, "Content-Type must be application/json");
-    }
     const auto token = request.values("X-A351-Token");
-    if (token.size() != 1 || !is_same_secret(token.front(), token_)) {
+    if (token.size() != 1 || !is_same_secret(token.front(), token_))
         return refusal(403, "the token (header X-A351-Token) is missing or wrong");
-    }
     return std::nullopt;
 }
 
@@ -86,22 +89,9 @@ std::string random_token() {
         if (got < 0) throw std::system_error(errno, std::generic_category(), "getrandom");
         filled += static_cast<std::size_t>(got);
     }
-    constexpr std::string_view kDigits = "0123456789abcdef";
     std::string text;
-    for (const unsigned char byte : bytes) {
-        text += kDigits[byte >> 4];
-        text += kDigits[byte & 15];
-    }
+    for (const unsigned char byte : bytes) text += fmt::format("{:02x}", byte);
     return text;
-}
-
-bool is_same_secret(std::string_view given, std::string_view expected) noexcept {
-    if (given.size() != expected.size() || expected.empty()) return false;
-    volatile unsigned char difference = 0;
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-        difference = static_cast<unsigned char>(difference | (given[i] ^ expected[i]));
-    }
-    return difference == 0;
 }
 
 const std::vector<std::pair<std::string, std::string>>& security_headers() {

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,8 +30,6 @@ public:
     ///     or no Origin and the token missing or wrong.
     [[nodiscard]] std::optional<Response> refuse(const Request& request) const;
 
-    [[nodiscard]] const std::string& token() const noexcept { return token_; }
-
 private:
     std::vector<std::string> hosts_;  ///< name:port, lower case.
     std::string token_;
@@ -41,9 +38,6 @@ private:
 /// Returns 256 random bits from the kernel, in hexadecimal.
 /// @throws std::system_error
 [[nodiscard]] std::string random_token();
-
-/// Compares two texts in a time that does not depend on where they differ.
-[[nodiscard]] bool is_same_secret(std::string_view given, std::string_view expected) noexcept;
 
 /// Returns the headers of every response.
 [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& security_headers();

@@ -1,5 +1,7 @@
 #include "daemon/page/history_json.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -9,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "daemon/page/query.hpp"
+#include "daemon/page/message.hpp"
 #include "protocol/core/input_error.hpp"
 
 namespace a351::daemon {
@@ -25,12 +27,7 @@ using Keys = std::map<std::string, std::string>;
 std::optional<UtcTime> instant(const Keys& keys, const std::string& key) {
     const auto found = keys.find(key);
     if (found == keys.end()) return std::nullopt;
-    const auto time = parse_rfc3339(found->second);
-    if (!time) {
-        throw InputError("query: key " + key + " = " + found->second +
-                         ": not an instant; allowed: RFC 3339 such as 2026-01-31T09:30:00Z");
-    }
-    return time;
+    return parse_instant("query", key, found->second);
 }
 
 std::size_t point_count(const Keys& keys) {
@@ -41,8 +38,8 @@ std::size_t point_count(const Keys& keys) {
     const auto read = std::from_chars(text.data(), text.data() + text.size(), count);
     if (read.ec != std::errc() || read.ptr != text.data() + text.size() || count < 1 ||
         count > kMostPoints) {
-        throw InputError("query: key points = " + text + "; allowed: 1 to " +
-                         std::to_string(kMostPoints));
+        throw InputError(
+            fmt::format("query: key points = {}; allowed: 1 to {}", text, kMostPoints));
     }
     return count;
 }
@@ -97,10 +94,10 @@ std::string history_json(const LiveRecord& live, std::string_view query, UtcTime
     const auto wanted = keys.find("channel");
     if (wanted == keys.end()) throw InputError("query: key channel is missing");
     if (wanted->second == "oven") return oven_body(live.oven_history(from, to, most));
-    const auto name = std::find(kNames.begin(), kNames.end(), wanted->second);
+    const auto name = std::ranges::find(kNames, wanted->second);
     if (name == kNames.end()) {
-        throw InputError("query: key channel = " + wanted->second +
-                         "; allowed: x, y, z, temperature, oven");
+        throw InputError(fmt::format("query: key channel = {}; allowed: x, y, z, temperature, oven",
+                                     wanted->second));
     }
     const auto channel = static_cast<LiveChannel>(name - kNames.begin());
     const auto found = live.history(channel, from, to, most);

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "daemon/live/recent_samples.hpp"
+#include "daemon/live/history.hpp"
 
 namespace a351::daemon {
 

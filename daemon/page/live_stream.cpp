@@ -82,9 +82,8 @@ asio::awaitable<void> LiveStream::feed() {
 }
 
 void LiveStream::take_samples() {
-    while (const auto block = live_.block_from(cursor_, kMostSamplesPerMessage)) {
+    while (const auto block = live_.block_from(cursor_, kMostSamplesPerMessage))
         messages_.push({.bytes = encoded(*block)});
-    }
     news_.cancel();
 }
 
@@ -125,9 +124,8 @@ asio::awaitable<void> LiveStream::write_all(std::shared_ptr<Viewer> viewer) {
         present - std::min(present, kPastSeconds * static_cast<std::uint64_t>(live_.rate_hz()));
     error_code error;
     std::shared_ptr<const LiveMessage> message;
-    if (const auto status = api_.status()) {
+    if (const auto status = api_.status())
         message = std::make_shared<const LiveMessage>(status_message(*status));
-    }
     while (!viewer->is_over_) {
         if (message) {
             Viewer::give(viewer, patience_);

@@ -14,7 +14,6 @@
 #include "daemon/page/api.hpp"
 #include "daemon/page/asio.hpp"
 #include "daemon/page/live_message.hpp"
-#include "daemon/page/page_use.hpp"
 
 namespace a351::daemon {
 

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
+
+#include "protocol/core/utc_time.hpp"
 
 namespace a351::daemon {
 
@@ -27,7 +31,19 @@ struct Response {
 /// Returns `{"error": trouble}` with this status.
 [[nodiscard]] Response refusal(int status, std::string_view trouble);
 
-/// Joins keys for a refusal: "at, note", or "none".
-[[nodiscard]] std::string joined(const std::vector<std::string>& keys);
+/// @throws InputError  `key` is not in the list; names the part of the request and the list.
+void require_allowed(std::string_view part, const std::string& key,
+                     const std::vector<std::string>& allowed);
+
+/// Reads the value of a key in this part of the request.
+/// @throws InputError  it is not RFC 3339; names the key.
+[[nodiscard]] UtcTime parse_instant(std::string_view part, const std::string& key,
+                                    const std::string& text);
+
+/// Reads the part of a target after the question mark: key=value joined by &, percent-encoded.
+/// @param allowed  keys that may be given.
+/// @throws InputError  a key that is not allowed or given twice, or a broken encoding; names it.
+[[nodiscard]] std::map<std::string, std::string> parse_query(
+    std::string_view query, const std::vector<std::string>& allowed);
 
 }  // namespace a351::daemon

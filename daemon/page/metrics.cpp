@@ -1,8 +1,9 @@
 #include "daemon/page/metrics.hpp"
 
+#include <fmt/core.h>
+
 #include <nlohmann/json.hpp>
 #include <string_view>
-#include <utility>
 
 #include "daemon/page/status_json.hpp"
 
@@ -26,11 +27,7 @@ public:
     /// Begins a metric; its samples follow.
     void metric(std::string_view name, std::string_view type, std::string_view help) {
         name_ = name;
-        text_ += "# HELP " + name_ + " ";
-        text_ += help;
-        text_ += "\n# TYPE " + name_ + " ";
-        text_ += type;
-        text_ += '\n';
+        text_ += fmt::format("# HELP {} {}\n# TYPE {} {}\n", name, help, name, type);
     }
     /// Adds a sample of the metric; nothing if the value is not a number.
     void sample(const json& value, Labels labels = {}, double scale = 1.0) {
@@ -38,9 +35,7 @@ public:
         text_ += name_;
         char mark = '{';
         for (const auto& [key, label] : labels) {
-            text_ += mark;
-            text_ += key;
-            text_ += "=\"" + escaped(label) + '"';
+            text_ += fmt::format("{}{}=\"{}\"", mark, key, escaped(label));
             mark = ',';
         }
         if (labels.size() > 0) text_ += '}';
@@ -92,9 +87,8 @@ void tell_state(Text& text, const json& status) {
 void tell_record(Text& text, const json& status) {
     text.metric("a351_index", "gauge",
                 "Index of the last sample of the session that was received, journaled, archived.");
-    for (const char* stage : {"received", "journaled", "archived"}) {
+    for (const char* stage : {"received", "journaled", "archived"})
         text.sample(status.value(stage, json()), {{"stage", stage}});
-    }
     text.gauge("a351_sample_age_seconds", "Age of the last sample, instrument time.",
                at(status, "/sample/age_s"));
     text.gauge("a351_timing_uncertainty_seconds",
@@ -104,9 +98,8 @@ void tell_record(Text& text, const json& status) {
                at(status, "/timing/rate/measured_hz"));
 
     text.metric("a351_counter_total", "counter", "Counters since the daemon's start, by kind.");
-    for (const auto& [kind, count] : status.at("counters").items()) {
+    for (const auto& [kind, count] : status.at("counters").items())
         if (kind != kWaiting) text.sample(count, {{"kind", kind}});
-    }
     text.gauge("a351_archive_records_waiting", "Records that could not be written yet.",
                status.at("counters").value(kWaiting, json()));
 }
@@ -121,9 +114,7 @@ void tell_surroundings(Text& text, const json& status) {
                at(status, "/oven/heating_percent"), 1e-2);
     text.metric("a351_oven_polls_total", "counter", "Polls of the oven's controller, by outcome.");
     const auto polls = at(status, "/oven/polls");
-    for (const auto& [outcome, count] : polls.items()) {
-        text.sample(count, {{"outcome", outcome}});
-    }
+    for (const auto& [outcome, count] : polls.items()) text.sample(count, {{"outcome", outcome}});
     text.gauge("a351_disk_free_bytes", "Free disk space for the recorded data.",
                at(status, "/disk/free_bytes"));
     text.gauge("a351_longest_sync_seconds", "Longest time the journal waited for the disk.",

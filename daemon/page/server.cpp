@@ -15,17 +15,16 @@ namespace {
 constexpr std::uint32_t kHeaderLimit = 8 * 1024;
 constexpr std::uint64_t kBodyLimit = std::uint64_t{16} * 1024;
 constexpr std::string_view kLivePath = "/live";
+constexpr std::size_t kMostConnections = 32;  // At once: bounds the cost of a client that leaks.
+constexpr std::size_t kMostStreams = 20;      // Part of the connections; 12 remain for requests.
 constexpr std::chrono::seconds kRefusalLinger{1};
 constexpr std::chrono::milliseconds kAcceptPause{100};
 
 Request plain(const HttpRequest& message) {
-    Request request;
-    request.method = std::string(message.method_string());
-    request.target = std::string(message.target());
-    request.body = message.body();
-    for (const auto& field : message) {
+    Request request{
+        std::string(message.method_string()), std::string(message.target()), {}, message.body()};
+    for (const auto& field : message)
         request.headers.emplace_back(std::string(field.name_string()), std::string(field.value()));
-    }
     return request;
 }
 
@@ -72,9 +71,7 @@ public:
     ~Impl() { stop(); }
 
     void start() {
-        for (auto& acceptor : acceptors_) {
-            asio::co_spawn(io_, accept_all(acceptor), asio::detached);
-        }
+        for (auto& acceptor : acceptors_) asio::co_spawn(io_, accept_all(acceptor), asio::detached);
         asio::co_spawn(io_, live_->feed(), asio::detached);
         thread_ = std::thread([this] { io_.run(); });
     }
@@ -116,16 +113,15 @@ private:
         tcp::acceptor acceptor(io_);
         acceptor.open(endpoint.protocol(), error);
         if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
-        if (!error && endpoint.protocol() == tcp::v6()) {
+        if (!error && endpoint.protocol() == tcp::v6())
             acceptor.set_option(asio::ip::v6_only(true), error);
-        }
         if (!error) acceptor.bind(endpoint, error);
         if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
         if (error) return error;
         const auto bound = acceptor.local_endpoint();
-        const auto ip = bound.address().to_string();
-        addresses_.push_back((bound.address().is_v6() ? "[" + ip + "]" : ip) + ":" +
-                             std::to_string(bound.port()));
+        addresses_.push_back(to_string(ListenAddress{.ip = bound.address().to_string(),
+                                                     .port = bound.port(),
+                                                     .is_v6 = bound.address().is_v6()}));
         acceptors_.push_back(std::move(acceptor));
         return {};
     }
@@ -148,14 +144,13 @@ private:
     void welcome(tcp::socket socket) {
         // Connections that are refused also need a socket for a moment.
         auto& taken = api_->use().connections;
-        if (taken + turned_away_ >= 2 * options_.connection_limit) return;
+        if (taken + turned_away_ >= 2 * kMostConnections) return;
         error_code ignored;
         socket.set_option(tcp::no_delay(true), ignored);
-        if (taken >= options_.connection_limit) {
+        if (taken >= kMostConnections)
             asio::co_spawn(io_, turn_away(std::move(socket), Seat(turned_away_)), asio::detached);
-        } else {
+        else
             asio::co_spawn(io_, serve(std::move(socket), Seat(taken)), asio::detached);
-        }
     }
 
     asio::awaitable<void> turn_away(tcp::socket socket, Seat) {
@@ -204,7 +199,7 @@ private:
             response.headers.emplace_back("Upgrade", "websocket");
             return response;
         }
-        if (api_->use().streams < options_.stream_limit) return std::nullopt;
+        if (api_->use().streams < kMostStreams) return std::nullopt;
         return refusal(503, "too many live streams; try again later");
     }
 

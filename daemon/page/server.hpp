@@ -13,7 +13,6 @@
 /// Functions and `occupations` are used on the server's thread only, from start() to stop().
 
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -29,10 +28,7 @@ struct ServerOptions {
     ListenAddress listen = {};
     std::vector<std::string> hosts = {};  ///< Further accepted names (name or name:port).
     std::string token = {};               ///< Token; empty: a random one per start.
-
-    std::size_t connection_limit = 32;
     std::chrono::milliseconds request_limit{10'000};  ///< Real time to complete a request.
-    std::size_t stream_limit = 20;  ///< Most live streams, part of the connections.
     /// Real time after which a live viewer that accepts or answers nothing is disconnected.
     std::chrono::milliseconds stream_patience{10'000};
 };

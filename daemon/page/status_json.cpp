@@ -1,9 +1,9 @@
 #include "daemon/page/status_json.hpp"
 
-#include <cstdio>
-#include <nlohmann/json.hpp>
+#include <fmt/core.h>
 
-#include "daemon/page/field_json.hpp"
+#include <array>
+#include <nlohmann/json.hpp>
 
 namespace a351::daemon {
 namespace {
@@ -11,17 +11,9 @@ namespace {
 using nlohmann::json;
 
 const char* name(timing::TimingState state) {
-    switch (state) {
-        case timing::TimingState::unlocked:
-            return "unlocked";
-        case timing::TimingState::coarse:
-            return "coarse";
-        case timing::TimingState::locked:
-            return "locked";
-        case timing::TimingState::holdover:
-            return "holdover";
-    }
-    return "unlocked";
+    // In the order of the enumerators.
+    constexpr std::array kTexts{"unlocked", "coarse", "locked", "holdover"};
+    return kTexts[static_cast<std::size_t>(state)];
 }
 
 template <class Number>
@@ -29,8 +21,13 @@ json or_null(const std::optional<Number>& number) {
     return number ? json(*number) : json();
 }
 
+template <class Unit>
+json or_null(const std::optional<Quantity<Unit>>& quantity) {
+    return quantity ? json(quantity->value()) : json();
+}
+
 json verdict_of(const Status& status, Nanoseconds stale_after) {
-    const auto no_data = [&](const char* reason, std::optional<UtcTime> since) {
+    const auto no_data = [&](const std::string& reason, std::optional<UtcTime> since) {
         json verdict =
             to_json(Verdict{VerdictState::no_data, since.value_or(UtcTime{}), {}}, status.now);
         verdict["reasons"].push_back(reason);
@@ -38,10 +35,9 @@ json verdict_of(const Status& status, Nanoseconds stale_after) {
     };
     if (!status.last_sample) return no_data("no sample has been received yet", std::nullopt);
     if (status.now - *status.last_sample <= stale_after) return to_json(status.verdict, status.now);
-    char reason[64];
-    std::snprintf(reason, sizeof reason, "last sample %.1f s ago",
-                  seconds_between(*status.last_sample, status.now));
-    return no_data(reason, status.last_sample);
+    return no_data(
+        fmt::format("last sample {:.1f} s ago", seconds_between(*status.last_sample, status.now)),
+        status.last_sample);
 }
 
 json occupation_of(const Occupations& occupations, const FieldStatus& field, UtcTime now) {
@@ -57,17 +53,13 @@ json occupation_of(const Occupations& occupations, const FieldStatus& field, Utc
 }
 
 json rate_of(const Status& status) {
-    json rate = {{"declared_hz", or_null(status.declared_rate_hz)},
-                 {"measured_hz", nullptr},
-                 {"uncertainty_ppm", nullptr},
-                 {"span_h", nullptr},
-                 {"advice", status.rate_advice}};
-    if (const auto& measured = status.measured_rate) {
-        rate["measured_hz"] = measured->rate.value();
-        rate["uncertainty_ppm"] = measured->uncertainty_ppm;
-        rate["span_h"] = std::chrono::duration<double, std::ratio<3600>>(measured->span).count();
-    }
-    return rate;
+    using Hours = std::chrono::duration<double, std::ratio<3600>>;
+    const auto& measured = status.measured_rate;
+    return {{"declared_hz", or_null(status.declared_rate_hz)},
+            {"measured_hz", measured ? json(measured->rate.value()) : json()},
+            {"uncertainty_ppm", measured ? json(measured->uncertainty_ppm) : json()},
+            {"span_h", measured ? json(Hours(measured->span).count()) : json()},
+            {"advice", status.rate_advice}};
 }
 
 json sample_of(const Status& status) {
@@ -80,24 +72,22 @@ json sample_of(const Status& status) {
             {"temperature_degc", status.temperature.value()}};
 }
 
-json oven_of(const std::optional<OvenStatus>& oven) {
+json oven_of(const std::optional<OvenLinkStatus>& oven) {
     if (!oven) return {{"state", "disabled"}};
-    json object = {{"state", oven->state},       {"trouble", oven->trouble},
-                   {"port", oven->port},         {"decimals", oven->decimals},
-                   {"is_stale", oven->is_stale}, {"polls", oven->polls}};
-    for (const char* key : {"process_value_degc", "set_point_degc", "heating_percent",
-                            "status_word", "has_input_error", "age_s"}) {
-        object[key] = nullptr;
-    }
-    if (oven->age) object["age_s"] = std::chrono::duration<double>(*oven->age).count();
-    if (const auto& values = oven->values) {
-        if (values->process_value) object["process_value_degc"] = values->process_value->value();
-        object["set_point_degc"] = values->set_point.value();
-        object["heating_percent"] = values->heating.value();
-        object["status_word"] = values->status;
-        object["has_input_error"] = oven::has_input_error(values->status);
-    }
-    return object;
+    const auto& values = oven->values;
+    const auto& age = oven->age;
+    return {{"state", to_text(oven->state)},
+            {"trouble", oven->trouble},
+            {"port", oven->port},
+            {"decimals", oven->decimals},
+            {"is_stale", oven->is_stale},
+            {"polls", polls_by_outcome(*oven)},
+            {"age_s", age ? json(std::chrono::duration<double>(*age).count()) : json()},
+            {"process_value_degc", values ? or_null(values->process_value) : json()},
+            {"set_point_degc", values ? json(values->set_point.value()) : json()},
+            {"heating_percent", values ? json(values->heating.value()) : json()},
+            {"status_word", values ? json(values->status) : json()},
+            {"has_input_error", values ? json(oven::has_input_error(values->status)) : json()}};
 }
 
 json counters_of(const Status& status) {
@@ -122,15 +112,9 @@ json counters_of(const Status& status) {
 }  // namespace
 
 std::string_view to_text(Status::Level level) noexcept {
-    switch (level) {
-        case Status::Level::good:
-            return "good";
-        case Status::Level::warning:
-            return "warning";
-        case Status::Level::fault:
-            return "fault";
-    }
-    return "fault";
+    // In the order of the enumerators.
+    constexpr std::array kTexts{"good", "warning", "fault"};
+    return kTexts[static_cast<std::size_t>(level)];
 }
 
 json to_json(const Status& status, const Occupations& occupations, const FieldStatus& field,
@@ -191,13 +175,12 @@ json to_json(const RunningOccupation& running, UtcTime now) {
 
 json to_json(const record::Occupation& occupation) {
     json set_ups = json::array();
-    for (const auto& one : occupation.set_ups) {
+    for (const auto& one : occupation.set_ups)
         set_ups.push_back({{"start", to_rfc3339(one.start, 3)}, {"end", to_rfc3339(one.end, 3)}});
-    }
     return {{"site", occupation.site},
             {"number", occupation.number},
             {"note", occupation.note},
-            {"used", or_null(occupation.used)},
+            {"used", nullptr},
             {"set_ups", set_ups}};
 }
 
@@ -208,8 +191,72 @@ json to_json(const SiteDistance& one) {
             {"longitude_deg", placed(site.longitude.value())},
             {"latitude_deg", placed(site.latitude.value())},
             {"altitude_m", placed(site.altitude.value())},
-            {"gravity_mgal", site.gravity ? json(site.gravity->value()) : json()},
-            {"distance_m", one.distance ? json(one.distance->value()) : json()}};
+            {"gravity_mgal", or_null(site.gravity)},
+            {"distance_m", or_null(one.distance)}};
+}
+
+json to_json(const Verdict& verdict, UtcTime now) {
+    json reasons = json::array(), checks = json::array();
+    for (const Reason& reason : verdict.reasons) {
+        if (!reason.is_met) reasons.push_back(reason.to_text());
+        checks.push_back({{"quantity", reason.quantity},
+                          {"value", reason.value},
+                          {"error", reason.error > 0.0 ? json(reason.error) : json()},
+                          {"unit", reason.unit},
+                          {"ending", reason.ending},
+                          {"limit", reason.limit},
+                          {"is_least", reason.is_least},
+                          {"is_met", reason.is_met}});
+    }
+    const bool is_known = verdict.since != UtcTime{};
+    return {{"state", to_text(verdict.state)},
+            {"since", is_known ? json(to_rfc3339(verdict.since, 3)) : json()},
+            {"held_s", is_known ? json(seconds_between(verdict.since, now)) : json()},
+            {"reasons", reasons},
+            {"checks", checks}};
+}
+
+json to_json(const OccupationReading& reading) {
+    return {{"value_mgal", or_null(reading.value)},
+            {"standard_error_mgal", or_null(reading.standard_error)}};
+}
+
+json to_json(const RunningReading& reading, MilliGal target) {
+    return {{"value_mgal", or_null(reading.value)},
+            {"standard_error_mgal", or_null(reading.standard_error)},
+            {"used_s", reading.used_s},
+            {"left_out_s", reading.left_out_s},
+            {"target_mgal", target.value()},
+            {"is_good_enough", reading.is_good_enough},
+            {"needed_s", or_null(reading.needed_s)}};
+}
+
+json tilt_of(const FieldStatus& field) {
+    if (field.level_site.empty()) return nullptr;
+    const auto& level = field.level;
+    return {{"x_arcmin", level ? json(level->tilt_arcmin[0]) : json()},
+            {"y_arcmin", level ? json(level->tilt_arcmin[1]) : json()},
+            {"limit_arcmin", kMostTiltArcmin},
+            {"is_within", level ? json(level->is_within) : json()},
+            {"advice", level ? json(level->advice) : json::array()},
+            {"reference", {{"site", field.level_site}, {"utc", to_rfc3339(field.level_utc, 3)}}}};
+}
+
+json channels_of(const LiveRecord& live) {
+    const wire::DeviceProfile& profile = live.profile();
+    json channels = json::array();
+    for (const char* axis : {"x", "y", "z"}) {
+        channels.push_back({{"name", axis},
+                            {"unit", "mg"},
+                            {"scale", 1e3 * profile.acceleration(1).value()},
+                            {"offset", 0.0}});
+    }
+    channels.push_back({{"name", "temperature"},
+                        {"unit", "degC"},
+                        {"scale", profile.temperature_slope_degc},
+                        {"offset", profile.temperature_offset_degc}});
+    return {
+        {"rate_hz", live.rate_hz()}, {"interval_s", 1.0 / live.rate_hz()}, {"channels", channels}};
 }
 
 }  // namespace a351::daemon

@@ -18,8 +18,6 @@ Nanoseconds read_clock(clockid_t id) {
 
 UtcTime host_realtime() { return UtcTime(read_clock(CLOCK_REALTIME)); }
 
-HostClock::HostClock(std::optional<ClockScale> scale) : scale_(scale) {}
-
 UtcTime HostClock::now() const {
     return scale_ ? scale_->simulated(host_realtime()) : host_realtime();
 }

@@ -15,7 +15,7 @@ namespace a351::daemon {
 
 class HostClock {
 public:
-    explicit HostClock(std::optional<ClockScale> scale = std::nullopt);
+    explicit HostClock(std::optional<ClockScale> scale = std::nullopt) : scale_(scale) {}
 
     [[nodiscard]] RawTime raw() const;
     [[nodiscard]] UtcTime now() const;

@@ -1,6 +1,7 @@
 #include "daemon/source/modbus_line.hpp"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <modbus/modbus.h>
 #include <sys/file.h>
 #include <termios.h>
@@ -9,7 +10,6 @@
 #include <array>
 #include <boost/crc.hpp>
 #include <cerrno>
-#include <cstdio>
 #include <system_error>
 
 #include "daemon/source/port.hpp"
@@ -41,12 +41,12 @@ ModbusLine::Answer answer_of_others(const Frame& frame) {
     if (size > frame.size() || !is_sealed(frame, size)) {
         return {OvenOutcome::bad_crc, {}, "bytes that are not a frame"};
     }
-    return {OvenOutcome::other_unit, {}, "unit " + std::to_string(frame[0]) + " answered"};
+    return {OvenOutcome::other_unit, {}, fmt::format("unit {} answered", frame[0])};
 }
 
 ModbusLine::Answer answer_in(const Frame& frame, std::size_t size, std::size_t count) {
     if (size == kFrameOverhead && frame[1] == (kReadRegisters | kException)) {
-        return {OvenOutcome::exception, {}, "exception " + std::to_string(frame[2]), frame[2]};
+        return {OvenOutcome::exception, {}, fmt::format("exception {}", frame[2]), frame[2]};
     }
     if (frame[1] != kReadRegisters || size != kFrameOverhead + 2 * count || frame[2] != 2 * count) {
         return {OvenOutcome::malformed, {}, "the answer does not match the request"};
@@ -64,16 +64,11 @@ tcflag_t parity_bits(char parity) {
 }
 
 ModbusLine::Answer failure(int error) {
-    switch (error) {
-        case ETIMEDOUT:
-            return {OvenOutcome::timed_out, {}, "no answer in time"};
-        case EMBBADCRC:
-            return {OvenOutcome::bad_crc, {}, "wrong CRC"};
-        case EMBBADDATA:  // The stated length exceeds that of the longest frame.
-            return {OvenOutcome::bad_crc, {}, "bytes that are not a frame"};
-        default:
-            return {OvenOutcome::no_port, {}, std::generic_category().message(error)};
-    }
+    if (error == ETIMEDOUT) return {OvenOutcome::timed_out, {}, "no answer in time"};
+    if (error == EMBBADCRC) return {OvenOutcome::bad_crc, {}, "wrong CRC"};
+    // The stated length exceeds that of the longest frame.
+    if (error == EMBBADDATA) return {OvenOutcome::bad_crc, {}, "bytes that are not a frame"};
+    return {OvenOutcome::no_port, {}, std::generic_category().message(error)};
 }
 
 }  // namespace
@@ -82,9 +77,6 @@ struct ModbusLine::Connection {
     int lock = -1;
     modbus_t* context = nullptr;
 
-    Connection() = default;
-    Connection(const Connection&) = delete;
-    Connection& operator=(const Connection&) = delete;
     ~Connection() {
         if (context != nullptr) {
             modbus_close(context);
@@ -96,29 +88,26 @@ struct ModbusLine::Connection {
 
 ModbusLine::ModbusLine(const Settings& settings)
     : unit_(settings.unit), connection_(std::make_unique<Connection>()) {
+    using Kind = PortError::Kind;
     std::error_code error;
     const auto device = std::filesystem::canonical(settings.port, error);
-    if (error) {
-        throw PortError(PortError::Kind::absent, settings.port.string() + ": " + error.message());
-    }
+    if (error) throw PortError(Kind::absent, settings.port, error.message());
     // Manuals specify two stop bits without parity.  A controller set to one stop bit understands
     // two as well, because a receiver checks only the first.
     const int stop_bits = settings.parity == 'N' ? 2 : 1;
-    description_ = device.string() + ", " + std::to_string(settings.baud) + " baud 8" +
-                   settings.parity + std::to_string(stop_bits);
+    description_ = fmt::format("{}, {} baud 8{}{}", device.string(), settings.baud, settings.parity,
+                               stop_bits);
 
     // libmodbus opens the path itself; the lock must be held before it changes the settings.
     connection_->lock = open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (connection_->lock < 0) {
-        throw PortError(errno == EBUSY ? PortError::Kind::locked : PortError::Kind::absent,
-                        device.string() + ": " + std::generic_category().message(errno));
+        throw PortError(errno == EBUSY ? Kind::locked : Kind::absent, device,
+                        std::generic_category().message(errno));
     }
-    if (isatty(connection_->lock) == 0) {
-        throw PortError(PortError::Kind::settings, device.string() + ": not a serial port");
-    }
-    if (flock(connection_->lock, LOCK_EX | LOCK_NB) != 0) {
-        throw PortError(PortError::Kind::locked, device.string() + ": in use by another process");
-    }
+    if (isatty(connection_->lock) == 0)
+        throw PortError(Kind::settings, device, "not a serial port");
+    if (flock(connection_->lock, LOCK_EX | LOCK_NB) != 0)
+        throw PortError(Kind::locked, device, "in use by another process");
     // libmodbus restores the settings that it found.  A port with echo on would send data to the
     // controller while nobody reads.
     termios raw{};
@@ -128,22 +117,18 @@ ModbusLine::ModbusLine(const Settings& settings)
     }
     connection_->context =
         modbus_new_rtu(device.c_str(), settings.baud, settings.parity, 8, stop_bits);
-    if (connection_->context == nullptr || modbus_connect(connection_->context) != 0) {
-        throw PortError(PortError::Kind::settings,
-                        description_ + ": " + std::generic_category().message(errno));
-    }
+    if (connection_->context == nullptr || modbus_connect(connection_->context) != 0)
+        throw PortError(Kind::settings, description_, std::generic_category().message(errno));
     termios kept{};
     if (tcgetattr(connection_->lock, &kept) != 0 ||
         (kept.c_cflag & (PARENB | PARODD)) != parity_bits(settings.parity)) {
-        throw PortError(
-            PortError::Kind::settings,
-            description_ + ": the port does not keep this parity; use another parity or port");
+        throw PortError(Kind::settings, description_,
+                        "the port does not keep this parity; use another parity or port");
     }
     if (settings.is_rs485 &&
         modbus_rtu_set_serial_mode(connection_->context, MODBUS_RTU_RS485) != 0) {
-        throw PortError(
-            PortError::Kind::settings,
-            description_ + ": the port's driver cannot switch an RS-485 line; set rs485 = false");
+        throw PortError(Kind::settings, description_,
+                        "the port's driver cannot switch an RS-485 line; set rs485 = false");
     }
     modbus_set_slave(connection_->context, settings.unit);
     using std::chrono::microseconds;

@@ -26,56 +26,28 @@ constexpr std::array kBackOff{seconds(1), seconds(2), seconds(5), seconds(10), s
 constexpr milliseconds kShortestRealBackOff{50};
 
 OvenLinkStatus::State state_after(OvenOutcome outcome) {
-    switch (outcome) {
-        case OvenOutcome::answered:
-            return OvenLinkStatus::State::answering;
-        case OvenOutcome::no_port:
-            return OvenLinkStatus::State::searching;
-        case OvenOutcome::timed_out:
-            return OvenLinkStatus::State::silent;
-        case OvenOutcome::bad_crc:
-        case OvenOutcome::exception:
-        case OvenOutcome::other_unit:
-        case OvenOutcome::malformed:
-            break;
-    }
-    return OvenLinkStatus::State::disturbed;
+    using State = OvenLinkStatus::State;
+    return outcome == OvenOutcome::answered    ? State::answering
+           : outcome == OvenOutcome::no_port   ? State::searching
+           : outcome == OvenOutcome::timed_out ? State::silent
+                                               : State::disturbed;
 }
 
 }  // namespace
 
 const char* to_text(OvenLinkStatus::State state) noexcept {
-    switch (state) {
-        case OvenLinkStatus::State::searching:
-            return "searching";
-        case OvenLinkStatus::State::silent:
-            return "silent";
-        case OvenLinkStatus::State::disturbed:
-            return "disturbed";
-        case OvenLinkStatus::State::answering:
-            return "answering";
-    }
-    return "";
+    // In the order of the enumerators.
+    constexpr std::array kTexts{"searching", "silent", "disturbed", "answering"};
+    return kTexts[static_cast<std::size_t>(state)];
 }
 
-const char* to_text(OvenOutcome outcome) noexcept {
-    switch (outcome) {
-        case OvenOutcome::answered:
-            return "answered";
-        case OvenOutcome::timed_out:
-            return "timed_out";
-        case OvenOutcome::bad_crc:
-            return "bad_crc";
-        case OvenOutcome::exception:
-            return "exception";
-        case OvenOutcome::other_unit:
-            return "other_unit";
-        case OvenOutcome::malformed:
-            return "malformed";
-        case OvenOutcome::no_port:
-            return "no_port";
-    }
-    return "";
+std::map<std::string, std::uint64_t> polls_by_outcome(const OvenLinkStatus& status) {
+    // In the order of the enumerators.
+    constexpr std::array<const char*, record::kOvenOutcomeCount> kTexts{
+        "answered", "timed_out", "bad_crc", "exception", "other_unit", "malformed", "no_port"};
+    std::map<std::string, std::uint64_t> polls;
+    for (std::size_t i = 0; i < kTexts.size(); ++i) polls[kTexts[i]] = status.polls[i];
+    return polls;
 }
 
 std::chrono::seconds archived_interval(const OvenLinkOptions& options, const HostClock& clock) {
@@ -98,17 +70,10 @@ OvenLink::OvenLink(OvenLinkOptions options, const HostClock& clock, Hook hook)
                    clock.instrument_span(kShortestRealInterval + ModbusLine::kResponseTimeout))),
       decimals_(options_.decimals) {}
 
-OvenLink::~OvenLink() { stop(); }
-
-void OvenLink::start() {
-    thread_ = std::thread([this] { run(); });
-}
-
 void OvenLink::stop() {
-    {
-        const std::lock_guard lock(mutex_);
-        stop_ = true;
-    }
+    std::unique_lock lock(mutex_);
+    stop_ = true;
+    lock.unlock();
     woken_.notify_all();
     if (thread_.joinable()) thread_.join();
 }
@@ -140,14 +105,14 @@ void OvenLink::run() noexcept {
             failures_in_a_row_ = 0;
             due = std::max<steady_clock::time_point>(due + real_interval_,
                                                      steady_clock::now() + kPause);
-            wait_until(due);
-            continue;
+        } else {
+            line_.reset();
+            const Nanoseconds span = kBackOff[std::min(failures_in_a_row_++, kBackOff.size() - 1)];
+            due = steady_clock::now() +
+                  std::max<Nanoseconds>(kShortestRealBackOff, clock_.real_span(span));
         }
-        line_.reset();
-        const Nanoseconds back_off = kBackOff[std::min(failures_in_a_row_++, kBackOff.size() - 1)];
-        due = steady_clock::now() +
-              std::max<Nanoseconds>(kShortestRealBackOff, clock_.real_span(back_off));
-        wait_until(due);
+        std::unique_lock lock(mutex_);
+        woken_.wait_until(lock, due, [this] { return stop_.load(); });
     }
     line_.reset();
 }
@@ -202,14 +167,12 @@ void OvenLink::ask_decimals() {
     --decimal_tries_left_;
     std::this_thread::sleep_for(kPause);
     const ModbusLine::Answer answer = read_variables(oven::kDecimalPoint, 1);
-    if (answer.outcome == OvenOutcome::answered) {
-        decimal_tries_left_ = 0;
-        const bool is_known = answer.words.front() <= oven::kMostDecimals;
-        decimals_ = is_known ? answer.words.front() : options_.decimals;
-    } else if (answer.outcome == OvenOutcome::exception) {  // This model has no such register.
-        decimal_tries_left_ = 0;
-        decimals_ = options_.decimals;
-    }
+    const bool is_answered = answer.outcome == OvenOutcome::answered;
+    // A model that has no such register answers with an exception.
+    if (!is_answered && answer.outcome != OvenOutcome::exception) return;
+    decimal_tries_left_ = 0;
+    const bool is_known = is_answered && answer.words.front() <= oven::kMostDecimals;
+    decimals_ = is_known ? answer.words.front() : options_.decimals;
 }
 
 void OvenLink::note(const record::OvenChunk& poll, const std::string& trouble) {
@@ -225,11 +188,6 @@ void OvenLink::note(const record::OvenChunk& poll, const std::string& trouble) {
         return;  // One lost answer does not change the state.
     }
     status_.state = state_after(poll.outcome);
-}
-
-void OvenLink::wait_until(steady_clock::time_point instant) {
-    std::unique_lock lock(mutex_);
-    woken_.wait_until(lock, instant, [this] { return stop_.load(); });
 }
 
 }  // namespace a351::daemon

@@ -10,6 +10,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -53,7 +54,8 @@ struct OvenLinkStatus {
 };
 
 [[nodiscard]] const char* to_text(OvenLinkStatus::State state) noexcept;
-[[nodiscard]] const char* to_text(record::OvenOutcome outcome) noexcept;
+/// Returns the number of polls by the name of their outcome.
+[[nodiscard]] std::map<std::string, std::uint64_t> polls_by_outcome(const OvenLinkStatus& status);
 
 class OvenLink {
 public:
@@ -62,9 +64,11 @@ public:
     /// `clock` must outlive this.
     /// @param hook  receives each poll, in the oven's thread.
     OvenLink(OvenLinkOptions options, const HostClock& clock, Hook hook);
-    ~OvenLink();
+    ~OvenLink() { stop(); }
 
-    void start();
+    void start() {
+        thread_ = std::thread([this] { run(); });
+    }
 
     /// Ends the thread within ModbusLine::kResponseTimeout.
     void stop();
@@ -78,7 +82,6 @@ private:
     [[nodiscard]] ModbusLine::Answer read_variables(oven::Address first, std::size_t count);
     void ask_decimals();
     void note(const record::OvenChunk& poll, const std::string& trouble);
-    void wait_until(std::chrono::steady_clock::time_point instant);
     [[nodiscard]] bool is_stale(RawTime now) const;
 
     OvenLinkOptions options_;

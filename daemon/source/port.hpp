@@ -1,6 +1,10 @@
 #pragma once
 /// @file
 /// A raw serial line: 8N1, no flow control, every byte value passes in both directions.
+///
+/// Real serial ports are listed and set up with libserialport.  The library does not support
+/// pseudo-terminals or links, leaves XON/XOFF on, takes no lock and passes descriptors to children.
+/// tty_port.cpp handles all of these.
 
 #include <chrono>
 #include <cstddef>
@@ -10,6 +14,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace a351::daemon {
 
@@ -57,7 +62,9 @@ public:
         locked,   ///< Another process holds it.
         settings  ///< The port does not accept or does not keep the required settings.
     };
-    PortError(Kind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+    /// @param port  path or address, for the message `port: trouble`.
+    PortError(Kind kind, const std::string& port, const std::string& trouble)
+        : std::runtime_error(port + ": " + trouble), kind_(kind) {}
     [[nodiscard]] Kind kind() const noexcept { return kind_; }
 
 private:
@@ -67,5 +74,19 @@ private:
 /// Locks, opens and sets up a port.  Links are resolved again on every call.
 /// @throws PortError
 [[nodiscard]] std::unique_ptr<Port> open_port(const PortAddress& address, int baud);
+
+struct SerialPortEntry {
+    std::filesystem::path path;
+    std::filesystem::path by_id;  ///< Stable name below /dev/serial/by-id; empty if none.
+    std::optional<UsbAddress> usb;
+};
+
+/// Lists the ports that the kernel knows now, sorted by path.
+[[nodiscard]] std::vector<SerialPortEntry> list_serial_ports();
+
+/// Sets 8N1 at `baud` without flow control and verifies that the port keeps it.
+/// @param device  a name in /dev, not a link.
+/// @throws PortError
+void configure_serial_port(const std::filesystem::path& device, int baud);
 
 }  // namespace a351::daemon

@@ -1,11 +1,11 @@
 #include "daemon/source/sensor_link.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <random>
 #include <utility>
 
-#include "daemon/source/handshake_driver.hpp"
 #include "protocol/wire/commands.hpp"
 
 namespace a351::daemon {
@@ -42,19 +42,9 @@ record::SessionId random_session() {
 }  // namespace
 
 const char* to_text(LinkStatus::State state) noexcept {
-    switch (state) {
-        case LinkStatus::State::searching:
-            return "searching";
-        case LinkStatus::State::handshake:
-            return "handshake";
-        case LinkStatus::State::sampling:
-            return "sampling";
-        case LinkStatus::State::waiting:
-            return "waiting";
-        case LinkStatus::State::stopped:
-            return "stopped";
-    }
-    return "";
+    // In the order of the enumerators.
+    constexpr std::array kTexts{"searching", "handshake", "sampling", "waiting", "stopped"};
+    return kTexts[static_cast<std::size_t>(state)];
 }
 
 SensorLink::SensorLink(LinkOptions options, const HostClock& clock, ReadQueue& queue)
@@ -70,8 +60,6 @@ SensorLink::SensorLink(LinkOptions options, const HostClock& clock, ReadQueue& q
     if (last != bauds_.end()) std::rotate(bauds_.begin(), last, bauds_.end());
 }
 
-SensorLink::~SensorLink() { stop(); }
-
 void SensorLink::start() {
     try {
         open();
@@ -82,10 +70,9 @@ void SensorLink::start() {
 }
 
 void SensorLink::stop() {
-    {
-        const std::lock_guard lock(mutex_);
-        stop_ = true;
-    }
+    std::unique_lock lock(mutex_);
+    stop_ = true;
+    lock.unlock();
     woken_.notify_all();
     if (thread_.joinable()) thread_.join();
 }
@@ -153,33 +140,16 @@ bool SensorLink::adopt() {
     const Listening listening = listen_for(*known_, *port_, clock_, stop_);
     if (listening.outcome == Listening::Outcome::port_gone) lose_port();
     if (listening.outcome != Listening::Outcome::continues) return false;
-    continue_session(listening.reads);
-    return true;
-}
-
-void SensorLink::continue_session(const std::vector<Read>& reads) {
-    begun_ = Begun{options_.header, {}};
-    record::JournalHeader& header = begun_->header;
-    const record::JournalHeader& last = known_->header;
-    header.session = last.session;
-    header.product_id = last.product_id;
-    header.serial_number = last.serial_number;
-    header.firmware = last.firmware;
-    header.is_device_assumed = true;
-    header.baud = bauds_.front();
-    header.clock = clock_.read();
-    {
-        const std::lock_guard lock(mutex_);
-        status_.device = {.product_id = last.product_id,
-                          .serial_number = last.serial_number,
-                          .firmware = last.firmware,
-                          .has_expected_product_id =
-                              last.product_id.starts_with(options_.profile->product_id_prefix)};
-        status_.is_device_assumed = true;
-        ++status_.adoptions;
-    }
+    prepare_session(last.session,
+                    {.product_id = last.product_id,
+                     .serial_number = last.serial_number,
+                     .firmware = last.firmware,
+                     .has_expected_product_id =
+                         last.product_id.starts_with(options_.profile->product_id_prefix)},
+                    true, {});
     begin_session();
-    for (const Read& read : reads) push(ReadQueue::Kind::rx, read.time, read.bytes);
+    for (const Read& read : listening.reads) push(ReadQueue::Kind::rx, read.time, read.bytes);
+    return true;
 }
 
 bool SensorLink::begin_sampling() {
@@ -195,7 +165,7 @@ bool SensorLink::begin_sampling() {
     }
     if (const auto* const device = std::get_if<wire::DeviceIdentity>(&run.outcome)) {
         bauds_tried_ = 0;
-        start_session(*device, std::move(run.sent));
+        prepare_session(random_session(), *device, false, std::move(run.sent));
         return true;
     }
     const auto& failure = std::get<wire::HandshakeFailure>(run.outcome);
@@ -222,19 +192,22 @@ bool SensorLink::try_next_baud() {
     return ++bauds_tried_ < bauds_.size();
 }
 
-void SensorLink::start_session(const wire::DeviceIdentity& device,
-                               std::vector<record::TxChunk> sent) {
+void SensorLink::prepare_session(const record::SessionId& session,
+                                 const wire::DeviceIdentity& device, bool is_adopted,
+                                 std::vector<record::TxChunk> sent) {
     begun_ = Begun{options_.header, std::move(sent)};
     record::JournalHeader& header = begun_->header;
-    header.session = random_session();
+    header.session = session;
     header.product_id = device.product_id;
     header.serial_number = device.serial_number;
     header.firmware = device.firmware;
+    header.is_device_assumed = is_adopted;
     header.baud = bauds_.front();
     header.clock = clock_.read();
     const std::lock_guard lock(mutex_);
     status_.device = device;
-    status_.is_device_assumed = false;
+    status_.is_device_assumed = is_adopted;
+    if (is_adopted) ++status_.adoptions;
 }
 
 void SensorLink::back_off(const std::string& trouble) {
@@ -252,9 +225,8 @@ void SensorLink::begin_session() {
     while (!queue_.push_session(begun_->header, begun_->header.clock.raw) && !stop_)
         wait_for_journal();
     waits_for_journal_ = false;
-    for (const record::TxChunk& chunk : begun_->sent) {
+    for (const record::TxChunk& chunk : begun_->sent)
         push(ReadQueue::Kind::tx, chunk.time, chunk.bytes);
-    }
     begun_.reset();
 
     const std::lock_guard lock(mutex_);

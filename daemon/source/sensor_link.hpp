@@ -5,7 +5,6 @@
 /// disappears, the sensor is silent, its bytes are not frames or its counter shows another rate.
 /// While sampling it allocates no memory, logs nothing and does not access the disk.
 
-#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -16,14 +15,12 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/source/adoption.hpp"
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/port.hpp"
 #include "daemon/source/read_queue.hpp"
+#include "daemon/source/sampling_start.hpp"
 #include "protocol/journal/journal.hpp"
-#include "protocol/journal/stream_end.hpp"
 #include "protocol/wire/device_profile.hpp"
-#include "protocol/wire/handshake.hpp"
 
 namespace a351::daemon {
 
@@ -63,7 +60,7 @@ class SensorLink {
 public:
     /// `clock` and `queue` must outlive this.
     SensorLink(LinkOptions options, const HostClock& clock, ReadQueue& queue);
-    ~SensorLink();
+    ~SensorLink() { stop(); }
 
     /// Tries the port once, then continues in its own thread.
     /// @throws PortError  of kind `locked` only; after other errors the thread tries again.
@@ -81,12 +78,12 @@ private:
     void open();
     [[nodiscard]] bool find_port();
     [[nodiscard]] bool adopt();
-    void continue_session(const std::vector<Read>& reads);
     [[nodiscard]] bool begin_sampling();
     [[nodiscard]] bool try_next_baud();
     [[nodiscard]] End read_stream();
     void note_stall(End end);
-    void start_session(const wire::DeviceIdentity& device, std::vector<record::TxChunk> sent);
+    void prepare_session(const record::SessionId& session, const wire::DeviceIdentity& device,
+                         bool is_adopted, std::vector<record::TxChunk> sent);
     void begin_session();
     void back_off(const std::string& trouble);
     void wait_for_journal();

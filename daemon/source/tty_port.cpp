@@ -2,6 +2,7 @@
 
 #include <asm/termbits.h>
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <linux/serial.h>
 #include <poll.h>
 #include <sys/file.h>
@@ -11,8 +12,6 @@
 #include <cerrno>
 #include <fstream>
 #include <system_error>
-
-#include "daemon/source/serial_ports.hpp"
 
 namespace a351::daemon {
 namespace {
@@ -26,22 +25,15 @@ constexpr int kLowLatency = static_cast<int>(ASYNC_LOW_LATENCY);
 constexpr unsigned kControlOn = CS8 | CLOCAL | CREAD;
 
 PortError failure(PortError::Kind kind, const std::filesystem::path& device, const char* step) {
-    return {kind, device.string() + ": " + step + ": " + std::generic_category().message(errno)};
+    return {kind, device, fmt::format("{}: {}", step, std::generic_category().message(errno))};
 }
 
 unsigned speed_code(int baud, const std::filesystem::path& device) {
-    switch (baud) {
-        case 460800:
-            return B460800;
-        case 230400:
-            return B230400;
-        case 115200:
-            return B115200;
-        default:
-            throw PortError(
-                PortError::Kind::settings,
-                device.string() + ": " + std::to_string(baud) + " baud is not supported");
-    }
+    if (baud == 460800) return B460800;
+    if (baud == 230400) return B230400;
+    if (baud == 115200) return B115200;
+    throw PortError(PortError::Kind::settings, device,
+                    fmt::format("{} baud is not supported", baud));
 }
 
 bool is_in_tty_class(const std::filesystem::path& device) {
@@ -99,9 +91,8 @@ void TtyPort::lock(const std::filesystem::path& device) {
     if (isatty(descriptor_) == 0)
         throw failure(PortError::Kind::settings, device, "not a serial port");
     // The lock comes before any change, because a change would disturb its holder.
-    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-        throw PortError(PortError::Kind::locked, device.string() + ": in use by another process");
-    }
+    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0)
+        throw PortError(PortError::Kind::locked, device, "in use by another process");
 }
 
 void TtyPort::configure(const std::filesystem::path& device, int baud) {
@@ -113,9 +104,8 @@ void TtyPort::configure(const std::filesystem::path& device, int baud) {
         ioctl(descriptor_, TIOCEXCL);
     }
     termios2 settings{};
-    if (ioctl(descriptor_, TCGETS2, &settings) != 0) {
+    if (ioctl(descriptor_, TCGETS2, &settings) != 0)
         throw failure(PortError::Kind::settings, device, "cannot read the settings");
-    }
     settings.c_iflag &= ~kInputOff;
     settings.c_oflag &= ~static_cast<unsigned>(OPOST);
     settings.c_lflag &= ~kLocalOff;
@@ -127,16 +117,14 @@ void TtyPort::configure(const std::filesystem::path& device, int baud) {
             (settings.c_cflag & ~static_cast<unsigned>(CBAUD | CIBAUD)) | speed_code(baud, device);
     }
     termios2 kept{};
-    if (ioctl(descriptor_, TCSETS2, &settings) != 0 || ioctl(descriptor_, TCGETS2, &kept) != 0) {
+    if (ioctl(descriptor_, TCSETS2, &settings) != 0 || ioctl(descriptor_, TCGETS2, &kept) != 0)
         throw failure(PortError::Kind::settings, device, "cannot set 8N1 raw");
-    }
     if (!is_raw(kept) || kept.c_ospeed != static_cast<unsigned>(baud)) {
-        throw PortError(PortError::Kind::settings,
-                        device.string() +
-                            ": the port does not keep 8N1 raw without flow control at that speed");
+        throw PortError(PortError::Kind::settings, device,
+                        "the port does not keep 8N1 raw without flow control at that speed");
     }
-    description_ = device.string() + ", " + std::to_string(kept.c_ospeed) + " baud" +
-                   ask_for_low_latency(descriptor_, device);
+    description_ = fmt::format("{}, {} baud{}", device.string(), kept.c_ospeed,
+                               ask_for_low_latency(descriptor_, device));
 }
 
 std::optional<std::size_t> TtyPort::read(std::span<std::byte> into,

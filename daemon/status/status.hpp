@@ -1,36 +1,36 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "daemon/source/oven_link.hpp"
+#include "daemon/source/sensor_link.hpp"
 #include "daemon/verdict/verdict.hpp"
 #include "protocol/archive/archiver.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
-#include "protocol/oven/controller_values.hpp"
 #include "protocol/timing/sample_clock.hpp"
 
 namespace a351::daemon {
 
-/// The last known state of the oven's controller.
-struct OvenStatus {
-    std::string state;  ///< searching, silent, disturbed, answering.
-    std::string trouble, port;
-    std::optional<oven::ControllerValues> values;  ///< Values of the last answer, at any age.
-    int decimals = 1;                              ///< Decimals of process value and set point.
-    std::optional<Nanoseconds> age;                ///< Age of the last answer, instrument time.
-    bool is_stale = true;                          ///< Last answer older than three polls, or none.
-    std::map<std::string, std::uint64_t> polls;    ///< Number of polls by outcome.
-};
-
 /// A snapshot of the daemon's state as `/api/status` publishes it.
 struct Status {
     enum class Level { good, warning, fault };
+
+    /// Adds a reason and raises the level to at least `least`.
+    void complain(Level least, std::string reason) {
+        level = std::max(level, least);
+        reasons.push_back(std::move(reason));
+    }
+    void warn(std::string reason) { complain(Level::warning, std::move(reason)); }
+    void fail(std::string reason) { complain(Level::fault, std::move(reason)); }
 
     std::string version;
     Level level = Level::good;
@@ -62,7 +62,7 @@ struct Status {
     std::array<StandardGravity, 3> acceleration{};
     DegC temperature;
     Verdict verdict;
-    std::optional<OvenStatus> oven;  ///< Absent if not enabled.
+    std::optional<OvenLinkStatus> oven;  ///< Absent if not enabled.
 
     record::ArchiverCounters counters;
     std::map<std::string, std::uint64_t> more_counters;  ///< Counters of link and store, by name.
@@ -72,5 +72,12 @@ struct Status {
     std::string disk_reserve_trouble;              ///< Reason why it is unavailable.
     std::chrono::milliseconds longest_sync{0};     ///< Longest sync or write of the journal.
 };
+
+/// Copies the state of the sensor's link into the status, and adds its reasons.
+void fill(Status& status, const LinkStatus& link);
+
+/// Adds the level and reasons of a completely filled status: sample rate, oven, calibration, sample
+/// times and disk space.
+void assess(Status& status);
 
 }  // namespace a351::daemon

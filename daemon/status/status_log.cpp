@@ -11,29 +11,23 @@ constexpr std::chrono::minutes kReminder{1};
 
 }  // namespace
 
-StatusLog::StatusLog(std::shared_ptr<spdlog::logger> log) : log_(std::move(log)) {}
-
 void StatusLog::note(const Status& status, Instant now) {
-    if (status.link_state != link_state_) {
+    const auto is_new = [](std::string& last, const std::string& present) {
+        return std::exchange(last, present) != present;
+    };
+    if (is_new(link_state_, status.link_state))
         log_->info("link: {} ({})", status.link_state,
                    status.link_trouble.empty() ? status.port : status.link_trouble);
-        link_state_ = status.link_state;
-    }
-    if (status.session != session_) {
+    if (is_new(session_, status.session))
         log_->info("session {}: {} serial {}, {} Hz, {}", status.session, status.product_id,
                    status.serial_number, status.output_rate_hz, status.filter);
-        session_ = status.session;
-    }
-    if (status.oven && status.oven->state != oven_state_) {
-        log_->info("oven: {} ({})", status.oven->state,
-                   status.oven->trouble.empty() ? status.oven->port : status.oven->trouble);
-        oven_state_ = status.oven->state;
-    }
-    if (status.disk_reserve != reserve_) {
+    const auto& oven = status.oven;
+    if (oven && is_new(oven_state_, to_text(oven->state)))
+        log_->info("oven: {} ({})", oven_state_,
+                   oven->trouble.empty() ? oven->port : oven->trouble);
+    if (is_new(reserve_, status.disk_reserve))
         log_->info("reserve for a full disk: {}{}{}", status.disk_reserve,
                    status.disk_reserve_trouble.empty() ? "" : ": ", status.disk_reserve_trouble);
-        reserve_ = status.disk_reserve;
-    }
     if (rate_advice_.empty() && !status.rate_advice.empty())
         log_->info("rate: {}", status.rate_advice);
     rate_advice_ = status.rate_advice;
@@ -53,10 +47,9 @@ void StatusLog::note(const Status& status, Instant now) {
         const auto found = status.more_counters.find(name);
         if (found != status.more_counters.end()) note_counter(name, found->second, now);
     }
-    if (!status.oven) return;
-    for (const auto& [outcome, count] : status.oven->polls) {
+    if (!oven) return;
+    for (const auto& [outcome, count] : polls_by_outcome(*oven))
         if (outcome != "answered") note_counter("oven polls " + outcome, count, now);
-    }
 }
 
 void StatusLog::note_reasons(const Status& status, Instant now) {
@@ -72,8 +65,7 @@ void StatusLog::note_reasons(const Status& status, Instant now) {
         }
     }
     std::erase_if(troubles_, [&](const auto& entry) {
-        const auto& reasons = status.reasons;
-        if (std::find(reasons.begin(), reasons.end(), entry.first) != reasons.end()) return false;
+        if (std::ranges::count(status.reasons, entry.first) > 0) return false;
         log_->info("resolved: {}", entry.first);
         return true;
     });

@@ -20,7 +20,7 @@ class StatusLog {
 public:
     using Instant = std::chrono::steady_clock::time_point;
 
-    explicit StatusLog(std::shared_ptr<spdlog::logger> log);
+    explicit StatusLog(std::shared_ptr<spdlog::logger> log) : log_(std::move(log)) {}
 
     void note(const Status& status, Instant now);
 

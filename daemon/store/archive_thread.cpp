@@ -19,6 +19,13 @@ constexpr milliseconds kShortestModelInterval{100};  // real time.
 constexpr std::size_t kMostWaitingBytes = std::size_t{64} << 20;
 constexpr std::size_t kSessionsRemembered = 8;  // Each has 24 h of times, up to 3.5 MB.
 
+std::optional<Instant> instant_of(const record::SessionId& session,
+                                  const timing::SampleClock& clock,
+                                  std::optional<std::int64_t> index) {
+    const auto time = index ? clock.time_of(*index) : std::nullopt;
+    return time ? std::optional(Instant{session, *index, time->utc}) : std::nullopt;
+}
+
 }  // namespace
 
 ArchiveThread::ArchiveThread(record::FileLayer& files, std::filesystem::path archive,
@@ -51,10 +58,6 @@ ArchiveThread::~ArchiveThread() {
     join();
 }
 
-void ArchiveThread::start() {
-    thread_ = std::thread([this] { run(); });
-}
-
 void ArchiveThread::skip_waits() {
     const std::lock_guard lock(mutex_);
     is_hurried_ = true;
@@ -73,11 +76,10 @@ bool ArchiveThread::join() {
 void ArchiveThread::run() noexcept {
     hooks_.begin();
     while (!recover()) {
-        bool is_over = false;
-        {
-            std::unique_lock lock(mutex_);
-            is_over = hurried_.wait_for(lock, time_.retry_interval, [this] { return is_hurried_; });
-        }
+        std::unique_lock lock(mutex_);
+        const bool is_over =
+            hurried_.wait_for(lock, time_.retry_interval, [this] { return is_hurried_; });
+        lock.unlock();
         if (!is_over && !chunks_.is_half_full()) continue;
         if (!is_over)
             note_fault(
@@ -124,9 +126,8 @@ void ArchiveThread::take(const NumberedChunk& numbered) {
     status_.counters = archiver_->counters();
     status_.last_sample = outbox_.last_sample;
     status_.records_waiting = outbox_.entries.size();
-    if (outbox_.session) {
+    if (outbox_.session)
         progress_.parsed(numbered.number, *outbox_.session, archiver_->last_index());
-    }
 }
 
 /// Handles a segment's header, of the running session or of a new one.
@@ -260,44 +261,30 @@ void ArchiveThread::reopen() {
             are_marks_true_ = false;
         }
     }
-    for (const std::string& channel : record::channels_in(archive_, codes_)) {
-        if (const auto file = record::newest_day_file(archive_, codes_, channel)) {
+    for (const std::string& channel : record::channels_in(archive_, codes_))
+        if (const auto file = record::newest_day_file(archive_, codes_, channel))
             record::repair_tail(files_, *file);
-        }
-    }
     writer_->reopen();
 }
 
 std::optional<Instant> ArchiveThread::latest() {
     const std::lock_guard lock(mutex_);
     if (status_.is_replaying) return std::nullopt;
-    const auto instant = [](const record::SessionId& session, const timing::SampleClock& clock,
-                            std::int64_t index) -> std::optional<Instant> {
-        const auto time = clock.time_of(index);
-        return time ? std::optional(Instant{session, index, time->utc}) : std::nullopt;
-    };
-    if (const auto index = archiver_->last_index(); index && session_) {
-        return instant(*session_, *archiver_->clock(), *index);
-    }
+    if (const auto index = archiver_->last_index(); index && session_)
+        return instant_of(*session_, *archiver_->clock(), index);
     if (ended_.empty()) return std::nullopt;
-    return instant(ended_.back().session, ended_.back().clock, ended_.back().last_index);
+    return instant_of(ended_.back().session, ended_.back().clock, ended_.back().last_index);
 }
 
 std::optional<Instant> ArchiveThread::at(UtcTime utc) {
     const std::lock_guard lock(mutex_);
     if (status_.is_replaying) return std::nullopt;
-    const auto find = [utc](const record::SessionId& session,
-                            const timing::SampleClock& clock) -> std::optional<Instant> {
-        const auto index = clock.index_at(utc);
-        const auto time = index ? clock.time_of(*index) : std::nullopt;
-        return time ? std::optional(Instant{session, *index, time->utc}) : std::nullopt;
-    };
-    for (const Ended& one : ended_) {
-        if (const auto instant = find(one.session, one.clock)) return instant;
-    }
+    for (const Ended& one : ended_)
+        if (const auto found = instant_of(one.session, one.clock, one.clock.index_at(utc)))
+            return found;
     const timing::SampleClock* const clock = archiver_->clock();
     if (clock == nullptr || !session_) return std::nullopt;
-    return find(*session_, *clock);
+    return instant_of(*session_, *clock, clock->index_at(utc));
 }
 
 ArchiveStatus ArchiveThread::status() {

@@ -21,7 +21,6 @@
 
 #include "daemon/source/host_clock.hpp"
 #include "daemon/store/chunk_queue.hpp"
-#include "daemon/store/disk_time.hpp"
 #include "daemon/store/progress.hpp"
 #include "daemon/store/space_reserve.hpp"
 #include "daemon/survey/recorder.hpp"
@@ -73,7 +72,9 @@ public:
                   const record::RecoveryPlan& plan);
     ~ArchiveThread();
 
-    void start();
+    void start() {
+        thread_ = std::thread([this] { run(); });
+    }
 
     /// Processes pending input in the caller's thread; for tests that do not call start().
     void step();
@@ -110,7 +111,7 @@ private:
             placed(sample);
         }
         [[nodiscard]] std::optional<std::size_t> samples_in_archive(const std::string& channel,
-                                                              UtcTime start) const override {
+                                                                    UtcTime start) const override {
             return writer->samples_in_archive(channel, start);
         }
 
@@ -132,7 +133,6 @@ private:
     void run() noexcept;
     [[nodiscard]] bool recover() noexcept;
     [[nodiscard]] bool replay(record::RecoveryReport& report);
-    void close_replayed();
     [[nodiscard]] bool replay_chunk(const record::JournalChunk& chunk);
     void handle(const NumberedChunk& numbered) noexcept;
     void take(const NumberedChunk& numbered);

@@ -56,25 +56,20 @@ bool ArchiveThread::replay(record::RecoveryReport& report) {
             open_archive(part.codes);
         }
         if (!record::replay_journal(files_, archive_, part, *writer_, take, report)) return false;
-        if (&part != &plan_.replays.back() || part.codes != codes_) close_replayed();
+        if (&part == &plan_.replays.back() && part.codes == codes_) break;
+        // Nothing continues in a part with other station codes.
+        std::unique_lock lock(mutex_);
+        archiver_->close_records();
+        lock.unlock();
+        write_replayed();
+        static_cast<void>(writer_->sync());
     }
     // No mark is written yet.  If a session continues, its first records bring the mark.
     static_cast<void>(writer_->sync());
     const std::lock_guard lock(mutex_);
     outbox_.session = marked_ = session_;
-    if (plan_.replays.empty() || plan_.replays.back().codes == codes_) return true;
-    open_archive(codes_);
+    if (!plan_.replays.empty() && plan_.replays.back().codes != codes_) open_archive(codes_);
     return true;
-}
-
-/// Closes the records of the replayed part.  With other station codes nothing continues there.
-void ArchiveThread::close_replayed() {
-    {
-        const std::lock_guard lock(mutex_);
-        archiver_->close_records();
-    }
-    write_replayed();
-    static_cast<void>(writer_->sync());
 }
 
 void ArchiveThread::open_archive(const record::StationCodes& codes) {

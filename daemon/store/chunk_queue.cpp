@@ -5,15 +5,12 @@ namespace {
 
 std::size_t size_of(const NumberedChunk& numbered) {
     std::size_t size = sizeof numbered;
-    if (const auto* rx = std::get_if<record::RxChunk>(&numbered.chunk)) {
+    if (const auto* rx = std::get_if<record::RxChunk>(&numbered.chunk))
         size += rx->bytes.size() + rx->reads.size() * sizeof(record::ReadStamp);
-    }
     return size;
 }
 
 }  // namespace
-
-ChunkQueue::ChunkQueue(std::size_t capacity_bytes) : capacity_bytes_(capacity_bytes) {}
 
 bool ChunkQueue::push(NumberedChunk chunk) {
     std::unique_lock lock(mutex_);

@@ -24,7 +24,8 @@ public:
     /// about 600 bytes).
     static constexpr std::size_t kCapacityBytes = std::size_t{32} << 20;
 
-    explicit ChunkQueue(std::size_t capacity_bytes = kCapacityBytes);
+    explicit ChunkQueue(std::size_t capacity_bytes = kCapacityBytes)
+        : capacity_bytes_(capacity_bytes) {}
 
     /// Appends a chunk.  Waits while the queue is full.
     /// @return false if it had to wait.

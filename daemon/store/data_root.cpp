@@ -1,27 +1,25 @@
 #include "daemon/store/data_root.hpp"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <span>
-#include <string>
 #include <system_error>
 
 #include "protocol/core/input_error.hpp"
 
 namespace a351::daemon {
 DataRootLock::DataRootLock(record::FileLayer& files, const std::filesystem::path& root) {
-    for (const char* name : {"journal", "archive", "metadata", "events", "state"}) {
+    for (const char* name : {"journal", "archive", "metadata", "events", "state"})
         files.create_directories(root / name);
-    }
     files.sync_directory(root);  // A start that was killed may not have synced it.
     const std::filesystem::path file = root / "state" / "lock";
     descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-    if (descriptor_ < 0) {
+    if (descriptor_ < 0)
         throw std::system_error(errno, std::generic_category(), "cannot open " + file.string());
-    }
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
         close(descriptor_);
         throw DataRootLocked(root.string() + ": another a351d is using this data root");
@@ -42,11 +40,11 @@ std::optional<std::string> describe_station(record::FileLayer& files,
         std::filesystem::path aside = file;
         aside += ".damaged";
         for (int n = 2; std::filesystem::exists(aside); ++n)
-            aside = file.string() + ".damaged." + std::to_string(n);
+            aside = fmt::format("{}.damaged.{}", file.string(), n);
         files.rename(file, aside);
-        trouble = std::string(damage.what()) + "; the file is kept as " +
-                  aside.filename().string() +
-                  ", and a new one without its earlier epochs was written";
+        trouble = fmt::format(
+            "{}; the file is kept as {}, and a new one without its earlier epochs was written",
+            damage.what(), aside.filename().string());
         xml = record::to_station_xml(description);
     }
     if (xml) record::replace_file(files, file, std::as_bytes(std::span(*xml)));

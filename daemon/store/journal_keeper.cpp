@@ -50,25 +50,16 @@ JournalKeeper::~JournalKeeper() {
     if (thread_.joinable()) thread_.join();
 }
 
-void JournalKeeper::start() {
-    thread_ = std::thread([this] { run(); });
-}
-
 JournalKeeper::Status JournalKeeper::status() const {
     const std::lock_guard lock(mutex_);
     return status_;
-}
-
-bool JournalKeeper::is_stopping() const {
-    const std::lock_guard lock(mutex_);
-    return is_stopping_;
 }
 
 void JournalKeeper::run() noexcept {
     const sched_param none{};
     pthread_setschedparam(pthread_self(), SCHED_IDLE, &none);
     std::unique_lock lock(mutex_);
-    while (!stopped_.wait_for(lock, options_.interval, [this] { return is_stopping_; })) {
+    while (!stopped_.wait_for(lock, options_.interval, [this] { return is_stopping_.load(); })) {
         lock.unlock();
         tidy();
         lock.lock();
@@ -121,7 +112,7 @@ void JournalKeeper::remove_old() {
     });
     old = std::min(old, static_cast<std::size_t>(first_marked - segments.begin()));
     if (first_marked == segments.end()) return;
-    for (; old > 0 && !is_stopping(); --old) {
+    for (; old > 0 && !is_stopping_; --old) {
         files_.remove(segments[old - 1].path);
         files_.sync_directory(journal_);
         const std::lock_guard lock(mutex_);
@@ -131,7 +122,7 @@ void JournalKeeper::remove_old() {
 
 void JournalKeeper::compress_closed() {
     const auto segments = record::journal_segments(journal_);
-    for (std::size_t i = 0; i + 1 < segments.size() && !is_stopping(); ++i) {
+    for (std::size_t i = 0; i + 1 < segments.size() && !is_stopping_; ++i) {
         if (segments[i].extension() != ".a351j") continue;
         const auto age = fs::file_time_type::clock::now() - fs::last_write_time(segments[i]);
         if (age < options_.compress_after) continue;

@@ -34,7 +34,9 @@ public:
     JournalKeeper(record::FileLayer& files, std::filesystem::path journal, Options options);
     ~JournalKeeper();
 
-    void start();
+    void start() {
+        thread_ = std::thread([this] { run(); });
+    }
 
     /// Declares whether segments are being read by their names.  Meanwhile none is compressed.
     /// Removal continues, because it affects only segments that need not be read.
@@ -54,7 +56,6 @@ private:
     void remove_old();
     void compress_closed();
     void note_fault(const std::string& trouble);
-    [[nodiscard]] bool is_stopping() const;
 
     record::FileLayer& files_;
     std::filesystem::path journal_;
@@ -63,7 +64,7 @@ private:
 
     mutable std::mutex mutex_;
     std::condition_variable stopped_;
-    bool is_stopping_ = false;
+    std::atomic<bool> is_stopping_{false};
     Status status_;
     std::thread thread_;
 };

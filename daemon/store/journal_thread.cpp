@@ -47,27 +47,24 @@ void JournalThread::start() {
 }
 
 void JournalThread::drain() {
-    {
-        const std::lock_guard lock(mutex_);
-        phase_ = Phase::draining;
-        woken_.notify_all();
-    }
-    if (!thread_.joinable()) return run_once(Phase::draining);
     std::unique_lock lock(mutex_);
-    woken_.wait(lock, [this] { return is_drained_; });
+    phase_ = Phase::draining;
+    woken_.notify_all();
+    if (thread_.joinable()) return woken_.wait(lock, [this] { return is_drained_; });
+    lock.unlock();
+    run_once(Phase::draining);
 }
 
 bool JournalThread::finish() {
-    {
-        const std::lock_guard lock(mutex_);
-        phase_ = Phase::finishing;
-        woken_.notify_all();
-    }
+    std::unique_lock lock(mutex_);
+    phase_ = Phase::finishing;
+    woken_.notify_all();
+    lock.unlock();
     if (thread_.joinable())
         thread_.join();
     else
         run_once(Phase::finishing);
-    const std::lock_guard lock(mutex_);
+    lock.lock();
     return !status_.is_faulty;
 }
 
@@ -115,18 +112,15 @@ JournalStatus JournalThread::status() const {
 }
 
 void JournalThread::run() noexcept {
-    while (true) {
-        Phase phase = Phase::running;
-        {
-            std::unique_lock lock(mutex_);
-            woken_.wait_for(lock, kWriteInterval, [this] {
-                return !commits_.empty() || phase_ == Phase::finishing ||
-                       (phase_ == Phase::draining && !is_drained_);
-            });
-            phase = phase_;
-        }
+    for (Phase phase = Phase::running; phase != Phase::finishing;) {
+        std::unique_lock lock(mutex_);
+        woken_.wait_for(lock, kWriteInterval, [this] {
+            return !commits_.empty() || phase_ == Phase::finishing ||
+                   (phase_ == Phase::draining && !is_drained_);
+        });
+        phase = phase_;
+        lock.unlock();
         run_once(phase);
-        if (phase == Phase::finishing) break;
     }
 }
 
@@ -148,6 +142,15 @@ void JournalThread::run_once(Phase phase) noexcept {
     woken_.notify_all();
 }
 
+template <class Item>
+std::optional<Item> JournalThread::take_first(std::deque<Item>& items) {
+    const std::lock_guard lock(mutex_);
+    if (items.empty()) return std::nullopt;
+    std::optional<Item> first(std::move(items.front()));
+    items.pop_front();
+    return first;
+}
+
 void JournalThread::work(Phase phase) {
     make_room();
     if (may_try_again()) {
@@ -155,9 +158,9 @@ void JournalThread::work(Phase phase) {
         write_reads();
         // After draining the archive would not see this chunk, but a reader of the journal would.
         if (phase == Phase::running && is_clock_due()) write_clock(clock_.read());
-        while (auto chunk = next_posted()) write(std::move(*chunk));
+        while (auto chunk = take_first(posted_)) write(std::move(*chunk));
     }
-    carry_out_commits();
+    while (const auto commit = take_first(commits_)) carry_out(**commit);
     if (is_dirty_ && may_try_again() && time_.now() - last_sync_ >= kJournalSyncInterval) sync();
 }
 
@@ -179,14 +182,6 @@ void JournalThread::make_room() {
     }
     const std::lock_guard lock(mutex_);
     status_.reads_dropped += dropped;
-}
-
-std::optional<record::JournalChunk> JournalThread::next_posted() {
-    const std::lock_guard lock(mutex_);
-    if (posted_.empty()) return std::nullopt;
-    std::optional<record::JournalChunk> chunk(std::move(posted_.front()));
-    posted_.pop_front();
-    return chunk;
 }
 
 void JournalThread::write_reads() {
@@ -269,23 +264,9 @@ void JournalThread::retry_unwritten() {
 }
 
 void JournalThread::hand_over(record::JournalChunk chunk) {
-    const bool went_through = written_.push({++last_chunk_, std::move(chunk)});
-    if (went_through) return;
+    if (written_.push({++last_chunk_, std::move(chunk)})) return;
     const std::lock_guard lock(mutex_);
     ++status_.archive_waits;
-}
-
-void JournalThread::carry_out_commits() {
-    while (true) {
-        std::shared_ptr<Commit> commit;
-        {
-            const std::lock_guard lock(mutex_);
-            if (commits_.empty()) return;
-            commit = std::move(commits_.front());
-            commits_.pop_front();
-        }
-        carry_out(*commit);
-    }
 }
 
 // The event counts as written when it is in the event log.  The copy in the journal follows at
@@ -294,18 +275,16 @@ void JournalThread::carry_out(Commit& commit) {
     try {
         on_disk([&] { record::append_event(files_, events_, commit.event); });
     } catch (const std::exception&) {
-        {
-            const std::lock_guard lock(mutex_);
-            ++status_.events_refused;
-        }
-        commit.done.set_exception(std::current_exception());
-        return;
+        std::unique_lock lock(mutex_);
+        ++status_.events_refused;
+        lock.unlock();
+        return commit.done.set_exception(std::current_exception());
     }
     try {
         post(record::EventChunk{record::to_json(commit.event)});
         if (may_try_again()) {
             retry_unwritten();
-            while (auto chunk = next_posted()) write(std::move(*chunk));
+            while (auto chunk = take_first(posted_)) write(std::move(*chunk));
             sync();
         }
     } catch (const std::exception& error) {
@@ -330,28 +309,26 @@ void JournalThread::sync() {
 /// Runs a disk operation and measures its time.  If the disk is full, gives up the reserve and
 /// tries once more.
 void JournalThread::on_disk(const std::function<void()>& operation) {
-    const auto note_end = [this] {
-        const std::lock_guard lock(mutex_);
-        const auto took = time_.now() - *std::exchange(on_disk_since_, std::nullopt);
-        status_.longest_sync =
-            std::max(status_.longest_sync, std::chrono::duration_cast<milliseconds>(took));
-    };
     {
         const std::lock_guard lock(mutex_);
         on_disk_since_ = time_.now();
     }
-    try {
-        try {
-            operation();
-        } catch (const std::system_error& error) {
-            if (!record::is_disk_full(error.code()) || !reserve_.give_up()) throw;
-            operation();
+    const struct Measurement {
+        JournalThread& thread;
+        ~Measurement() {
+            const std::lock_guard lock(thread.mutex_);
+            const auto took = thread.time_.now() - *thread.on_disk_since_;
+            thread.on_disk_since_.reset();
+            auto& longest = thread.status_.longest_sync;
+            longest = std::max(longest, std::chrono::duration_cast<milliseconds>(took));
         }
-    } catch (...) {
-        note_end();
-        throw;
+    } measurement{*this};
+    try {
+        operation();
+    } catch (const std::system_error& error) {
+        if (!record::is_disk_full(error.code()) || !reserve_.give_up()) throw;
+        operation();
     }
-    note_end();
 }
 
 void JournalThread::note_fault(const std::string& trouble) {

@@ -5,7 +5,6 @@
 /// ChunkQueue is full.  When the disk is full, the reserve is used first.  If writing fails for
 /// longer than the queue of reads can store, the newest reads are kept.
 
-#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -18,12 +17,10 @@
 #include <optional>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/read_queue.hpp"
 #include "daemon/store/chunk_queue.hpp"
-#include "daemon/store/disk_time.hpp"
 #include "daemon/store/progress.hpp"
 #include "daemon/store/space_reserve.hpp"
 #include "protocol/events/event_log.hpp"
@@ -91,11 +88,11 @@ private:
     void write_reads();
     [[nodiscard]] bool is_clock_due() const;
     void write_clock(const timing::ClockReading& reading);
-    [[nodiscard]] std::optional<record::JournalChunk> next_posted();
+    template <class Item>
+    [[nodiscard]] std::optional<Item> take_first(std::deque<Item>& items);
     void write(record::JournalChunk chunk);
     void retry_unwritten();
     void hand_over(record::JournalChunk chunk);
-    void carry_out_commits();
     void carry_out(Commit& commit);
     void sync();
     void on_disk(const std::function<void()>& operation);

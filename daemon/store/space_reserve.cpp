@@ -1,5 +1,6 @@
 #include "daemon/store/space_reserve.hpp"
 
+#include <array>
 #include <system_error>
 #include <utility>
 
@@ -58,15 +59,9 @@ SpaceReserve::Status SpaceReserve::status() const {
 }
 
 const char* to_text(SpaceReserve::State state) {
-    switch (state) {
-        case SpaceReserve::State::present:
-            return "present";
-        case SpaceReserve::State::given_up:
-            return "given_up";
-        case SpaceReserve::State::unavailable:
-            return "unavailable";
-    }
-    return "unavailable";
+    // In the order of the enumerators.
+    constexpr std::array kTexts{"present", "given_up", "unavailable"};
+    return kTexts[static_cast<std::size_t>(state)];
 }
 
 }  // namespace a351::daemon

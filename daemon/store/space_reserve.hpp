@@ -1,16 +1,26 @@
 #pragma once
 /// @file
-/// Disk space reserved for the journal: a file that is removed when the disk is full.
+/// Use of the disk by journal and archive: the time of their tries, and space reserved for the
+/// journal, which is a file that is removed when the disk is full.
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <string>
 
 #include "protocol/files/file_layer.hpp"
 
 namespace a351::daemon {
+
+/// The real time that journal and archive use for writing, syncing and trying again.
+struct DiskTime {
+    std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
+    /// Time between tries after a file could not be written.
+    std::chrono::milliseconds retry_interval{10'000};
+};
 
 /// Thread-safe.
 class SpaceReserve {

@@ -1,10 +1,10 @@
 #include "daemon/store/store.hpp"
 
-#include <chrono>
+#include <fmt/core.h>
+
 #include <system_error>
 #include <utility>
 
-#include "daemon/status/assess.hpp"
 #include "protocol/archive/time_gate.hpp"
 
 namespace a351::daemon {
@@ -38,8 +38,6 @@ Store::Store(record::FileLayer& files, StoreOptions options, const HostClock& cl
            .sample = options_.sample},
           options_.time, plan_) {}
 
-Store::~Store() { stop(); }
-
 void Store::start() {
     is_running_ = true;
     keeper_.keep_names(true);  // The replay reads the segments that begin_recovery() found.
@@ -62,12 +60,6 @@ bool Store::stop() {
     const bool is_archived = archive_.join();
     return journal_.finish() && is_archived;
 }
-
-std::optional<Instant> Store::latest() { return archive_.latest(); }
-
-std::optional<Instant> Store::at(UtcTime utc) { return archive_.at(utc); }
-
-void Store::commit(const record::Event& event) { journal_.commit(event, options_.commit_patience); }
 
 /// Begins recovery.  On a full disk it gives up the reserve, because recording must continue.
 record::RecoveryPlan Store::plan_recovery() {
@@ -129,76 +121,71 @@ void Store::fill(Status& status) {
     status.counters = archive.counters;
     if (archive.last_sample && profile_ != nullptr) {
         const wire::BurstValues& values = archive.last_sample->values;
-        for (std::size_t axis = 0; axis < values.axes.size(); ++axis) {
+        for (std::size_t axis = 0; axis < values.axes.size(); ++axis)
             status.acceleration.at(axis) = profile_->acceleration(values.axes.at(axis));
-        }
         status.temperature = profile_->temperature(values.temperature);
     }
 
     if (archive.is_replaying) {
-        complain(
-            status, Status::Level::warning,
+        status.warn(
             "archive: the last run's data are being added from the journal; occupations can be "
             "started and stopped when this is finished");
     }
-    status.more_counters["archive_conflicts"] = archive.conflicts;
     const JournalStatus journal = journal_.status();
-    status.more_counters["journal_bytes"] = journal.bytes_written;
-    status.more_counters["journal_faults"] = journal.faults;
-    status.more_counters["events_refused"] = journal.events_refused;
-    status.more_counters["reads_dropped"] = journal.reads_dropped;
-    status.more_counters["archive_faults"] = archive.faults;
-    status.more_counters["archive_chunks_lost"] = archive.chunks_lost;
-    status.more_counters["archive_records"] = archive.records;
-    status.more_counters["archive_records_waiting"] = archive.records_waiting;
-    status.more_counters["archive_waits"] = journal.archive_waits;
     const JournalKeeper::Status keeper = keeper_.status();
-    status.more_counters["journal_segments_compressed"] = keeper.compressed;
-    status.more_counters["journal_segments_removed"] = keeper.removed;
-    status.more_counters["journal_keeper_faults"] = keeper.faults;
+    const SpaceReserve::Status reserve = reserve_.status();
+    status.more_counters.insert({{"archive_conflicts", archive.conflicts},
+                                 {"journal_bytes", journal.bytes_written},
+                                 {"journal_faults", journal.faults},
+                                 {"events_refused", journal.events_refused},
+                                 {"reads_dropped", journal.reads_dropped},
+                                 {"archive_faults", archive.faults},
+                                 {"archive_chunks_lost", archive.chunks_lost},
+                                 {"archive_records", archive.records},
+                                 {"archive_records_waiting", archive.records_waiting},
+                                 {"archive_waits", journal.archive_waits},
+                                 {"journal_segments_compressed", keeper.compressed},
+                                 {"journal_segments_removed", keeper.removed},
+                                 {"journal_keeper_faults", keeper.faults},
+                                 {"reserve_given_up", reserve.times_given_up}});
     if (keeper.faults > 0)
-        complain(status, Status::Level::warning,
-                 "closed journal segment: not compressed or removed: " + keeper.trouble);
-    if (journal.is_faulty) complain(status, Status::Level::fault, "journal: " + journal.trouble);
-    if (archive.is_faulty) complain(status, Status::Level::fault, "archive: " + archive.trouble);
-
+        status.warn("closed journal segment: not compressed or removed: " + keeper.trouble);
+    if (journal.is_faulty) status.fail("journal: " + journal.trouble);
+    if (archive.is_faulty) status.fail("archive: " + archive.trouble);
     if (journal.is_faulty && journal.reads_dropped > 0) {
-        complain(status, Status::Level::fault,
-                 "journal: writing has failed for so long that the buffer is full; the oldest data "
-                 "are being discarded; check the disk");
+        status.fail(
+            "journal: writing has failed for so long that the buffer is full; the oldest data are "
+            "being discarded; check the disk");
     }
     if (archive.chunks_lost > 0) {
-        complain(status, Status::Level::fault,
-                 "archive: some data could not be added; they are safe in the journal and will be "
-                 "added at the next start");
+        status.fail(
+            "archive: some data could not be added; they are safe in the journal and will be added "
+            "at the next start");
     }
     {
         const std::lock_guard lock(metadata_mutex_);
-        if (!metadata_trouble_.empty())
-            complain(status, Status::Level::warning, "metadata: " + metadata_trouble_);
+        if (!metadata_trouble_.empty()) status.warn("metadata: " + metadata_trouble_);
     }
     if (!archive.is_marking) {
-        complain(status, Status::Level::warning,
-                 "archive: a sync failed or a chunk was lost, so newer data are not confirmed as "
-                 "archived; they are safe in the journal and will be added at the next start");
+        status.warn(
+            "archive: a sync failed or a chunk was lost, so newer data are not confirmed as "
+            "archived; they are safe in the journal and will be added at the next start");
     }
 
     status.longest_sync = journal.longest_sync;
-    if (journal.present_sync >= kStall)
-        complain(
-            status, Status::Level::warning,
+    if (journal.present_sync >= kStall) {
+        status.warn(
             "the disk stalls: new data wait in memory and a power cut would lose them; check the "
             "disk");
+    }
 
     status.disk_free_bytes = files_.free_bytes(options_.root);
-    const SpaceReserve::Status reserve = reserve_.status();
     status.disk_reserve = to_text(reserve.state);
     status.disk_reserve_trouble = reserve.trouble;
-    status.more_counters["reserve_given_up"] = reserve.times_given_up;
     if (reserve.is_space_short) {
-        complain(status, Status::Level::fault,
-                 "disk full: " + std::to_string(status.disk_free_bytes.value_or(0) >> 20) +
-                     " MiB free; the archive waits so that the journal can continue; make room");
+        status.fail(fmt::format(
+            "disk full: {} MiB free; the archive waits so that the journal can continue; make room",
+            status.disk_free_bytes.value_or(0) >> 20));
     }
 }
 

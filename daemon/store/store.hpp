@@ -16,7 +16,6 @@
 #include "daemon/store/archive_thread.hpp"
 #include "daemon/store/chunk_queue.hpp"
 #include "daemon/store/data_root.hpp"
-#include "daemon/store/disk_time.hpp"
 #include "daemon/store/journal_keeper.hpp"
 #include "daemon/store/journal_thread.hpp"
 #include "daemon/store/progress.hpp"
@@ -55,7 +54,7 @@ public:
     /// Locks the data root and repairs its journal.  The references must outlive this.
     /// @throws DataRootLocked, std::system_error
     Store(record::FileLayer& files, StoreOptions options, const HostClock& clock, ReadQueue& reads);
-    ~Store() override;
+    ~Store() override { stop(); }
 
     /// Returns the end of the stream that the journal contains; std::nullopt if there is none.
     [[nodiscard]] const std::optional<record::StreamEnd>& known_stream() const noexcept {
@@ -73,9 +72,11 @@ public:
     /// @return false if something could not be written.
     bool stop();
 
-    [[nodiscard]] std::optional<Instant> latest() override;
-    [[nodiscard]] std::optional<Instant> at(UtcTime utc) override;
-    void commit(const record::Event& event) override;
+    [[nodiscard]] std::optional<Instant> latest() override { return archive_.latest(); }
+    [[nodiscard]] std::optional<Instant> at(UtcTime utc) override { return archive_.at(utc); }
+    void commit(const record::Event& event) override {
+        journal_.commit(event, options_.commit_patience);
+    }
 
     /// Passes a poll to the journal.  It is dropped before the sensor's first session, which opens
     /// the journal.

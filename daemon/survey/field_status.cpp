@@ -1,8 +1,9 @@
 #include "daemon/survey/field_status.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "protocol/core/units.hpp"
@@ -17,9 +18,9 @@ using SetUp = record::Occupation::SetUp;
 
 std::vector<SetUp> set_ups_so_far(const RunningOccupation& running, UtcTime now) {
     std::vector<SetUp> set_ups;
-    for (std::size_t i = 0; i < running.set_ups.size(); ++i) {
-        const bool is_last = i + 1 == running.set_ups.size();
-        set_ups.push_back({running.set_ups[i], is_last ? now : running.set_ups[i + 1]});
+    for (const UtcTime start : running.set_ups) {
+        if (!set_ups.empty()) set_ups.back().end = start;
+        set_ups.push_back({start, now});
     }
     return set_ups;
 }
@@ -28,19 +29,14 @@ std::vector<std::string> warnings_of(const RunningOccupation& running,
                                      const std::vector<record::Occupation>& day, double running_s,
                                      double planned_s) {
     std::vector<std::string> warnings;
-    char text[160];
-    if (std::any_of(day.begin(), day.end(), [&running](const record::Occupation& occupation) {
-            return occupation.site == running.site;
-        })) {
-        std::snprintf(text, sizeof text, "the site was occupied before: this is stay %d",
-                      running.number);
-        warnings.emplace_back(text);
+    if (std::ranges::count(day, running.site, &record::Occupation::site) > 0) {
+        warnings.push_back(
+            fmt::format("the site was occupied before: this is stay {}", running.number));
     }
     if (running_s > kForgottenAfter * planned_s) {
-        std::snprintf(text, sizeof text,
-                      "running for %.0f min, planned %.0f min: stop it if the reading is finished",
-                      running_s / 60.0, planned_s / 60.0);
-        warnings.emplace_back(text);
+        warnings.push_back(fmt::format(
+            "running for {:.0f} min, planned {:.0f} min: stop it if the reading is finished",
+            running_s / 60.0, planned_s / 60.0));
     }
     return warnings;
 }
@@ -49,16 +45,10 @@ void compare_level(FieldStatus& field, const Occupations& occupations, const Liv
                    UtcTime now) {
     const auto day = survey_day(occupations, now);
     const auto& running = occupations.running();
-    SetUp first;
-    if (!day.empty()) {
-        first = day.front().set_ups.front();
-        field.level_site = day.front().site;
-    } else if (running) {
-        first = set_ups_so_far(*running, now).front();
-        field.level_site = running->site;
-    } else {
-        return;
-    }
+    if (day.empty() && !running) return;
+    const SetUp first =
+        day.empty() ? set_ups_so_far(*running, now).front() : day.front().set_ups.front();
+    field.level_site = day.empty() ? running->site : day.front().site;
     field.level_utc = first.start;
     field.level = live.level_against(first.start, first.end);
 }
@@ -124,11 +114,9 @@ std::vector<SiteDistance> nearest_first(const std::vector<text::Site>& sites, De
         list.push_back({site, std::nullopt});
         if (site.is_placed) list.back().distance = Metres(distance_m(site, latitude, longitude));
     }
-    const auto rank = [](const SiteDistance& one) {
+    std::ranges::stable_sort(list, {}, [](const SiteDistance& one) {
         return one.distance ? one.distance->value() : std::numeric_limits<double>::infinity();
-    };
-    std::stable_sort(list.begin(), list.end(),
-                     [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    });
     return list;
 }
 

@@ -1,11 +1,13 @@
 #include "daemon/survey/occupations.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cstdio>
 #include <system_error>
 #include <utility>
+
+#include "protocol/text/csv.hpp"
+#include "protocol/text/csv_reader.hpp"
 
 namespace a351::daemon {
 namespace {
@@ -15,12 +17,7 @@ std::string shown(UtcTime time) { return to_rfc3339(time, 1); }
 Outcome refused(std::string message) { return {Outcome::Kind::refused, std::move(message)}; }
 
 record::Event event_at(std::string type, const Instant& instant) {
-    record::Event event;
-    event.type = std::move(type);
-    event.utc = instant.utc;
-    event.session = instant.session;
-    event.index = instant.index;
-    return event;
+    return {std::move(type), instant.utc, instant.session, instant.index, {}};
 }
 
 void add(record::Event& event, const std::string& key, std::string_view text) {
@@ -33,8 +30,7 @@ void add(record::Event& event, const Remark& remark) {
 }
 
 std::string detail(const record::Event& event, const std::string& key) {
-    const auto found = event.details.find(key);
-    return found == event.details.end() ? "" : found->second;
+    return event.details.contains(key) ? event.details.at(key) : "";
 }
 
 constexpr const char* kTargetKey = "target_mgal";
@@ -42,25 +38,20 @@ constexpr const char* kTargetKey = "target_mgal";
 bool is_target(MilliGal target) { return target.value() >= 0.01 && target.value() <= 1000.0; }
 
 std::optional<MilliGal> target_of(const record::Event& event) {
-    const std::string text = detail(event, kTargetKey);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return is_target(MilliGal(value)) ? std::optional(MilliGal(value)) : std::nullopt;
+    const auto value = text::parse_number(detail(event, kTargetKey));
+    if (!value || !is_target(MilliGal(*value))) return std::nullopt;
+    return MilliGal(*value);
 }
 
-std::string named(std::string_view site, int number) {
-    return std::string(site) + " (stay " + std::to_string(number) + ")";
-}
-
-std::string named(const record::Occupation& occupation) {
-    return named(occupation.site, occupation.number);
+/// Returns the name of a running or finished occupation.
+std::string named(const auto& occupation) {
+    return fmt::format("{} (stay {})", occupation.site, occupation.number);
 }
 
 }  // namespace
 
 Occupations::Occupations(Recorder& recorder, std::vector<text::Site> sites,
-                         std::vector<record::Event> events, const Options& options)
+                         std::vector<record::Event> events, const OccupationOptions& options)
     : recorder_(recorder), options_(options), sites_(std::move(sites)) {
     events_.reserve(events.size());
     for (auto& event : events) {
@@ -75,33 +66,39 @@ Occupations::Placed Occupations::place(std::optional<UtcTime> at) {
     if (!latest) return {std::nullopt, "no sample is available yet; see the status"};
     if (!at) return {latest, ""};
     if (*at > latest->utc) {
-        return {std::nullopt, shown(*at) + " is later than the last sample, " + shown(latest->utc)};
+        return {std::nullopt, fmt::format("{} is later than the last sample, {}", shown(*at),
+                                          shown(latest->utc))};
     }
-    auto placed = recorder_.at(*at);
-    if (placed) return {placed, ""};
+    if (const auto placed = recorder_.at(*at)) return {placed, ""};
     return {std::nullopt, shown(*at) + " is earlier than the data that the daemon keeps in memory"};
+}
+
+/// Places the stop or a set-up of the running occupation.
+Occupations::Placed Occupations::place_in_running(std::optional<UtcTime> at) {
+    if (!running_) return {std::nullopt, "no occupation is running"};
+    auto placed = place(at);
+    if (!placed.instant || placed.instant->utc > running_->set_ups.back()) return placed;
+    return {std::nullopt, fmt::format("{} is not after the start of the set-up at {}, {}",
+                                      shown(placed.instant->utc), running_->site,
+                                      shown(running_->set_ups.back()))};
 }
 
 std::optional<std::string> Occupations::trouble_with_site(std::string_view site) const {
     if (site.empty()) return "no site is given";
     if (sites_.empty() || text::find_site(sites_, site)) return std::nullopt;
-    return "site " + std::string(site) + " is not one of the " + std::to_string(sites_.size()) +
-           " sites in the list";
+    return fmt::format("site {} is not one of the {} sites in the list", site, sites_.size());
 }
 
 /// Makes an event that needs no sample, because it must be possible with the sensor unplugged.
 record::Event Occupations::about_now(std::string type) {
     if (const auto latest = recorder_.latest()) return event_at(std::move(type), *latest);
-    record::Event event;
-    event.type = std::move(type);
-    if (!events_.empty()) event.utc = events_.back().utc;
-    return event;
+    return {std::move(type), events_.empty() ? UtcTime{} : events_.back().utc, {}, {}, {}};
 }
 
 Outcome Occupations::start(std::string_view site, const Remark& remark, std::optional<UtcTime> at) {
     if (running_) {
-        return refused(named(running_->site, running_->number) + " has been running since " +
-                       shown(running_->start) + ": stop or discard it first");
+        return refused(fmt::format("{} has been running since {}: stop or discard it first",
+                                   named(*running_), shown(running_->start)));
     }
     if (auto trouble = trouble_with_site(site)) return refused(*std::move(trouble));
     const auto placed = place(at);
@@ -109,83 +106,65 @@ Outcome Occupations::start(std::string_view site, const Remark& remark, std::opt
     for (const auto& one : list()) {
         if (one.set_ups.front().start <= placed.instant->utc &&
             placed.instant->utc < one.set_ups.back().end) {
-            return refused(shown(placed.instant->utc) + " is within the occupation " + named(one) +
-                           ", " + shown(one.set_ups.front().start) + " to " +
-                           shown(one.set_ups.back().end));
+            return refused(fmt::format(
+                "{} is within the occupation {}, {} to {}", shown(placed.instant->utc), named(one),
+                shown(one.set_ups.front().start), shown(one.set_ups.back().end)));
         }
     }
     auto event = event_at("start", *placed.instant);
     add(event, "site", site);
     add(event, remark);
-    auto outcome = commit(std::move(event),
-                          "started " + std::string(site) + " at " + shown(placed.instant->utc));
+    auto outcome =
+        commit(std::move(event), fmt::format("started {} at {}", site, shown(placed.instant->utc)));
     if (running_ && running_->number > 1)
-        outcome.message +=
-            "; the site was occupied before: stay " + std::to_string(running_->number);
+        outcome.message += fmt::format("; the site was occupied before: stay {}", running_->number);
     return outcome;
 }
 
 Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
-    if (!running_) return refused("no occupation is running");
-    const auto placed = place(at);
+    const auto placed = place_in_running(at);
     if (!placed.instant) return refused(placed.trouble);
-    if (placed.instant->utc <= running_->set_ups.back()) {
-        return refused(shown(placed.instant->utc) + " is not after the start of the set-up at " +
-                       running_->site + ", " + shown(running_->set_ups.back()));
-    }
+    const UtcTime utc = placed.instant->utc;
     for (const auto& one : list()) {
         const auto begin = one.set_ups.front().start;
-        if (running_->start < begin && begin < placed.instant->utc) {
-            return refused(named(one) + " lies between the start at " + running_->site + " and " +
-                           shown(placed.instant->utc));
+        if (running_->start < begin && begin < utc) {
+            return refused(fmt::format("{} lies between the start at {} and {}", named(one),
+                                       running_->site, shown(utc)));
         }
     }
     auto event = event_at("stop", *placed.instant);
     add(event, "site", running_->site);
     add(event, remark);
-    return commit(std::move(event), "stopped " + named(running_->site, running_->number) + " at " +
-                                        shown(placed.instant->utc) +
-                                        remarks_on_stop(placed.instant->utc));
-}
-
-std::string Occupations::remarks_on_stop(UtcTime stop) const {
-    const Nanoseconds stay = stop - running_->start;
-    if (stay >= options_.planned) return "";
-    char text[80];
-    const auto minutes = [](Nanoseconds span) {
-        return std::chrono::duration<double, std::ratio<60>>(span).count();
-    };
-    std::snprintf(text, sizeof text, "; shorter than planned: %.1f of %.0f min", minutes(stay),
-                  minutes(options_.planned));
-    return text;
+    auto message = fmt::format("stopped {} at {}", named(*running_), shown(utc));
+    using Minutes = std::chrono::duration<double, std::ratio<60>>;
+    if (const Nanoseconds stay = utc - running_->start; stay < options_.planned) {
+        message += fmt::format("; shorter than planned: {:.1f} of {:.0f} min",
+                               Minutes(stay).count(), Minutes(options_.planned).count());
+    }
+    return commit(std::move(event), std::move(message));
 }
 
 Outcome Occupations::setup(std::optional<UtcTime> at) {
-    if (!running_) return refused("no occupation is running");
-    const auto placed = place(at);
+    const auto placed = place_in_running(at);
     if (!placed.instant) return refused(placed.trouble);
-    if (placed.instant->utc <= running_->set_ups.back()) {
-        return refused(shown(placed.instant->utc) + " is not after the start of the set-up at " +
-                       running_->site + ", " + shown(running_->set_ups.back()));
-    }
     auto event = event_at("setup", *placed.instant);
     add(event, "site", running_->site);
-    return commit(std::move(event), "further set-up at " + named(running_->site, running_->number) +
-                                        " from " + shown(placed.instant->utc));
+    return commit(std::move(event), fmt::format("further set-up at {} from {}", named(*running_),
+                                                shown(placed.instant->utc)));
 }
 
 Outcome Occupations::discard() {
     auto event = about_now("discard");
     if (running_) {
         add(event, "site", running_->site);
-        return commit(std::move(event), "discarded " + named(running_->site, running_->number) +
-                                            ", which was running");
+        return commit(std::move(event),
+                      fmt::format("discarded {}, which was running", named(*running_)));
     }
     const auto last = changed_by(event);
     if (!last) return refused("there is no occupation to discard");
     add(event, "site", last->site);
-    return commit(std::move(event),
-                  "discarded " + named(*last) + ", started " + shown(last->set_ups.front().start));
+    return commit(std::move(event), fmt::format("discarded {}, started {}", named(*last),
+                                                shown(last->set_ups.front().start)));
 }
 
 Outcome Occupations::rename(std::string_view site, const Remark& remark) {
@@ -195,11 +174,11 @@ Outcome Occupations::rename(std::string_view site, const Remark& remark) {
     add(event, remark);
     const auto last = changed_by(event);
     if (!running_ && !last) {
-        return refused("there is no occupation to rename, or " + std::string(site) +
-                       " is already its name");
+        return refused(
+            fmt::format("there is no occupation to rename, or {} is already its name", site));
     }
-    std::string old = running_ ? named(running_->site, running_->number) : named(*last);
-    return commit(std::move(event), "renamed " + std::move(old) + " to " + std::string(site));
+    return commit(std::move(event), fmt::format("renamed {} to {}",
+                                                running_ ? named(*running_) : named(*last), site));
 }
 
 Outcome Occupations::note(std::string_view text) {
@@ -215,14 +194,13 @@ Outcome Occupations::set_target(MilliGal target) {
     if (!is_target(target)) return refused("target: allowed: 0.01 to 1000 mGal");
     auto event = about_now("target");
     if (event.utc == UtcTime{}) return refused("no sample is available yet; see the status");
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.begin(), text.end(), target.value()).ptr;
-    add(event, kTargetKey, std::string_view(text.data(), end));
-    return commit(std::move(event), "target set: good enough at a standard error of " +
-                                        std::string(text.data(), end) + " mGal");
+    const std::string digits = text::shortest(target.value());
+    add(event, kTargetKey, digits);
+    return commit(std::move(event),
+                  fmt::format("target set: good enough at a standard error of {} mGal", digits));
 }
 
-void Occupations::use(std::vector<text::Site> sites, const Options& options) {
+void Occupations::use(std::vector<text::Site> sites, const OccupationOptions& options) {
     sites_ = std::move(sites);
     options_ = options;
 }
@@ -237,11 +215,11 @@ std::optional<record::Occupation> Occupations::changed_by(const record::Event& e
     events.push_back(event);
     const auto after = record::occupations_of(events);
     for (const auto& one : list()) {
-        const bool is_unchanged = std::any_of(after.begin(), after.end(), [&](const auto& other) {
+        const auto is_same = [&](const auto& other) {
             return other.site == one.site &&
                    other.set_ups.front().start == one.set_ups.front().start;
-        });
-        if (!is_unchanged) return one;
+        };
+        if (std::ranges::none_of(after, is_same)) return one;
     }
     return std::nullopt;
 }
@@ -279,10 +257,8 @@ void Occupations::follow(const record::Event& event) {
 void Occupations::renumber() {
     if (!running_) return;
     const auto finished = list();
-    running_->number =
-        1 + static_cast<int>(std::count_if(finished.begin(), finished.end(), [&](const auto& one) {
-            return one.site == running_->site;
-        }));
+    running_->number = 1 + static_cast<int>(std::ranges::count(finished, running_->site,
+                                                               &record::Occupation::site));
 }
 
 }  // namespace a351::daemon

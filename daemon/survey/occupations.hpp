@@ -41,6 +41,11 @@ struct RunningOccupation {
     Remark remark;
 };
 
+struct OccupationOptions {
+    Nanoseconds planned = std::chrono::minutes(10);  ///< Planned length of a stay.
+    MilliGal target{1.0};                            ///< Target until the operator sets another.
+};
+
 /// Starts and stops occupations.  Every change is an event, which the recorder commits before the
 /// answer is given.  The state depends on the events only, so a restarted daemon that replays them
 /// has the same state.  Not thread-safe: one thread (that of the page) owns it.
@@ -54,17 +59,9 @@ struct RunningOccupation {
 /// The answer points out a possible mistake (a repeated site, a short stay).
 class Occupations {
 public:
-    struct Options {
-        Nanoseconds planned = std::chrono::minutes(10);  ///< Planned length of a stay.
-        MilliGal target{1.0};  ///< Target until the operator sets another.
-    };
-
     /// @param events  the event log so far, in file order.  `recorder` must outlive this.
     Occupations(Recorder& recorder, std::vector<text::Site> sites,
-                std::vector<record::Event> events, const Options& options);
-    Occupations(Recorder& recorder, std::vector<text::Site> sites,
-                std::vector<record::Event> events)
-        : Occupations(recorder, std::move(sites), std::move(events), {}) {}
+                std::vector<record::Event> events, const OccupationOptions& options = {});
 
     Outcome start(std::string_view site, const Remark& remark, std::optional<UtcTime> at);
     Outcome stop(const Remark& remark, std::optional<UtcTime> at);
@@ -84,7 +81,7 @@ public:
 
     /// Replaces the list of sites and the planned length, and the target unless the operator has
     /// set one.
-    void use(std::vector<text::Site> sites, const Options& options);
+    void use(std::vector<text::Site> sites, const OccupationOptions& options);
     [[nodiscard]] const std::vector<text::Site>& sites() const noexcept { return sites_; }
 
     /// Returns the finished occupations, as record::occupations_of() reads them from the log.
@@ -100,16 +97,16 @@ private:
     };
 
     [[nodiscard]] Placed place(std::optional<UtcTime> at);
+    [[nodiscard]] Placed place_in_running(std::optional<UtcTime> at);
     [[nodiscard]] std::optional<std::string> trouble_with_site(std::string_view site) const;
     [[nodiscard]] record::Event about_now(std::string type);
     [[nodiscard]] std::optional<record::Occupation> changed_by(const record::Event& event) const;
     Outcome commit(record::Event event, std::string message);
     void follow(const record::Event& event);
     void renumber();
-    [[nodiscard]] std::string remarks_on_stop(UtcTime stop) const;
 
     Recorder& recorder_;
-    Options options_;
+    OccupationOptions options_;
     std::optional<MilliGal> target_;  ///< Target set by the operator.
     std::vector<text::Site> sites_;
     std::vector<record::Event> events_;

@@ -26,9 +26,8 @@ ReadingOutlook::ReadingOutlook(const VerdictOptions& options, const OvenFilter& 
             std::vector<double> kicked = later;
             kicked.push_back(OvenFilter::seen(unit));
             const Changes kick = changes(continued(std::move(kicked), unit, filter), 0.0);
-            for (std::size_t i = 0; i < kick.size(); ++i) {
+            for (std::size_t i = 0; i < kick.size(); ++i)
                 unforeseen_mgal2_[i] += variance * kick[i] * kick[i];
-            }
             later.push_back(0.0);
         }
     }
@@ -99,9 +98,8 @@ std::optional<Outlook> ReadingOutlook::outlook(const OvenFilter& filter,
         const auto reach = [&](double mgal, double rms) {
             return std::abs(mgal) + options_.sure * rms;
         };
-        if (reach(whole, error) > reach(worst.change_mgal, worst.error_mgal)) {
+        if (reach(whole, error) > reach(worst.change_mgal, worst.error_mgal))
             worst = {whole, error};
-        }
     }
     return worst;
 }

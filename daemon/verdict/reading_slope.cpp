@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "protocol/core/units.hpp"
-
 namespace a351::daemon {
 namespace {
 
@@ -35,7 +33,8 @@ void ReadingSlope::take(UtcTime time, MilliGal norm) {
 void ReadingSlope::close_minute() {
     if (count_ >= kLeastInMinute) {
         minutes_.push_back({begun_ + from_seconds(0.5 * kSecondsPerMinute), sum_mgal_ / count_});
-        while (seconds_between(minutes_.front().time, minutes_.back().time) >= kKeptSeconds) {
+        const double kept_s = std::max(kKeptSeconds, kSecondsPerMinute * options_.history_min);
+        while (seconds_between(minutes_.front().time, minutes_.back().time) >= kept_s) {
             minutes_.pop_front();
         }
         slope_ = fit();

@@ -15,7 +15,7 @@ struct Slope {
 };
 
 /// The slope of the reading without the oven's cycle, at one place: a, b, c, d are fitted by least
-/// squares to the means of the last 40 whole minutes,
+/// squares to the means of the last 40 whole minutes (or `history_min`, if that is more),
 ///
 ///     a + b t + c cos(w t) + d sin(w t),   w = 2 pi / cycle_s
 ///

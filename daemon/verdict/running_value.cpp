@@ -14,9 +14,6 @@ constexpr int kLeastMinutes = 3;  ///< Least number of minutes for an estimate o
 
 }  // namespace
 
-RunningValue::RunningValue(const VerdictOptions& options, UtcTime start)
-    : options_(options), start_(start) {}
-
 void RunningValue::take(const LiveSample& sample) {
     if (sample.shake.value() > kMilliGalPerGal * options_.knock_gal) last_shaken_ = sample.seen_at;
     if (seconds_between(start_, sample.time) < kReachSeconds) return;
@@ -40,22 +37,17 @@ void RunningValue::take(const LiveSample& sample) {
     in_minute_ = 0;
 }
 
-std::optional<double> RunningValue::minute_variance() const {
-    if (minutes_ < kLeastMinutes) return std::nullopt;
-    const double about_mean = minutes_square_ - minutes_sum_ * minutes_sum_ / minutes_;
-    return std::max(0.0, about_mean) / (minutes_ - 1);
-}
-
 RunningReading RunningValue::reading(MilliGal target, VerdictState state) const {
     RunningReading reading;
     reading.used_s = kLiveStepSeconds * used_;
     reading.left_out_s = kLiveStepSeconds * left_out_;
     if (used_ == 0) return reading;
     reading.value = MilliGal(zero_mgal_ + sum_mgal_ / used_);
-    const auto variance = minute_variance();
-    if (!variance) return reading;
+    if (minutes_ < kLeastMinutes) return reading;
 
-    const double scatter = *variance * kSecondsPerMinute;  // Divided by u below.
+    const double about_mean = minutes_square_ - minutes_sum_ * minutes_sum_ / minutes_;
+    const double variance = std::max(0.0, about_mean) / (minutes_ - 1);
+    const double scatter = variance * kSecondsPerMinute;  // Divided by u below.
     const double cycle = options_.cycle_mgal / (2.0 * std::numbers::sqrt2);
     const double bend_s = options_.cycle_s / std::numbers::pi;
     const double share = std::min(1.0, bend_s / reading.used_s);

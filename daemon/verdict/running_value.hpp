@@ -28,7 +28,7 @@ struct RunningReading {
 class RunningValue {
 public:
     /// Values that depend on samples before `start` are not used.
-    RunningValue(const VerdictOptions& options, UtcTime start);
+    RunningValue(const VerdictOptions& options, UtcTime start) : options_(options), start_(start) {}
 
     void take(const LiveSample& sample);
 
@@ -36,8 +36,6 @@ public:
     [[nodiscard]] RunningReading reading(MilliGal target, VerdictState state) const;
 
 private:
-    [[nodiscard]] std::optional<double> minute_variance() const;
-
     VerdictOptions options_;
     UtcTime start_;
     std::optional<UtcTime> last_shaken_;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "protocol/core/units.hpp"
-
 namespace a351::daemon {
 namespace {
 
@@ -14,9 +12,6 @@ constexpr double kVarianceShare = 0.05;   ///< Weight of a new variance: average
 constexpr double kLeastErrorDegc = 3e-4;  ///< Least error of a mean: the sensor's noise.
 
 }  // namespace
-
-TemperatureTrend::TemperatureTrend(const VerdictOptions& options)
-    : options_(options), filter_(options), reading_(options, filter_) {}
 
 void TemperatureTrend::take(UtcTime time, DegC temperature) {
     const double degc = temperature.value();
@@ -30,7 +25,12 @@ void TemperatureTrend::take(UtcTime time, DegC temperature) {
         sum_degc_ = squares_degc2_ = 0.0;
         begun_ = time;
     }
-    while (seconds_between(begun_, time) >= kMeanSeconds) bridge();
+    while (seconds_between(begun_, time) >= kMeanSeconds) {  // Fills a gap.
+        filter_.step();
+        reading_.take(OvenFilter::seen(filter_.state()));
+        ++means_;
+        begun_ += from_seconds(kMeanSeconds);
+    }
     if (count_ > 0) squares_degc2_ += (degc - last_degc_) * (degc - last_degc_);
     sum_degc_ += degc;
     ++count_;
@@ -54,13 +54,6 @@ void TemperatureTrend::close_mean() {
     reading_.take(mean);
     sum_degc_ = squares_degc2_ = 0.0;
     count_ = 0;
-}
-
-void TemperatureTrend::bridge() {
-    filter_.step();
-    reading_.take(OvenFilter::seen(filter_.state()));
-    ++means_;
-    begun_ += from_seconds(kMeanSeconds);
 }
 
 double TemperatureTrend::known_min() const noexcept { return means_ * kMeanSeconds / 60.0; }

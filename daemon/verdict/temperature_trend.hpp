@@ -14,7 +14,8 @@ namespace a351::daemon {
 /// oven's filter.  A gap of up to 5 min is filled with the values that the filter expects.
 class TemperatureTrend {
 public:
-    explicit TemperatureTrend(const VerdictOptions& options);
+    explicit TemperatureTrend(const VerdictOptions& options)
+        : options_(options), filter_(options), reading_(options, filter_) {}
 
     /// Takes a value.  Times must increase; otherwise the trend starts again.
     /// @param temperature  NaN if missing.
@@ -33,7 +34,6 @@ public:
 
 private:
     void close_mean();
-    void bridge();
 
     VerdictOptions options_;
     OvenFilter filter_;

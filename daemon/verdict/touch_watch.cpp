@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "protocol/core/units.hpp"
 #include "protocol/signal/median.hpp"
@@ -26,8 +25,6 @@ double rms_about_mean(const std::deque<double>& values) {
 
 }  // namespace
 
-TouchWatch::TouchWatch(const VerdictOptions& options) : options_(options) {}
-
 void TouchWatch::take(const LiveSample& sample) {
     follow_shake(sample);
     const double x = sample.axes[0].value(), y = sample.axes[1].value(), z = sample.axes[2].value();
@@ -40,18 +37,15 @@ bool TouchWatch::is_clean(const LiveSample& sample) const noexcept {
     return !last_shaken_ || seconds_between(*last_shaken_, sample.time) > kReachSeconds;
 }
 
-double TouchWatch::usual_shake_mgal() const {
-    return corrector::median({shakes_mgal_.begin(), shakes_mgal_.end()});
-}
-
 /// Follows knocks: begin above the threshold, end when shaking is at its usual level again.
 void TouchWatch::follow_shake(const LiveSample& sample) {
     const double shake_mgal = sample.shake.value();
     if (!std::isfinite(shake_mgal)) return;
     shakes_mgal_.push_back(shake_mgal);
     if (shakes_mgal_.size() > kUsualShakes) shakes_mgal_.pop_front();
+    const double usual_mgal = corrector::median({shakes_mgal_.begin(), shakes_mgal_.end()});
     const bool is_shaking = shake_mgal > std::max(kMilliGalPerGal * options_.shake_gal,
-                                                  options_.shake_factor * usual_shake_mgal());
+                                                  options_.shake_factor * usual_mgal);
     if (is_shaking) last_shaking_ = sample.seen_at;
     if (shake_mgal > kMilliGalPerGal * options_.knock_gal) {
         last_shaken_ = sample.seen_at;
@@ -62,9 +56,8 @@ void TouchWatch::follow_shake(const LiveSample& sample) {
     }
     if (!knock_begun_) knock_begun_ = sample.seen_at - from_seconds(kLiveStepSeconds);
     last_knock_ = sample.seen_at;
-    if (seconds_between(*knock_begun_, sample.seen_at) > options_.handled_s) {
+    if (seconds_between(*knock_begun_, sample.seen_at) > options_.handled_s)
         last_handled_ = sample.seen_at;
-    }
 }
 
 /// Compares the axes of a minute ago with those of now.

@@ -12,7 +12,7 @@ namespace a351::daemon {
 /// Detects knocks, handling of the box and its move to another place; measures the noise.
 class TouchWatch {
 public:
-    explicit TouchWatch(const VerdictOptions& options);
+    explicit TouchWatch(const VerdictOptions& options) : options_(options) {}
 
     void take(const LiveSample& sample);
 
@@ -27,15 +27,12 @@ public:
     /// by a knock or otherwise.
     [[nodiscard]] std::optional<UtcTime> last_shaking() const noexcept { return last_shaking_; }
 
-    /// Returns the rms of the norm about its mean in the last minute, and its ratio to the usual
-    /// level (the median of the minutes of the last hour; the ratio is 1 until ten minutes are
-    /// known).
-    [[nodiscard]] double noise_mgal() const noexcept { return noise_mgal_; }
+    /// Returns the ratio of the noise to its usual level, the median of the minutes of the last
+    /// hour; 1 until ten minutes are known.
     [[nodiscard]] double noise_ratio() const noexcept;
 
 private:
     void follow_shake(const LiveSample& sample);
-    [[nodiscard]] double usual_shake_mgal() const;
     void follow_tilt(const LiveSample& sample);
     void follow_noise(const LiveSample& sample);
 
@@ -48,7 +45,7 @@ private:
     std::deque<double> norms_mgal_;
     std::deque<double> minutes_mgal_;  ///< Noise of past minutes.
     int since_minute_ = 0;
-    double noise_mgal_ = 0.0;
+    double noise_mgal_ = 0.0;  ///< Rms of the norm about its mean in the last minute.
 };
 
 }  // namespace a351::daemon

@@ -1,8 +1,10 @@
 #include "daemon/verdict/verdict.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "protocol/core/units.hpp"
@@ -16,33 +18,17 @@ constexpr double kWatchedHours = 1.0;  ///< Time in which a box that was switche
 }  // namespace
 
 std::string_view to_text(VerdictState state) noexcept {
-    switch (state) {
-        case VerdictState::no_data:
-            return "no data";
-        case VerdictState::warming_up:
-            return "warming up";
-        case VerdictState::disturbed:
-            return "disturbed";
-        case VerdictState::settling:
-            return "settling";
-        case VerdictState::stable:
-            return "stable";
-    }
-    return "no data";
+    // In the order of the enumerators.
+    constexpr std::array kTexts{"no data", "warming up", "disturbed", "settling", "stable"};
+    return kTexts[static_cast<std::size_t>(state)];
 }
 
 std::string Reason::to_text() const {
-    char with_error[32] = "", text[160];
-    if (error > 0.0) std::snprintf(with_error, sizeof with_error, " +- %.2g", error);
-    const char* const gap = *unit ? " " : "";
-    std::snprintf(text, sizeof text, "%s %.3g%s%s%s%s%s (%s %.3g%s%s)", quantity, value, with_error,
-                  gap, unit, *ending ? " " : "", ending, is_least ? "needs" : "limit", limit, gap,
-                  unit);
-    return text;
+    const std::string in_unit = *unit ? std::string(" ") + unit : "";
+    return fmt::format("{} {:.3g}{}{}{}{} ({} {:.3g}{})", quantity, value,
+                       error > 0.0 ? fmt::format(" +- {:.2g}", error) : "", in_unit,
+                       *ending ? " " : "", ending, is_least ? "needs" : "limit", limit, in_unit);
 }
-
-VerdictJudge::VerdictJudge(const VerdictOptions& options)
-    : options_(options), trend_(options), touches_(options), slope_(options) {}
 
 const Verdict& VerdictJudge::take(const LiveSample& sample) {
     const double x = sample.axes[0].value(), y = sample.axes[1].value(), z = sample.axes[2].value();
@@ -57,14 +43,14 @@ const Verdict& VerdictJudge::take(const LiveSample& sample) {
         is_steady_ = false;
     }
     const double norm_mgal = std::hypot(x, y, z);
-    if (std::isfinite(norm_mgal) && touches_.is_clean(sample)) {
+    if (std::isfinite(norm_mgal) && touches_.is_clean(sample))
         slope_.take(sample.time, MilliGal(norm_mgal));
-    }
     if (std::isfinite(x + y + z + degc)) last_good_ = sample.seen_at;
-    if (!std::isfinite(degc)) return at(sample.seen_at);
-    if (!stuck_since_ || degc != last_degc_) stuck_since_ = sample.seen_at;
-    last_degc_ = degc;
-    follow_power(sample.seen_at, degc);
+    if (std::isfinite(degc)) {
+        if (!stuck_since_ || degc != last_degc_) stuck_since_ = sample.seen_at;
+        last_degc_ = degc;
+        follow_power(sample.seen_at, degc);
+    }
     return at(sample.seen_at);
 }
 
@@ -83,21 +69,18 @@ void VerdictJudge::follow_power(UtcTime seen_at, double degc) {
 }
 
 const Verdict& VerdictJudge::at(UtcTime now) {
-    judge(now);
-    return verdict_;
-}
-
-void VerdictJudge::judge(UtcTime now) {
     std::vector<Reason> reasons;
+    const auto check = [&](const Reason& reason) {
+        reasons.push_back(reason);
+        return reason.is_met;
+    };
     const auto most = [&](const char* quantity, double value, const char* unit, double limit,
                           const char* ending = "") {
-        reasons.push_back({quantity, value, unit, ending, limit, false, value <= limit});
-        return reasons.back().is_met;
+        return check({quantity, value, unit, ending, limit, false, value <= limit});
     };
     const auto least = [&](const char* quantity, double value, const char* unit, double limit,
                            const char* ending = "") {
-        reasons.push_back({quantity, value, unit, ending, limit, true, value >= limit});
-        return reasons.back().is_met;
+        return check({quantity, value, unit, ending, limit, true, value >= limit});
     };
     if (!last_good_) {
         least("values so far (the first takes 20 s):", 0.0, "", 1.0);
@@ -123,10 +106,9 @@ void VerdictJudge::judge(UtcTime now) {
     bool is_settled = false;
     if (const auto outlook = trend_.outlook(warm_up_mgal)) {
         const double change = std::abs(outlook->change_mgal), error = outlook->error_mgal;
-        reasons.push_back({"reading will change in 10 min by", change, "mGal", "",
-                           options_.change_mgal, false,
-                           change + sure * error <= options_.change_mgal, error});
-        is_settled = reasons.back().is_met;
+        is_settled =
+            check({"reading will change in 10 min by", change, "mGal", "", options_.change_mgal,
+                   false, change + sure * error <= options_.change_mgal, error});
         is_settled &= most("temperature slope", std::abs(trend_.slope_degc_per_h()), "degC/h",
                            options_.slope_degc_per_h);
     } else {
@@ -135,27 +117,20 @@ void VerdictJudge::judge(UtcTime now) {
     if (const auto& slope = slope_.slope()) {
         const double value = std::abs(slope->mgal_per_h), error = slope->error_mgal_per_h;
         const double limit = options_.change_mgal / kAheadHours;
-        reasons.push_back({"acceleration slope", value, "mGal/h", "", limit, false,
-                           value - sure * error <= limit, error});
-        is_settled &= reasons.back().is_met;
+        is_settled &= check({"acceleration slope", value, "mGal/h", "", limit, false,
+                             value - sure * error <= limit, error});
     }
-    if (!is_settled && on_h < options_.warm_up_h) {
+    if (!is_settled && on_h < options_.warm_up_h)
         is_warm = least("switched on", on_h, "h", options_.warm_up_h, "ago");
-    }
 
     const auto thermal_count = static_cast<std::ptrdiff_t>(reasons.size());
     bool is_quiet = true;
-    if (const auto knock = touches_.last_knock()) {
-        is_quiet &= least("last knock", seconds_between(*knock, now), "s", options_.quiet_s, "ago");
-    }
-    if (const auto handled = touches_.last_handled()) {
-        is_quiet &=
-            least("box last touched", seconds_between(*handled, now), "s", options_.watch_s, "ago");
-    }
-    if (const auto shaking = touches_.last_shaking()) {
-        is_quiet &=
-            least("last shaking", seconds_between(*shaking, now), "s", options_.shake_s, "ago");
-    }
+    const auto ago = [&](const char* event, std::optional<UtcTime> time, double limit_s) {
+        if (time) is_quiet &= least(event, seconds_between(*time, now), "s", limit_s, "ago");
+    };
+    ago("last knock", touches_.last_knock(), options_.quiet_s);
+    ago("box last touched", touches_.last_handled(), options_.watch_s);
+    ago("last shaking", touches_.last_shaking(), options_.shake_s);
     is_quiet &=
         most("noise", touches_.noise_ratio(), "", options_.noise_factor, "x its usual level");
 
@@ -170,16 +145,17 @@ void VerdictJudge::judge(UtcTime now) {
         std::rotate(reasons.begin(), reasons.begin() + thermal_count, reasons.end());
         return decide(VerdictState::disturbed, now, std::move(reasons));
     }
-    decide(is_steady_ ? VerdictState::stable : VerdictState::settling, now, std::move(reasons));
+    const auto state = is_steady_ ? VerdictState::stable : VerdictState::settling;
+    return decide(state, now, std::move(reasons));
 }
 
-void VerdictJudge::decide(VerdictState state, UtcTime now, std::vector<Reason> reasons) {
-    std::stable_sort(reasons.begin(), reasons.end(),
-                     [](const Reason& a, const Reason& b) { return a.is_met < b.is_met; });
+const Verdict& VerdictJudge::decide(VerdictState state, UtcTime now, std::vector<Reason> reasons) {
+    std::ranges::stable_sort(reasons, {}, &Reason::is_met);
     if (state != verdict_.state || !has_judged_) verdict_.since = now;
     has_judged_ = true;
     verdict_.state = state;
     verdict_.reasons = std::move(reasons);
+    return verdict_;
 }
 
 }  // namespace a351::daemon

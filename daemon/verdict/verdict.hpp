@@ -59,7 +59,8 @@ struct Verdict {
 /// warm_up_degc below its set point, or warms by half of that within an hour.
 class VerdictJudge {
 public:
-    explicit VerdictJudge(const VerdictOptions& options = {});
+    explicit VerdictJudge(const VerdictOptions& options = {})
+        : options_(options), trend_(options), touches_(options), slope_(options) {}
 
     /// Takes the next value of the series.
     const Verdict& take(const LiveSample& sample);
@@ -70,9 +71,8 @@ public:
     [[nodiscard]] const Verdict& verdict() const noexcept { return verdict_; }
 
 private:
-    void judge(UtcTime now);
     void follow_power(UtcTime seen_at, double degc);
-    void decide(VerdictState state, UtcTime now, std::vector<Reason> reasons);
+    const Verdict& decide(VerdictState state, UtcTime now, std::vector<Reason> reasons);
 
     VerdictOptions options_;
     TemperatureTrend trend_;

@@ -1,9 +1,10 @@
 #include "protocol/archive/archive_reader.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cassert>
 #include <chrono>
-#include <span>
 
 #include "protocol/archive/miniseed.hpp"
 #include "protocol/archive/sds.hpp"
@@ -55,17 +56,15 @@ private:
 }  // namespace
 
 UtcTime Segment::time_of(std::size_t i) const {
-    const auto behind =
-        std::upper_bound(anchors.begin(), anchors.end(), i,
-                         [](std::size_t n, const Anchor& anchor) { return n < anchor.offset; });
+    const auto behind = std::ranges::upper_bound(anchors, i, {}, &Anchor::offset);
     assert(behind != anchors.begin());
     const Anchor& anchor = *std::prev(behind);
     return anchor.time + from_seconds(static_cast<double>(i - anchor.offset) / rate_hz);
 }
 
 std::string to_text(const ArchiveDamage& damage) {
-    return damage.file.filename().string() + ": offset " + std::to_string(damage.offset) + ": " +
-           std::to_string(damage.byte_count) + " bytes are not a record";
+    return fmt::format("{}: offset {}: {} bytes are not a record", damage.file.filename().string(),
+                       damage.offset, damage.byte_count);
 }
 
 ChannelData read_channel(const fs::path& archive, const StationCodes& codes,
@@ -79,31 +78,16 @@ ChannelData read_channel(const fs::path& archive, const StationCodes& codes,
     for (const auto& file : day_files(archive, codes, channel)) {
         if (file.filename() < first || file.filename() > last) continue;
         const auto bytes = read_bytes(file);
-        std::uint64_t damaged = 0;
-        std::uint64_t at = 0;
-        const auto report = [&] {
-            if (damaged > 0) data.damage.push_back({file, at - damaged, damaged});
-            damaged = 0;
-        };
-        while (at < bytes.size()) {
-            const auto rest = std::span(bytes).subspan(at);
-            const auto record = decode_record(rest.first(std::min(rest.size(), kRecordSize)));
-            if (record && record->header.channel == channel) {
-                report();
-                collector.take(*record);
-                at += kRecordSize;
-            } else {
-                // Stray bytes may have shifted all later records, so every offset is tried.
-                ++damaged;
-                ++at;
-            }
+        for (std::size_t at = 0; at < bytes.size();) {
+            const std::size_t from = at;
+            const auto record = next_record(bytes, channel, at);
+            const std::size_t found = record ? at - kRecordSize : at;
+            if (found > from) data.damage.push_back({file, from, found - from});
+            if (record) collector.take(*record);
         }
-        report();
     }
-    std::stable_sort(data.segments.begin(), data.segments.end(),
-                     [](const Segment& a, const Segment& b) {
-                         return a.anchors.front().time < b.anchors.front().time;
-                     });
+    std::ranges::stable_sort(data.segments, {},
+                             [](const Segment& one) { return one.anchors.front().time; });
     return data;
 }
 

@@ -52,8 +52,6 @@ ArchiveWriter::ArchivedRecord ArchiveWriter::describe(const DecodedRecord& recor
             last_sample_of(record) + from_seconds(0.5 / record.rate_hz())};
 }
 
-void ArchiveWriter::begin_replay() { is_replaying_ = true; }
-
 void ArchiveWriter::end_replay() {
     is_replaying_ = false;
     for (auto& [name, channel] : channels_) {

@@ -23,7 +23,7 @@ public:
     /// Begins a replay of the journal: records that the archive already holds are not written
     /// again.  Each day file concerned is read and synced first, because the previous writer may
     /// not have synced it.
-    void begin_replay();
+    void begin_replay() { is_replaying_ = true; }
     /// Ends the replay: all further records are new, whatever their times.
     void end_replay();
 

@@ -1,13 +1,14 @@
 #include "protocol/archive/archiver.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "protocol/archive/arrivals.hpp"
 #include "protocol/archive/channel_code.hpp"
 #include "protocol/archive/channel_packer.hpp"
-#include "protocol/archive/retiming.hpp"
+#include "protocol/archive/retime.hpp"
 #include "protocol/archive/slow_channels.hpp"
 #include "protocol/archive/time_gate.hpp"
 #include "protocol/core/input_error.hpp"
@@ -45,10 +46,9 @@ const wire::DeviceProfile& profile_of(const JournalHeader& header) {
 wire::BurstLayout layout_of(const JournalHeader& header) {
     const auto layout = wire::BurstLayout::from_burst_ctrl(header.burst_ctrl);
     if (!layout || header.baud <= 0 || !profile_of(header).has_output_rate(header.output_rate_hz)) {
-        throw InputError("journal: impossible settings: burst_ctrl " +
-                         std::to_string(header.burst_ctrl) + ", baud " +
-                         std::to_string(header.baud) + ", output_rate_hz " +
-                         std::to_string(header.output_rate_hz));
+        throw InputError(
+            fmt::format("journal: impossible settings: burst_ctrl {}, baud {}, output_rate_hz {}",
+                        header.burst_ctrl, header.baud, header.output_rate_hz));
     }
     return *layout;
 }
@@ -335,8 +335,6 @@ bool Archiver::are_times_fixed() const noexcept {
     const auto last = last_index();
     return !last || session_->clock().is_fixed(*last);
 }
-
-const ArchiverCounters& Archiver::counters() const noexcept { return counters_; }
 
 std::optional<std::int64_t> Archiver::last_index() const noexcept {
     return session_ ? session_->last_index() : std::nullopt;

@@ -95,7 +95,7 @@ public:
     /// continue, close records only then.
     [[nodiscard]] bool are_times_fixed() const noexcept;
 
-    [[nodiscard]] const ArchiverCounters& counters() const noexcept;
+    [[nodiscard]] const ArchiverCounters& counters() const noexcept { return counters_; }
     [[nodiscard]] std::optional<std::int64_t> last_index() const noexcept;
 
     /// Returns the clock of the current session; null before the first header.

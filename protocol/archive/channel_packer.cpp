@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <utility>
 
 namespace a351::record {
 namespace {
+
+using std::chrono::days;
+using std::chrono::floor;
+using std::chrono::seconds;
 
 constexpr Nanoseconds kQuestionable = std::chrono::milliseconds(10);
 
@@ -47,7 +50,7 @@ void ChannelPacker::close(const RecordContext& context, bool ends_series) {
 // Returns the number of samples before midnight: a record lies within the UTC day of its day file.
 std::size_t ChannelPacker::samples_before_midnight(const timing::SampleClock& clock,
                                                    UtcTime start) const {
-    const UtcTime midnight = std::chrono::floor<std::chrono::days>(start) + std::chrono::days(1);
+    const UtcTime midnight = floor<days>(start) + days(1);
     const auto is_before = [&](std::size_t i) {
         return clock.time_of(first_ + static_cast<std::int64_t>(i))->utc < midnight;
     };
@@ -68,7 +71,7 @@ void ChannelPacker::pack_one(const RecordContext& context, bool ends_series) {
     const auto time = *context.clock.time_of(first_);
     RecordHeader header = context.header;
     header.channel = code_;
-    header.start = std::chrono::floor<std::chrono::microseconds>(time.utc);
+    header.start = floor<std::chrono::microseconds>(time.utc);
     set_timing(header, time);
 
     std::size_t available = samples_before_midnight(context.clock, header.start);
@@ -94,6 +97,59 @@ void ChannelPacker::pack_one(const RecordContext& context, bool ends_series) {
                    samples_.begin() + static_cast<std::ptrdiff_t>(packed.sample_count));
     first_ = end;
     clipped_.forget_before(first_);
+}
+
+SecondPacker::SecondPacker(std::string_view code, seconds interval)
+    : code_(code),
+      interval_(interval),
+      most_age_(std::min<seconds>(kMostRecordAge.count() * interval, std::chrono::hours(1))) {
+    counts_.reserve(static_cast<std::size_t>(most_age_ / interval_) + 1);
+}
+
+void SecondPacker::add(const RecordContext& context, const SecondSample& sample) {
+    const auto next = first_ + interval_ * static_cast<std::int64_t>(counts_.size());
+    const bool is_next_day = floor<days>(sample.second) != floor<days>(first_);
+    if (sample.second != next || is_next_day) close(context, false);
+    if (counts_.empty()) {
+        first_ = sample.second;
+        first_index_ = sample.index;
+    }
+    counts_.push_back(sample.counts);
+    last_index_ = sample.index;
+    pass(context, sample.second);
+}
+
+void SecondPacker::pass(const RecordContext& context, UtcTime now) {
+    if (counts_.empty() || now - first_ < most_age_) return;
+    // A run that was shut down knew samples earlier than its replay does: they are still to come.
+    if (context.sink.samples_in_archive(code_, first_).value_or(0) > counts_.size()) return;
+    close(context, false);
+}
+
+void SecondPacker::close(const RecordContext& context, bool ends_series) {
+    while (!counts_.empty()) pack_one(context, ends_series);
+}
+
+void SecondPacker::pack_one(const RecordContext& context, bool ends_series) {
+    RecordHeader header = context.header;
+    header.channel = code_;
+    header.nominal_rate = Hertz(1.0 / static_cast<double>(interval_.count()));
+    header.declared_rate_hz.reset();
+    header.start = first_;
+    set_timing(header, *context.clock.time_of(first_index_));
+    std::size_t available = counts_.size();
+    if (const auto held = context.sink.samples_in_archive(code_, header.start))
+        available = std::min(available, *held);
+    header.starts_series = !has_started_;
+    header.ends_series = ends_series && available == counts_.size();
+    const PackedRecord packed = pack_record(header, std::span(counts_).first(available));
+
+    if (packed.is_integer_coded) ++context.counters.integer_records;
+    context.sink.record(code_, packed, last_index_);
+    has_started_ = true;
+    counts_.erase(counts_.begin(),
+                  counts_.begin() + static_cast<std::ptrdiff_t>(packed.sample_count));
+    first_ += interval_ * static_cast<std::int64_t>(packed.sample_count);
 }
 
 }  // namespace a351::record

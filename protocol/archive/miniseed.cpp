@@ -60,12 +60,6 @@ std::unique_lock<std::mutex> lock_libmseed() {
 }
 
 struct FreeRecord {
-    void operator()(MSRecord* record) const noexcept {
-        record->datasamples = nullptr;  // Borrowed.
-        msr_free(&record);
-    }
-};
-struct FreeParsedRecord {
     void operator()(MSRecord* record) const noexcept { msr_free(&record); }
 };
 
@@ -99,10 +93,6 @@ void copy_code(char (&target)[N], const std::string& code) {
     std::copy_n(code.begin(), std::min(code.size(), N - 1), target);
 }
 
-std::int64_t to_microseconds(UtcTime time) {
-    return std::chrono::round<std::chrono::microseconds>(time.time_since_epoch()).count();
-}
-
 template <class Blockette>
 void add_blockette(MSRecord* record, Blockette blockette, int type) {
     constexpr int kAtEnd = 0;
@@ -132,10 +122,9 @@ void keep_first_record(char* bytes, int length, void* target) {
 
 bool is_text_of(std::span<const std::byte> bytes, std::size_t at, std::size_t length,
                 bool (*is_allowed)(char)) {
-    for (std::size_t i = at; i < at + length; ++i) {
-        if (!is_allowed(std::to_integer<char>(bytes[i]))) return false;
-    }
-    return true;
+    return std::ranges::all_of(bytes.subspan(at, length), [&](std::byte byte) {
+        return is_allowed(std::to_integer<char>(byte));
+    });
 }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -264,7 +253,8 @@ PackedRecord pack_record(const RecordHeader& header, std::span<const std::int32_
     copy_code(record->station, header.station);
     copy_code(record->location, header.location);
     copy_code(record->channel, header.channel);
-    record->starttime = to_microseconds(header.start);
+    record->starttime =
+        std::chrono::round<std::chrono::microseconds>(header.start.time_since_epoch()).count();
     record->samprate = header.nominal_rate.value();
     record->byteorder = 1;
     record->sampletype = 'i';
@@ -291,7 +281,10 @@ PackedRecord pack_record(const RecordHeader& header, std::span<const std::int32_
     packed.start = UtcTime(std::chrono::microseconds(record->starttime));
     std::int64_t sample_count = 0;
     constexpr flag kFlush = 1;
-    if (msr_pack(record.get(), keep_first_record, &packed, &sample_count, kFlush, 0) < 1) {
+    const int record_count =
+        msr_pack(record.get(), keep_first_record, &packed, &sample_count, kFlush, 0);
+    record->datasamples = nullptr;  // Borrowed.
+    if (record_count < 1) {
         throw std::invalid_argument("pack_record: libmseed refuses a record of " + header.channel);
     }
     if (header.declared_rate_hz) {
@@ -310,7 +303,7 @@ std::optional<DecodedRecord> decode_record(std::span<const std::byte> bytes) {
     constexpr flag kWithSamples = 1;
     const int error = msr_parse(copy.data(), static_cast<int>(copy.size()), &parsed,
                                 static_cast<int>(kRecordSize), kWithSamples, 0);
-    const std::unique_ptr<MSRecord, FreeParsedRecord> record(parsed);
+    const std::unique_ptr<MSRecord, FreeRecord> record(parsed);
     if (error != MS_NOERROR || !record || record->numsamples != record->samplecnt ||
         record->sampletype != 'i') {
         return std::nullopt;
@@ -321,6 +314,18 @@ std::optional<DecodedRecord> decode_record(std::span<const std::byte> bytes) {
     decoded.samples.assign(samples, samples + record->numsamples);
     if (!do_steim_ends_agree(bytes, decoded.samples)) return std::nullopt;
     return decoded;
+}
+
+std::optional<DecodedRecord> next_record(std::span<const std::byte> bytes,
+                                         const std::string& channel, std::size_t& at) {
+    for (; at < bytes.size(); ++at) {
+        const auto rest = bytes.subspan(at);
+        auto record = decode_record(rest.first(std::min(rest.size(), kRecordSize)));
+        if (!record || record->header.channel != channel) continue;
+        at += kRecordSize;
+        return record;
+    }
+    return std::nullopt;
 }
 
 double DecodedRecord::rate_hz() const {

@@ -67,6 +67,12 @@ struct DecodedRecord {
 /// @return std::nullopt unless the bytes are one whole valid record of kRecordSize.
 [[nodiscard]] std::optional<DecodedRecord> decode_record(std::span<const std::byte> bytes);
 
+/// Finds the next record of a channel.  Every offset is tried, because stray bytes may have shifted
+/// all later records.
+/// @param at  where to begin; afterwards the end of the record, or of the bytes if there is none.
+[[nodiscard]] std::optional<DecodedRecord> next_record(std::span<const std::byte> bytes,
+                                                       const std::string& channel, std::size_t& at);
+
 /// Returns the timing quality in percent: 100 for an uncertainty up to 1 ms, then 20 less per
 /// decade (20 at 10 s, 0 from 100 s on).
 [[nodiscard]] int timing_quality_percent(Nanoseconds uncertainty);

@@ -10,12 +10,10 @@
 namespace a351::record {
 
 // Fixed section of data header, byte 0 ... 47.
-inline constexpr std::size_t kSequenceAt = 0;         ///< 6 digits.
-inline constexpr std::size_t kQualityAt = 6;          ///< 'D', then a blank.
-inline constexpr std::size_t kStationAt = 8;          ///< 5 characters, padded with blanks.
-inline constexpr std::size_t kLocationAt = 13;        ///< 2
-inline constexpr std::size_t kChannelAt = 15;         ///< 3
-inline constexpr std::size_t kNetworkAt = 18;         ///< 2
+inline constexpr std::size_t kSequenceAt = 0;  ///< 6 digits.
+inline constexpr std::size_t kQualityAt = 6;   ///< 'D', then a blank.
+/// Codes, padded with blanks: station 5 characters, location 2, channel 3, network 2.
+inline constexpr std::size_t kStationAt = 8;
 inline constexpr std::size_t kYearAt = 20;            ///< u16
 inline constexpr std::size_t kDayOfYearAt = 22;       ///< u16, 1 ... 366.
 inline constexpr std::size_t kHourAt = 24;            ///< u8, then minute and second.

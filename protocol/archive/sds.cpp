@@ -1,10 +1,10 @@
 #include "protocol/archive/sds.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <chrono>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -16,19 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string zero_padded(int number, std::size_t width) {
-    std::string digits = std::to_string(number);
-    return digits.insert(0, digits.size() < width ? width - digits.size() : 0, '0');
-}
-
-bool is_number(std::string_view text, std::size_t width) {
-    return text.size() == width &&
-           std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
 /// Returns the file name up to the year: `NET.STA.LOC.CHAN.D.`
 std::string name_stem(const StationCodes& codes, const std::string& channel) {
-    return codes.network + "." + codes.station + "." + codes.location + "." + channel + ".D.";
+    return fmt::format("{}.{}.{}.{}.D.", codes.network, codes.station, codes.location, channel);
 }
 
 /// Returns the directories of the station, one per year, ascending.
@@ -37,11 +27,11 @@ std::vector<fs::path> station_directories(const fs::path& archive, const Station
     if (!fs::is_directory(archive)) return directories;
     for (const auto& year : fs::directory_iterator(archive)) {
         const auto station = year.path() / codes.network / codes.station;
-        if (is_number(year.path().filename().string(), 4) && fs::is_directory(station)) {
+        if (has_shape(year.path().filename().string(), "####") && fs::is_directory(station)) {
             directories.push_back(station);
         }
     }
-    std::sort(directories.begin(), directories.end());
+    std::ranges::sort(directories);
     return directories;
 }
 
@@ -52,10 +42,9 @@ fs::path sds_file(const fs::path& archive, const StationCodes& codes, const std:
     const auto day = std::chrono::floor<std::chrono::days>(start);
     const std::chrono::year_month_day date(day);
     const std::chrono::sys_days new_year = date.year() / std::chrono::January / 1;
-    const std::string year = zero_padded(static_cast<int>(date.year()), 4);
-    const std::string day_of_year = zero_padded(static_cast<int>((day - new_year).count()) + 1, 3);
+    const std::string year = fmt::format("{:04}", static_cast<int>(date.year()));
     return archive / year / codes.network / codes.station / (channel + ".D") /
-           (name_stem(codes, channel) + year + "." + day_of_year);
+           fmt::format("{}{}.{:03}", name_stem(codes, channel), year, (day - new_year).count() + 1);
 }
 
 std::vector<std::string> channels_in(const fs::path& archive, const StationCodes& codes) {
@@ -78,22 +67,19 @@ std::vector<fs::path> day_files(const fs::path& archive, const StationCodes& cod
         if (!fs::is_directory(directory)) continue;
         for (const auto& entry : fs::directory_iterator(directory)) {
             const std::string name = entry.path().filename().string();
-            const bool is_day_file = name.starts_with(stem) && name.size() == stem.size() + 8 &&
-                                     name[stem.size() + 4] == '.' &&
-                                     is_number(std::string_view(name).substr(stem.size(), 4), 4) &&
-                                     is_number(std::string_view(name).substr(stem.size() + 5), 3);
-            if (is_day_file) files.push_back(entry.path());
+            if (name.starts_with(stem) &&
+                has_shape(std::string_view(name).substr(stem.size()), "####.###"))
+                files.push_back(entry.path());
         }
     }
-    std::sort(files.begin(), files.end());
+    std::ranges::sort(files);
     return files;
 }
 
 std::optional<fs::path> newest_day_file(const fs::path& archive, const StationCodes& codes,
                                         const std::string& channel) {
     const auto files = day_files(archive, codes, channel);
-    if (files.empty()) return std::nullopt;
-    return files.back();
+    return files.empty() ? std::nullopt : std::optional(files.back());
 }
 
 namespace {
@@ -134,9 +120,7 @@ std::optional<TornTail> repair_tail(FileLayer& files, const fs::path& day_file,
     if (tail.byte_count > 0) {
         // Several crashes may happen in a day; the offset in the name keeps their files apart.
         auto side = day_file;
-        side += '.';
-        side += std::to_string(whole);
-        side += ".torn";
+        side += fmt::format(".{}.torn", whole);
         replace_file(files, side, read_bytes(day_file, whole, tail.byte_count));
     }
     if (whole > 0) {

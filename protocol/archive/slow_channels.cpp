@@ -5,8 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "protocol/archive/channel_code.hpp"
-
 namespace a351::record {
 namespace {
 
@@ -21,7 +19,48 @@ bool fits(std::int64_t counts) {
     return counts >= Limits::min() && counts <= Limits::max();
 }
 
+// Largest backward step of poll times that is not a set clock: a pause of the host may delay the
+// arrival from which a poll is timed.
+constexpr seconds kMostJitter{2};
+
+// Largest distance of a poll from the place of its sample.  Polls wander by milliseconds, some by
+// pauses of a busy host; with these limits two polls in a row keep their places in any phase.  At
+// an interval of 1 s the limit is little more than half: a poll after a failed one must begin a new
+// row and not take the second of the failed one.
+constexpr Nanoseconds kMostAside = seconds(1);
+constexpr Nanoseconds kMostAsideAtOneSecond = std::chrono::milliseconds(600);
+
+std::int32_t thousandths(DegC value) {
+    return static_cast<std::int32_t>(std::lround(1000.0 * value.value()));
+}
+
 }  // namespace
+
+void OvenChannels::add(const RecordContext& context, const OvenSample& sample) {
+    auto second = std::chrono::round<seconds>(sample.utc);
+    if (newest_) {
+        const auto expected = *newest_ + interval_;
+        const auto most_aside = interval_ > kMostAside ? kMostAside : kMostAsideAtOneSecond;
+        if (std::chrono::abs(sample.utc - expected) < most_aside) second = expected;
+        if (second < expected && *newest_ - second <= kMostJitter) return;
+    }
+    newest_ = second;
+    const auto& values = sample.values;
+    if (values.process_value)
+        temperature_.add(context, {second, thousandths(*values.process_value), sample.index});
+    set_point_.add(context, {second, thousandths(values.set_point), sample.index});
+    const auto hundredths = static_cast<std::int32_t>(std::lround(100.0 * values.heating.value()));
+    heating_.add(context, {second, hundredths, sample.index});
+}
+
+void OvenChannels::pass(const RecordContext& context, UtcTime now) {
+    for (SecondPacker* packer : {&temperature_, &set_point_, &heating_}) packer->pass(context, now);
+}
+
+void OvenChannels::close(const RecordContext& context, bool ends_series) {
+    for (SecondPacker* packer : {&temperature_, &set_point_, &heating_})
+        packer->close(context, ends_series);
+}
 
 SlowChannels::SlowChannels(const wire::DeviceProfile& profile, const RecordContext& context)
     : profile_(profile),
@@ -42,7 +81,7 @@ void SlowChannels::begin_run(std::string reference, bool has_temperature) {
     oven_ = OvenChannels(oven_.interval());
 }
 
-void SlowChannels::use_oven_interval(std::chrono::seconds interval) {
+void SlowChannels::use_oven_interval(seconds interval) {
     if (interval == oven_.interval()) return;
     oven_.close(context_, true);
     oven_ = OvenChannels(interval);
@@ -129,7 +168,10 @@ void SlowChannels::record(const std::string& channel, const PackedRecord& record
                           std::int64_t last_index) {
     context_.sink.record(channel, record, last_index);
     if (channel != reference_) return;
-    const double rate_hz = header_rate_hz();
+    // The rate as a reader finds it in the record.
+    const auto& declared = context_.header.declared_rate_hz;
+    const double rate_hz = declared ? static_cast<double>(static_cast<float>(*declared))
+                                    : context_.header.nominal_rate.value();
     const Nanoseconds period = from_seconds(1.0 / rate_hz);
     const std::int64_t first_index =
         last_index + 1 - static_cast<std::int64_t>(record.sample_count);
@@ -152,13 +194,6 @@ void SlowChannels::record(const std::string& channel, const PackedRecord& record
 std::optional<std::size_t> SlowChannels::samples_in_archive(const std::string& channel,
                                                             UtcTime start) const {
     return context_.sink.samples_in_archive(channel, start);
-}
-
-/// Returns the rate as a reader finds it in the record.
-double SlowChannels::header_rate_hz() const {
-    const auto& declared = context_.header.declared_rate_hz;
-    return declared ? static_cast<double>(static_cast<float>(*declared))
-                    : context_.header.nominal_rate.value();
 }
 
 }  // namespace a351::record

@@ -19,11 +19,11 @@ std::optional<ClockScale> parse_clock_scale(std::string_view text, UtcTime host_
     const std::size_t at = text.find('@');
     if (at == std::string_view::npos) return std::nullopt;
 
-    ClockScale scale;
+    double factor = 0.0;
     const char* const factor_end = text.data() + at;
-    const auto parsed = std::from_chars(text.data(), factor_end, scale.factor);
+    const auto parsed = std::from_chars(text.data(), factor_end, factor);
     if (parsed.ec != std::errc() || parsed.ptr != factor_end) return std::nullopt;
-    if (!(scale.factor > 0.0 && scale.factor <= 1e6)) return std::nullopt;
+    if (!(factor > 0.0 && factor <= 1e6)) return std::nullopt;
 
     text.remove_prefix(at + 1);
     const std::size_t comma = text.find(',');
@@ -31,9 +31,7 @@ std::optional<ClockScale> parse_clock_scale(std::string_view text, UtcTime host_
     const auto host = comma == std::string_view::npos ? std::optional(host_now)
                                                       : parse_rfc3339(text.substr(comma + 1));
     if (!utc || !host) return std::nullopt;
-    scale.utc = *utc;
-    scale.host = *host;
-    return scale;
+    return ClockScale{factor, *utc, *host};
 }
 
 }  // namespace a351

@@ -1,6 +1,6 @@
 #include "protocol/core/utc_time.hpp"
 
-#include <charconv>
+#include <fmt/core.h>
 
 namespace a351 {
 namespace {
@@ -35,16 +35,12 @@ public:
 
     Nanoseconds fraction() {
         std::int64_t value = 0;
-        int kept = 0;
         std::size_t seen = 0;
-        for (; seen < rest_.size() && rest_[seen] >= '0' && rest_[seen] <= '9'; ++seen) {
-            if (kept == 9) continue;
-            value = value * 10 + (rest_[seen] - '0');
-            ++kept;
-        }
+        for (; seen < rest_.size() && rest_[seen] >= '0' && rest_[seen] <= '9'; ++seen)
+            if (seen < 9) value = value * 10 + (rest_[seen] - '0');
         if (seen == 0) fail();
         rest_.remove_prefix(seen);
-        for (; kept < 9; ++kept) value *= 10;
+        for (; seen < 9; ++seen) value *= 10;
         return Nanoseconds(value);
     }
 
@@ -99,13 +95,6 @@ std::optional<UtcTime> parse(std::string_view text, std::optional<minutes> defau
            std::chrono::seconds(second) + fraction - zone;
 }
 
-void append_digits(std::string& out, std::int64_t value, int width) {
-    char digits[20];
-    const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-    for (auto count = end - digits; count < width; ++count) out += '0';
-    out.append(digits, end);
-}
-
 }  // namespace
 
 std::optional<UtcTime> parse_rfc3339(std::string_view text) { return parse(text, std::nullopt); }
@@ -118,23 +107,13 @@ std::string to_rfc3339(UtcTime time, int decimals) {
     const auto day = std::chrono::floor<std::chrono::days>(time);
     const std::chrono::year_month_day date(day);
     const std::chrono::hh_mm_ss clock(time - day);
-    std::string text;
-    append_digits(text, static_cast<int>(date.year()), 4);
-    text += '-';
-    append_digits(text, static_cast<unsigned>(date.month()), 2);
-    text += '-';
-    append_digits(text, static_cast<unsigned>(date.day()), 2);
-    text += 'T';
-    append_digits(text, clock.hours().count(), 2);
-    text += ':';
-    append_digits(text, clock.minutes().count(), 2);
-    text += ':';
-    append_digits(text, clock.seconds().count(), 2);
+    std::string text =
+        fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}", static_cast<int>(date.year()),
+                    static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
+                    clock.hours().count(), clock.minutes().count(), clock.seconds().count());
     if (decimals > 0) {
-        text += '.';
-        std::string nanoseconds;
-        append_digits(nanoseconds, clock.subseconds().count(), 9);
-        text += nanoseconds.substr(0, static_cast<std::size_t>(decimals));
+        const std::string fraction = fmt::format(".{:09}", clock.subseconds().count());
+        text += fraction.substr(0, static_cast<std::size_t>(decimals) + 1);
     }
     return text + 'Z';
 }

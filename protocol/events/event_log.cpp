@@ -25,17 +25,6 @@ const std::string* text_at(const Json& json, const char* key) {
     return found == json.end() ? nullptr : found->get_ptr<const std::string*>();
 }
 
-/// Returns the file name of a month, such as "2026-03.jsonl".
-std::string month_file(UtcTime time) { return to_rfc3339(time).substr(0, 7) + ".jsonl"; }
-
-bool is_month_file(const std::string& name) {
-    constexpr std::string_view kPattern = "dddd-dd.jsonl";
-    return name.size() == kPattern.size() &&
-           std::equal(name.begin(), name.end(), kPattern.begin(), [](char c, char wanted) {
-               return wanted == 'd' && c >= '0' && c <= '9' ? true : c == wanted;
-           });
-}
-
 bool ends_without_newline(const fs::path& file) {
     std::ifstream in(file, std::ios::binary | std::ios::ate);
     if (!in || in.tellg() == std::streampos(0)) return false;
@@ -95,7 +84,7 @@ std::optional<Event> parse_event(std::string_view text) {
 }
 
 void append_event(FileLayer& files, const fs::path& directory, const Event& event) {
-    const auto path = directory / month_file(event.utc);
+    const auto path = directory / (to_rfc3339(event.utc).substr(0, 7) + ".jsonl");
     const bool is_new = !fs::exists(path);
     if (is_new) files.create_directories(directory);
     // The new line must not be joined to one torn by a crash.
@@ -119,9 +108,10 @@ EventLog read_events(const fs::path& directory) {
     if (!fs::is_directory(directory)) return log;
     std::vector<fs::path> months;
     for (const auto& entry : fs::directory_iterator(directory)) {
-        if (is_month_file(entry.path().filename().string())) months.push_back(entry.path());
+        if (has_shape(entry.path().filename().string(), "####-##.jsonl"))
+            months.push_back(entry.path());
     }
-    std::sort(months.begin(), months.end());
+    std::ranges::sort(months);
     for (const auto& month : months) {
         std::ifstream in(month, std::ios::binary);
         if (!in) throw std::system_error(errno, std::generic_category(), "open " + month.string());

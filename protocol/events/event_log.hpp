@@ -59,7 +59,6 @@ struct Occupation {
     std::string site;
     int number = 1;  ///< Number of the stay at this site, counted from 1 in order of time.
     std::vector<SetUp> set_ups;
-    std::optional<bool> used;
     std::string note;
 };
 

@@ -22,6 +22,16 @@ void remark(Occupation& occupation, const Event& event) {
 /// Applies the events one by one.
 class EventReplay {
 public:
+    explicit EventReplay(const std::vector<Event>& events) {
+        for (const Event& event : events) take(event);
+    }
+
+    [[nodiscard]] std::vector<Occupation> take_finished() { return std::move(finished_); }
+    [[nodiscard]] std::optional<std::string> running_site() const {
+        return is_running_ ? std::optional(running_.site) : std::nullopt;
+    }
+
+private:
     void take(const Event& event) {
         if (event.type == "start") start(event);
         if (event.type == "rename") rename(event);
@@ -35,12 +45,6 @@ public:
         }
     }
 
-    [[nodiscard]] std::vector<Occupation> take_finished() { return std::move(finished_); }
-    [[nodiscard]] std::optional<std::string> running_site() const {
-        return is_running_ ? std::optional(running_.site) : std::nullopt;
-    }
-
-private:
     void start(const Event& event) {
         if (is_running_) stop(event.utc);
         is_running_ = true;
@@ -85,13 +89,9 @@ private:
 }  // namespace
 
 std::vector<Occupation> occupations_of(const std::vector<Event>& events) {
-    EventReplay replay;
-    for (const Event& event : events) replay.take(event);
-    auto occupations = replay.take_finished();
-    std::stable_sort(occupations.begin(), occupations.end(),
-                     [](const Occupation& a, const Occupation& b) {
-                         return a.set_ups.front().start < b.set_ups.front().start;
-                     });
+    auto occupations = EventReplay(events).take_finished();
+    std::ranges::stable_sort(occupations, {},
+                             [](const Occupation& one) { return one.set_ups.front().start; });
     std::map<std::string, int> stays;
     for (Occupation& occupation : occupations) occupation.number = ++stays[occupation.site];
     return occupations;
@@ -109,9 +109,7 @@ std::vector<Occupation> survey_day(std::vector<Occupation> occupations, UtcTime 
 }
 
 std::optional<std::string> running_site(const std::vector<Event>& events) {
-    EventReplay replay;
-    for (const Event& event : events) replay.take(event);
-    return replay.running_site();
+    return EventReplay(events).running_site();
 }
 
 }  // namespace a351::record

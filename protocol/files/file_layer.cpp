@@ -4,11 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <optional>
+#include <algorithm>
 #include <string>
-#include <system_error>
-#include <utility>
 #include <vector>
 
 namespace a351::record {
@@ -22,7 +19,9 @@ namespace {
 
 class Descriptor {
 public:
-    Descriptor(const std::filesystem::path& path, int flags) : fd_(open_retrying(path, flags)) {
+    Descriptor(const std::filesystem::path& path, int flags) {
+        do fd_ = ::open(path.c_str(), flags | O_CLOEXEC, 0644);
+        while (fd_ < 0 && errno == EINTR);
         if (fd_ < 0) fail("open", path, errno);
     }
     Descriptor(const Descriptor&) = delete;
@@ -33,14 +32,7 @@ public:
     [[nodiscard]] int get() const noexcept { return fd_; }
 
 private:
-    static int open_retrying(const std::filesystem::path& path, int flags) noexcept {
-        int fd = -1;
-        do fd = ::open(path.c_str(), flags | O_CLOEXEC, 0644);
-        while (fd < 0 && errno == EINTR);
-        return fd;
-    }
-
-    int fd_;
+    int fd_ = -1;
 };
 
 class PosixAppendFile : public AppendFile {
@@ -146,6 +138,12 @@ public:
 FileLayer& posix_files() {
     static PosixFiles files;
     return files;
+}
+
+bool has_shape(std::string_view name, std::string_view shape) noexcept {
+    return std::ranges::equal(name, shape, [](char c, char wanted) {
+        return wanted == '#' ? c >= '0' && c <= '9' : c == wanted;
+    });
 }
 
 void write_file_atomically(FileLayer& files, const std::filesystem::path& file,

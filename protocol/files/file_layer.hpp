@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <system_error>
 
 namespace a351::record {
@@ -45,6 +46,9 @@ public:
 
 /// Returns the files of the operating system.
 [[nodiscard]] FileLayer& posix_files();
+
+/// Returns true if a file name has this shape, in which each # is a digit.
+[[nodiscard]] bool has_shape(std::string_view name, std::string_view shape) noexcept;
 
 /// Writes or replaces a small file so that a reader finds either the old or the new content, also
 /// after a crash: temporary name, sync, rename.  If it throws, the old file is unchanged.  The

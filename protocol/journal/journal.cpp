@@ -1,26 +1,19 @@
 #include "protocol/journal/journal.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 namespace a351::record {
 
-namespace {
-
-constexpr std::string_view kHexDigits = "0123456789abcdef";
-
-}  // namespace
-
 std::string SessionId::to_hex() const {
     std::string text;
-    text.reserve(2 * bytes.size());
-    for (const std::uint8_t byte : bytes) {
-        text += kHexDigits[byte >> 4];
-        text += kHexDigits[byte & 0xF];
-    }
+    for (const std::uint8_t byte : bytes) text += fmt::format("{:02x}", byte);
     return text;
 }
 
 std::optional<SessionId> SessionId::from_hex(std::string_view text) {
+    constexpr std::string_view kHexDigits = "0123456789abcdef";
     SessionId id;
     if (text.size() != 2 * id.bytes.size()) return std::nullopt;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -34,13 +27,12 @@ std::optional<SessionId> SessionId::from_hex(std::string_view text) {
 bool are_valid(const StationCodes& codes) noexcept {
     const auto is_code = [](const std::string& code, std::size_t shortest, std::size_t longest) {
         return code.size() >= shortest && code.size() <= longest &&
-               std::all_of(code.begin(), code.end(),
-                           [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); });
+               std::ranges::all_of(
+                   code, [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); });
     };
     return is_code(codes.network, 1, 2) && is_code(codes.station, 1, 5) &&
            (codes.location.empty() || is_code(codes.location, 2, 2)) &&
-           std::all_of(codes.axes.begin(), codes.axes.end(),
-                       [&](const std::string& axis) { return is_code(axis, 1, 1); });
+           std::ranges::all_of(codes.axes, [&](const auto& axis) { return is_code(axis, 1, 1); });
 }
 
 bool is_in_range(const timing::ClockReading& clock) noexcept {

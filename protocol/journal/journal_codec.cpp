@@ -1,13 +1,11 @@
 #include "protocol/journal/journal_codec.hpp"
 
+#include <fmt/core.h>
+
 #include <boost/crc.hpp>
-#include <concepts>
 #include <cstring>
 #include <stdexcept>
-#include <string>
 #include <type_traits>
-
-#include "protocol/journal/journal_header_json.hpp"
 
 namespace a351::record {
 
@@ -110,11 +108,8 @@ bool has_registers_by_outcome(const OvenChunk& poll) {
 struct PayloadWriter {
     std::vector<std::byte>& out;
 
-    ChunkType operator()(const JournalHeader& header) const {
-        put(out, header_to_json(header));
-        return ChunkType::head;
-    }
-    ChunkType operator()(const RxChunk& rx) const {
+    void operator()(const JournalHeader& header) const { put(out, header_to_json(header)); }
+    void operator()(const RxChunk& rx) const {
         if (!do_reads_fit(rx)) {
             throw std::invalid_argument("RxChunk: reads must ascend and end at the last byte");
         }
@@ -126,14 +121,12 @@ struct PayloadWriter {
             put<std::int64_t>(out, (read.time - first).count());
         }
         out.insert(out.end(), rx.bytes.begin(), rx.bytes.end());
-        return ChunkType::rx;
     }
-    ChunkType operator()(const TxChunk& tx) const {
+    void operator()(const TxChunk& tx) const {
         put<std::int64_t>(out, tx.time.time_since_epoch().count());
         out.insert(out.end(), tx.bytes.begin(), tx.bytes.end());
-        return ChunkType::tx;
     }
-    ChunkType operator()(const ClockReading& clock) const {
+    void operator()(const ClockReading& clock) const {
         put<std::int64_t>(out, clock.raw.time_since_epoch().count());
         put<std::int64_t>(out, clock.boottime.count());
         put<std::int64_t>(out, clock.realtime.time_since_epoch().count());
@@ -142,20 +135,15 @@ struct PayloadWriter {
             out, static_cast<std::uint8_t>((clock.is_synchronised ? 1U : 0U) | leap << 1U));
         put<std::int64_t>(out, clock.max_error_us);
         put<std::int64_t>(out, clock.estimated_error_us);
-        return ChunkType::clock;
     }
-    ChunkType operator()(const ModelChunk& model) const {
+    void operator()(const ModelChunk& model) const {
         put<std::int64_t>(out, model.index);
         put<std::int64_t>(out, model.time.utc.time_since_epoch().count());
         put<std::int64_t>(out, model.time.uncertainty.count());
         put<std::uint8_t>(out, static_cast<std::uint8_t>(model.time.state));
-        return ChunkType::model;
     }
-    ChunkType operator()(const EventChunk& event) const {
-        put(out, event.json);
-        return ChunkType::event;
-    }
-    ChunkType operator()(const MarkChunk& mark) const {
+    void operator()(const EventChunk& event) const { put(out, event.json); }
+    void operator()(const MarkChunk& mark) const {
         for (const std::uint8_t byte : mark.session.bytes) put<std::uint8_t>(out, byte);
         for (const ChannelMark& channel : mark.channels) {
             if (channel.channel.size() > 255) {
@@ -166,9 +154,8 @@ struct PayloadWriter {
             put<std::int64_t>(out, channel.index);
             put<std::int64_t>(out, channel.utc.time_since_epoch().count());
         }
-        return ChunkType::mark;
     }
-    ChunkType operator()(const OvenChunk& poll) const {
+    void operator()(const OvenChunk& poll) const {
         if (!has_registers_by_outcome(poll) || poll.registers.size() > 255) {
             throw std::invalid_argument("OvenChunk: 1-255 registers if answered, else none");
         }
@@ -177,7 +164,6 @@ struct PayloadWriter {
         put<std::uint8_t>(out, poll.decimals);
         put<std::uint8_t>(out, static_cast<std::uint8_t>(poll.registers.size()));
         for (const std::uint16_t word : poll.registers) put<std::uint16_t>(out, word);
-        return ChunkType::oven;
     }
 };
 
@@ -288,13 +274,13 @@ bool is_preamble(std::span<const std::byte> bytes) noexcept {
 
 std::vector<std::byte> encode_chunk(const JournalChunk& chunk, std::uint32_t sequence) {
     std::vector<std::byte> payload;
-    const ChunkType type = std::visit(PayloadWriter{payload}, chunk);
+    std::visit(PayloadWriter{payload}, chunk);
     if (payload.size() > kMostPayloadBytes) {
-        throw std::invalid_argument("journal chunk: payload of " + std::to_string(payload.size()) +
-                                    " bytes; at most " + std::to_string(kMostPayloadBytes));
+        throw std::invalid_argument(fmt::format("journal chunk: payload of {} bytes; at most {}",
+                                                payload.size(), kMostPayloadBytes));
     }
-    const ChunkHeader header{static_cast<std::uint32_t>(payload.size()),
-                             static_cast<std::uint8_t>(type), sequence, 0};
+    const auto type = static_cast<std::uint8_t>(chunk.index() + 1);
+    const ChunkHeader header{static_cast<std::uint32_t>(payload.size()), type, sequence, 0};
     auto out = encode_fields_before_crc(header);
     out.reserve(kChunkHeaderSize + payload.size());
     put<std::uint32_t>(out, chunk_crc(header, payload));

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,7 +20,7 @@ inline constexpr std::uint32_t kJournalVersion = 1;
 inline constexpr std::size_t kPreambleSize = 12;     ///< Magic and version.
 inline constexpr std::size_t kChunkHeaderSize = 13;  ///< length, type, sequence, CRC-32C.
 
-/// Code of a chunk on disk.
+/// Code of a chunk on disk: its place among the alternatives of JournalChunk, counted from 1.
 enum class ChunkType : std::uint8_t {
     head = 1,
     rx = 2,
@@ -30,6 +31,8 @@ enum class ChunkType : std::uint8_t {
     mark = 7,
     oven = 8,
 };
+
+static_assert(std::variant_size_v<JournalChunk> == static_cast<std::size_t>(ChunkType::oven));
 
 /// The fields before a payload.
 struct ChunkHeader {
@@ -61,6 +64,13 @@ struct ChunkHeader {
 
 /// Returns true if `type` is one of ChunkType.
 [[nodiscard]] bool is_known(std::uint8_t type) noexcept;
+
+/// Returns the payload of a header: one line of JSON.  Bytes that are not UTF-8 become U+FFFD.
+[[nodiscard]] std::string header_to_json(const JournalHeader& header);
+
+/// Reads the payload of a header.  Unknown fields are ignored.
+/// @return std::nullopt unless every required field is present, of its type and in range.
+[[nodiscard]] std::optional<JournalHeader> parse_header(std::string_view text);
 
 /// Reads the payload of a chunk.
 /// @return std::nullopt if the payload is not valid for its type.

@@ -1,6 +1,6 @@
-#include "protocol/journal/journal_header_json.hpp"
-
 #include <nlohmann/json.hpp>
+
+#include "protocol/journal/journal_codec.hpp"
 
 namespace a351::record {
 

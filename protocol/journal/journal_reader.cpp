@@ -84,6 +84,26 @@ std::optional<JournalChunk> JournalReader::next() {
     return std::nullopt;
 }
 
+bool Repetitions::is_repeated(std::uint64_t segment, std::uint32_t sequence,
+                              const JournalChunk& chunk) {
+    if (const auto* header = std::get_if<JournalHeader>(&chunk)) {
+        if (header->repeats && header->repeats != from_) {
+            const bool was_read = last_segment_ == header->repeats->segment &&
+                                  last_sequence_ >= header->repeats->sequence;
+            chunks_read_ = was_read ? last_sequence_ - header->repeats->sequence + 1 : 0;
+        }
+        from_ = header->repeats;
+        to_skip_ = from_ ? chunks_read_ : 0;
+    } else if (sequence <= to_skip_) {
+        return true;
+    } else if (from_) {
+        chunks_read_ = sequence;
+    }
+    last_segment_ = segment;
+    last_sequence_ = sequence;
+    return false;
+}
+
 JournalSequence::JournalSequence(std::vector<std::filesystem::path> segments)
     : segments_(std::move(segments)) {}
 
@@ -143,8 +163,7 @@ std::vector<std::filesystem::path> journal_segments(const std::filesystem::path&
     if (std::filesystem::exists(directory)) {
         for (const auto& entry : std::filesystem::directory_iterator(directory)) {
             const auto number = segment_number(entry.path());
-            const auto extension = entry.path().extension();
-            if (number && (extension == ".a351j" || is_compressed(entry.path()))) {
+            if (number && (entry.path().extension() == ".a351j" || is_compressed(entry.path()))) {
                 numbered.emplace_back(*number, entry.path());
             }
         }

@@ -1,9 +1,10 @@
 #include "protocol/journal/journal_writer.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cassert>
 #include <chrono>
-#include <cstdio>
 #include <system_error>
 #include <utility>
 
@@ -21,9 +22,7 @@ std::string segment_name(std::uint64_t number, UtcTime time) {
     // "2026-03-01T13:00:00Z" without its punctuation.
     std::string stamp = to_rfc3339(time);
     std::erase_if(stamp, [](char c) { return c == '-' || c == ':'; });
-    std::string digits = std::to_string(number);
-    digits.insert(0, digits.size() < 8 ? 8 - digits.size() : 0, '0');
-    return digits + "_" + stamp + ".a351j";
+    return fmt::format("{:08}_{}.a351j", number, stamp);
 }
 
 /// Removes a file on a disk so full or faulty that the header could not be written.

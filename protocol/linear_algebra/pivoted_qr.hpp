@@ -19,7 +19,7 @@ namespace a351::corrector {
 /// Source: Eigen::ColPivHouseholderQR.
 class PivotedQr {
 public:
-    /// Decomposes A.
+    /// Decomposes A; the input is not checked.
     /// @param matrix  A (n, p), finite, n >= p.
     explicit PivotedQr(const Eigen::MatrixXd& matrix);
     ~PivotedQr();

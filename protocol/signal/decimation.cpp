@@ -1,9 +1,10 @@
 #include "protocol/signal/decimation.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <string>
 
 #include "protocol/signal/decimator.hpp"
 
@@ -11,8 +12,8 @@ namespace a351::corrector {
 
 DecimationFilter design_decimation(int factor) {
     if (factor < 2 || factor > 1000) {
-        throw std::invalid_argument("design_decimation: factor = " + std::to_string(factor) +
-                                    ", must be 2 to 1000");
+        throw std::invalid_argument(
+            fmt::format("design_decimation: factor = {}, must be 2 to 1000", factor));
     }
     const int order = 8 * factor + 2;
     const int half = order / 2;

@@ -1,10 +1,11 @@
 #include "protocol/signal/decimator.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string>
 
 namespace a351::corrector {
 namespace {
@@ -100,8 +101,7 @@ Decimator::Stage::Outputs Decimator::Stage::filter_from(std::size_t first) const
 Decimator::Decimator(const DecimationFilter& filter, int stages)
     : stages_(static_cast<std::size_t>(std::max(stages, 0)), Stage(filter)), made_(stages_.size()) {
     if (stages < 1) {
-        throw std::invalid_argument("Decimator: stages = " + std::to_string(stages) +
-                                    ", must be >= 1");
+        throw std::invalid_argument(fmt::format("Decimator: stages = {}, must be >= 1", stages));
     }
 }
 

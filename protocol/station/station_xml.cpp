@@ -1,7 +1,8 @@
 #include "protocol/station/station_xml.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -9,7 +10,6 @@
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
-#include <utility>
 
 #include "protocol/archive/channel_code.hpp"
 #include "protocol/station/station_document.hpp"
@@ -26,11 +26,10 @@ constexpr double kReferenceFrequency_hz = 1.0;
 /// Rate of a slow channel over the frequency of its sensitivity, which must be below half the rate.
 constexpr double kSlowRatePerReferenceFrequency = 10.0;
 
+/// Returns the shortest text that reads back as the same double.
 std::string to_text(double value) {
-    std::array<char, 32> buffer{};
-    // The shortest text that reads back as the same double.
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-    return {buffer.data(), end.ptr};
+    char digits[32];
+    return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }
 
 /// Replaces all characters except printable ASCII: a device may send any byte, and XML 1.0 does not
@@ -147,12 +146,14 @@ pugi::xml_node add_sampled_channel(pugi::xml_node station, const StationDescript
     const int rate_hz = description.output_rate_hz;
     auto channel = add_channel(station, description, channel_code(rate_hz, instrument_and_axis));
     add_comment(channel, content);
-    add_comment(channel, "device profile " + description.profile +
-                             (description.is_profile_verified ? " (verified)" : " (unverified)"));
-    add_comment(channel, "filter " + description.filter + ", group delay " +
-                             to_text(static_cast<double>(description.group_delay.count()) / 1e9) +
-                             " s, already subtracted from the time stamps");
-    add_comment(channel, "firmware " + std::to_string(description.firmware));
+    add_comment(channel, fmt::format("device profile {} ({})", description.profile,
+                                     description.is_profile_verified ? "verified" : "unverified"));
+    add_comment(channel,
+                fmt::format("filter {}, group delay {} s, already subtracted from the "
+                            "time stamps",
+                            description.filter,
+                            to_text(static_cast<double>(description.group_delay.count()) / 1e9)));
+    add_comment(channel, fmt::format("firmware {}", description.firmware));
     if (!orientation.is_known) add_comment(channel, "orientation not surveyed");
     add_place(channel, description, orientation, rate_hz);
     if (const auto declared_hz = description.declared_rate_hz)
@@ -198,8 +199,8 @@ void add_slow_channel(pugi::xml_node station, const StationDescription& descript
 std::string to_station_xml(const StationDescription& description) {
     const auto* profile = wire::find_profile(description.profile);
     if (!profile) {
-        throw std::invalid_argument("StationDescription: profile = " + description.profile +
-                                    ": unknown");
+        throw std::invalid_argument(
+            fmt::format("StationDescription: profile = {}: unknown", description.profile));
     }
     pugi::xml_document document;
     auto declaration = document.append_child(pugi::node_declaration);
@@ -226,10 +227,10 @@ std::string to_station_xml(const StationDescription& description) {
     // All three channels have this text: if the letters change, all three begin a new epoch, so
     // their order stays that of the axes.
     const auto& axes = description.codes.axes;
-    const std::string names = "; x, y, z are " + axes[0] + ", " + axes[1] + ", " + axes[2];
     for (std::size_t i = 0; i < axes.size(); ++i) {
-        add_gain_response(add_sampled_channel(station, description, "N" + axes[i],
-                                              "axis " + std::string(1, "xyz"[i]) + names,
+        const std::string content =
+            fmt::format("axis {}; x, y, z are {}, {}, {}", "xyz"[i], axes[0], axes[1], axes[2]);
+        add_gain_response(add_sampled_channel(station, description, "N" + axes[i], content,
                                               orientation_of(axes[i])),
                           gain, kAcceleration, kReferenceFrequency_hz);
     }

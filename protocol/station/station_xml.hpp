@@ -2,7 +2,6 @@
 /// @file
 /// StationXML 1.2 (FDSN) of the sensor, written by the daemon and read by the corrector.
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>

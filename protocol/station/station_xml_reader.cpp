@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -21,8 +23,7 @@ double number_in(const std::filesystem::path& file, const std::string& channel,
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-        refuse(file, "channel " + channel + ": " + node.name() + " = " + std::string(text) +
-                         ": not a number");
+        refuse(file, fmt::format("channel {}: {} = {}: not a number", channel, node.name(), text));
     }
     return value;
 }
@@ -47,8 +48,8 @@ ChannelScale read_scale(const std::filesystem::path& file, pugi::xml_node channe
         coefficients.push_back(number_in(file, scale.code, node));
     }
     if (coefficients.size() != 2) {
-        refuse(file, "channel " + scale.code + ": " + std::to_string(coefficients.size()) +
-                         " polynomial coefficients; allowed: 2");
+        refuse(file, fmt::format("channel {}: {} polynomial coefficients; allowed: 2", scale.code,
+                                 coefficients.size()));
     }
     scale.offset = coefficients[0];
     scale.gain = coefficients[1];
@@ -100,8 +101,8 @@ std::optional<UtcTime> date_of(const std::filesystem::path& file, pugi::xml_node
     if (text.empty()) return std::nullopt;
     const auto date = parse_rfc3339(text);
     if (!date) {
-        refuse(file, std::string(node.name()) + " " + node.attribute("code").value() + ": " +
-                         attribute + " = " + text + ": not an instant");
+        refuse(file, fmt::format("{} {}: {} = {}: not an instant", node.name(),
+                                 node.attribute("code").value(), attribute, text));
     }
     return date;
 }
@@ -133,9 +134,9 @@ StationMetadata read_station_xml(const std::filesystem::path& file, std::optiona
         if (channel.code.size() == 3 && channel.code[1] == 'N')
             axes.push_back(channel.code.substr(2));
     if (axes.size() != metadata.codes.axes.size()) {
-        refuse(file, std::to_string(axes.size()) + " acceleration channels; allowed: 3");
+        refuse(file, fmt::format("{} acceleration channels; allowed: 3", axes.size()));
     }
-    std::copy(axes.begin(), axes.end(), metadata.codes.axes.begin());
+    std::ranges::copy(axes, metadata.codes.axes.begin());
     return metadata;
 }
 

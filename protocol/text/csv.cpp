@@ -1,5 +1,7 @@
 #include "protocol/text/csv.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <sstream>
@@ -23,15 +25,11 @@ CsvTable CsvTable::parse(std::string_view text, std::filesystem::path origin) {
 }
 
 bool CsvTable::has_column(std::string_view name) const {
-    return std::find(columns_.begin(), columns_.end(), name) != columns_.end();
-}
-
-std::size_t CsvTable::index_of(std::string_view column) const {
-    return column_index(columns_, column, origin_);
+    return std::ranges::find(columns_, name) != columns_.end();
 }
 
 const std::string& CsvTable::cell(std::size_t row, std::string_view column) const {
-    return rows_.at(row).cells[index_of(column)];
+    return rows_.at(row).cells[column_index(columns_, column, origin_)];
 }
 
 double CsvTable::number(std::size_t row, std::string_view column, double low, double high) const {
@@ -51,9 +49,8 @@ std::optional<double> CsvTable::number_if_given(std::size_t row, std::string_vie
 
 void CsvTable::refuse(std::size_t row, std::string_view column, std::string_view trouble,
                       std::string_view allowed) const {
-    throw InputError(origin_.string() + ":" + std::to_string(rows_.at(row).line) + ": " +
-                     std::string(column) + " = " + cell(row, column) + ": " + std::string(trouble) +
-                     "; allowed: " + std::string(allowed));
+    throw InputError(fmt::format("{}:{}: {} = {}: {}; allowed: {}", origin_.string(),
+                                 rows_.at(row).line, column, cell(row, column), trouble, allowed));
 }
 
 CsvTable read_csv(const std::filesystem::path& file) {

@@ -48,8 +48,6 @@ private:
         std::vector<std::string> cells;
     };
 
-    [[nodiscard]] std::size_t index_of(std::string_view column) const;
-
     std::filesystem::path origin_;
     std::vector<std::string> columns_;
     std::vector<Row> rows_;

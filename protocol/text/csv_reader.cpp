@@ -1,5 +1,7 @@
 #include "protocol/text/csv_reader.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -36,8 +38,8 @@ CsvReader::CsvReader(std::istream& in, std::filesystem::path origin)
     }
     for (auto cell = cells_.begin(); cell != cells_.end(); ++cell) {
         if (std::find(cells_.begin(), cell, *cell) != cell) {
-            throw InputError(origin_.string() + ":" + std::to_string(line_) + ": column " +
-                             std::string(*cell) + " appears twice; allowed: once");
+            throw InputError(fmt::format("{}:{}: column {} appears twice; allowed: once",
+                                         origin_.string(), line_, *cell));
         }
     }
     columns_.assign(cells_.begin(), cells_.end());
@@ -46,14 +48,14 @@ CsvReader::CsvReader(std::istream& in, std::filesystem::path origin)
 bool CsvReader::next() {
     if (!next_line()) return false;
     if (cells_.size() != columns_.size()) {
-        throw InputError(
-            origin_.string() + ":" + std::to_string(line_) + ": " + std::to_string(cells_.size()) +
-            " cells; allowed: " + std::to_string(columns_.size()) + " as in the header");
+        throw InputError(fmt::format("{}:{}: {} cells; allowed: {} as in the header",
+                                     origin_.string(), line_, cells_.size(), columns_.size()));
     }
     return true;
 }
 
-/// Reads the next line that is a row and splits it into cells.
+/// Reads the next line that is a row and splits it into cells.  In a table of one column, a blank
+/// line between rows is a missing cell; skipping it would shift all later rows.
 bool CsvReader::next_line() {
     while (std::getline(in_, text_)) {
         std::string_view content = text_;
@@ -61,37 +63,31 @@ bool CsvReader::next_line() {
         if (++line_ == 1 && content.starts_with(kByteOrderMark)) {
             content.remove_prefix(kByteOrderMark.size());
         }
-        if (!is_row(content)) continue;
+        if (trimmed(content).empty() &&
+            (columns_.size() != 1 || in_.eof() || in_.peek() == std::istream::traits_type::eof()))
+            continue;
         split(content, cells_);
         return true;
     }
     if (in_.bad()) {
-        throw InputError(origin_.string() + ": cannot be read after line " + std::to_string(line_) +
-                         "; allowed: a readable file");
+        throw InputError(fmt::format("{}: cannot be read after line {}; allowed: a readable file",
+                                     origin_.string(), line_));
     }
     return false;
 }
 
-/// Returns true if a line is a row.  In a table of one column, a blank line between rows is a
-/// missing cell; skipping it would shift all later rows.
-bool CsvReader::is_row(std::string_view content) {
-    if (!trimmed(content).empty()) return true;
-    return columns_.size() == 1 && !in_.eof() && in_.peek() != std::istream::traits_type::eof();
-}
-
 void CsvReader::refuse(std::size_t column, std::string_view trouble,
                        std::string_view allowed) const {
-    throw InputError(origin_.string() + ":" + std::to_string(line_) + ": " + columns_.at(column) +
-                     " = " + std::string(cells_.at(column)) + ": " + std::string(trouble) +
-                     "; allowed: " + std::string(allowed));
+    throw InputError(fmt::format("{}:{}: {} = {}: {}; allowed: {}", origin_.string(), line_,
+                                 columns_.at(column), cells_.at(column), trouble, allowed));
 }
 
 std::size_t column_index(const std::vector<std::string>& columns, std::string_view column,
                          const std::filesystem::path& origin) {
-    const auto found = std::find(columns.begin(), columns.end(), column);
+    const auto found = std::ranges::find(columns, column);
     if (found == columns.end()) {
-        throw InputError(origin.string() + ":1: column " + std::string(column) +
-                         " is missing; there are: " + joined(columns, ","));
+        throw InputError(fmt::format("{}:1: column {} is missing; there are: {}", origin.string(),
+                                     column, joined(columns, ",")));
     }
     return static_cast<std::size_t>(found - columns.begin());
 }

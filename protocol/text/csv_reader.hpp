@@ -41,7 +41,6 @@ public:
 
 private:
     [[nodiscard]] bool next_line();
-    [[nodiscard]] bool is_row(std::string_view content);
 
     std::istream& in_;
     std::filesystem::path origin_;

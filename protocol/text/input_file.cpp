@@ -1,5 +1,6 @@
 #include "protocol/text/input_file.hpp"
 
+#include <fmt/core.h>
 #include <openssl/evp.h>
 
 #include <array>
@@ -37,12 +38,8 @@ std::string sha256_of_file(const std::filesystem::path& file) {
     constexpr std::size_t kBytes = 32;
     std::array<unsigned char, kBytes> digest{};
     require(EVP_DigestFinal_ex(context.get(), digest.data(), nullptr));
-    constexpr std::string_view kDigits = "0123456789abcdef";
     std::string digits;
-    for (const unsigned char byte : digest) {
-        digits += kDigits[byte / 16U];
-        digits += kDigits[byte % 16U];
-    }
+    for (const unsigned char byte : digest) digits += fmt::format("{:02x}", byte);
     return digits;
 }
 

@@ -1,9 +1,9 @@
 #include "protocol/text/new_file.hpp"
 
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <string>
 #include <system_error>
 
 namespace a351::text {
@@ -11,7 +11,7 @@ namespace a351::text {
 NewFile::NewFile(std::filesystem::path path)
     : path_(std::move(path)),
       temporary_(path_.parent_path() /
-                 ("." + path_.filename().string() + "." + std::to_string(::getpid()) + ".part")) {
+                 fmt::format(".{}.{}.part", path_.filename().string(), ::getpid())) {
     errno = 0;
     out_.open(temporary_, std::ios::binary | std::ios::trunc);
     require_good();

@@ -1,5 +1,7 @@
 #include "protocol/text/sites.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,10 +28,11 @@ std::vector<double> filled_column(const CsvTable& table, std::string_view column
         values[row] = value.value_or(std::numeric_limits<double>::quiet_NaN());
     }
     if (given.empty() && !values.empty()) {
-        throw InputError(file.string() + ": " + std::string(column) +
-                         " = : empty for every site; allowed: a number for at least one");
+        throw InputError(
+            fmt::format("{}: {} = : empty for every site; allowed: a number for at least one",
+                        file.string(), column));
     }
-    std::sort(given.begin(), given.end());
+    std::ranges::sort(given);
     for (double& value : values) {
         if (!std::isnan(value)) continue;
         const double sum =
@@ -60,12 +63,12 @@ std::vector<Site> read_sites(const std::filesystem::path& file) {
         if (find_site(sites, name) != nullptr) {
             table.refuse(row, "site", "appears twice", "each site once");
         }
-        Site site;
-        site.name = name;
-        site.longitude = Degrees(longitudes[row]);
-        site.latitude = Degrees(latitudes[row]);
-        site.altitude = Metres(altitudes[row]);
-        site.is_placed = is_placed[row];
+        Site site{name,
+                  Degrees(longitudes[row]),
+                  Degrees(latitudes[row]),
+                  Metres(altitudes[row]),
+                  std::nullopt,
+                  is_placed[row]};
         // Gravity on the Earth's surface: 976 400 (Huascaran) to 983 400 mGal (Arctic Ocean).
         if (const auto gravity = table.number_if_given(row, "gravity_mgal", 976000.0, 984000.0)) {
             site.gravity = MilliGal(*gravity);
@@ -76,8 +79,7 @@ std::vector<Site> read_sites(const std::filesystem::path& file) {
 }
 
 const Site* find_site(const std::vector<Site>& sites, std::string_view name) {
-    const auto found = std::find_if(sites.begin(), sites.end(),
-                                    [name](const Site& site) { return site.name == name; });
+    const auto found = std::ranges::find(sites, name, &Site::name);
     return found == sites.end() ? nullptr : &*found;
 }
 

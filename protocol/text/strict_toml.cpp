@@ -1,11 +1,13 @@
 #include "protocol/text/strict_toml.hpp"
 
+#include <fmt/core.h>
 #include <toml++/toml.h>
 
-#include <cmath>
+#include <algorithm>
 #include <sstream>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/aligned_text.hpp"
 #include "protocol/text/text_file.hpp"
 
 namespace a351::text {
@@ -18,18 +20,12 @@ struct TomlTable::Document {
 namespace {
 
 std::string position(const std::filesystem::path& origin, const toml::source_region& source) {
-    return origin.string() + ":" + std::to_string(source.begin.line);
+    return fmt::format("{}:{}", origin.string(), source.begin.line);
 }
 
 std::string as_written(const toml::node& node) {
     std::ostringstream out;
     node.visit([&out](const auto& value) { out << value; });
-    return out.str();
-}
-
-std::string range_text(std::string_view kind, double low, double high) {
-    std::ostringstream out;
-    out << kind << " from " << low << " to " << high;
     return out.str();
 }
 
@@ -61,7 +57,7 @@ void TomlTable::refuse(std::string_view key, std::string_view trouble,
     if (node != nullptr && !node->is_table() && !node->is_array_of_tables()) {
         message += " = " + as_written(*node);
     }
-    throw InputError(message + ": " + std::string(trouble) + "; allowed: " + std::string(allowed));
+    throw InputError(fmt::format("{}: {}; allowed: {}", message, trouble, allowed));
 }
 
 std::string TomlTable::string_or(std::string_view key, std::string fallback) {
@@ -82,8 +78,7 @@ std::int64_t TomlTable::integer_or(std::string_view key, std::int64_t fallback, 
                                    std::int64_t high) {
     const toml::node* node = find(key);
     if (node == nullptr) return fallback;
-    const std::string allowed =
-        "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+    const std::string allowed = fmt::format("a whole number from {} to {}", low, high);
     if (!node->is_integer()) refuse(key, "wrong type", allowed);
     const std::int64_t value = **node->as_integer();
     if (value < low || value > high) refuse(key, "out of range", allowed);
@@ -93,7 +88,7 @@ std::int64_t TomlTable::integer_or(std::string_view key, std::int64_t fallback, 
 std::optional<double> TomlTable::number(std::string_view key, double low, double high) {
     const toml::node* node = find(key);
     if (node == nullptr) return std::nullopt;
-    const std::string allowed = range_text("a number", low, high);
+    const std::string allowed = fmt::format("a number from {:g} to {:g}", low, high);
     if (!node->is_number()) refuse(key, "wrong type", allowed);
     const double value = *node->value<double>();
     if (!(value >= low && value <= high)) refuse(key, "out of range", allowed);
@@ -120,7 +115,7 @@ std::vector<double> TomlTable::numbers(std::string_view key, double low, double 
     std::vector<double> values;
     const toml::node* node = find(key);
     if (node == nullptr) return values;
-    const std::string allowed = range_text("an array of numbers", low, high);
+    const std::string allowed = fmt::format("an array of numbers from {:g} to {:g}", low, high);
     if (!node->is_array()) refuse(key, "wrong type", allowed);
     for (const toml::node& item : *node->as_array()) {
         if (!item.is_number()) refuse(key, "wrong type", allowed);
@@ -142,12 +137,8 @@ std::optional<UtcTime> TomlTable::instant(std::string_view key) {
 std::string TomlTable::choice_or(std::string_view key, std::string fallback,
                                  const std::vector<std::string>& allowed) {
     std::string value = string_or(key, std::move(fallback));
-    std::string list;
-    for (const std::string& choice : allowed) {
-        if (choice == value) return value;
-        list += (list.empty() ? "" : ", ") + choice;
-    }
-    refuse(key, "not a known value", list);
+    if (std::ranges::count(allowed, value) == 0) refuse(key, "not a known value", joined(allowed));
+    return value;
 }
 
 std::filesystem::path TomlTable::path_or_empty(std::string_view key) {
@@ -177,10 +168,8 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
 void TomlTable::require_all_read() const {
     if (table_ == nullptr) return;
     for (const auto& [key, node] : *table_) {
-        if (asked_.contains(key.str())) continue;
-        std::string known;
-        for (const std::string& name : asked_) known += (known.empty() ? "" : ", ") + name;
-        refuse(key.str(), "unknown key", known);
+        if (!asked_.contains(key.str()))
+            refuse(key.str(), "unknown key", joined({asked_.begin(), asked_.end()}));
     }
 }
 
@@ -190,8 +179,8 @@ TomlTable parse_toml(std::string_view text, std::filesystem::path origin) {
     try {
         document->root = toml::parse(text);
     } catch (const toml::parse_error& error) {
-        throw InputError(position(document->origin, error.source()) +
-                         ": not TOML: " + std::string(error.description()));
+        throw InputError(fmt::format("{}: not TOML: {}", position(document->origin, error.source()),
+                                     error.description()));
     }
     const toml::table* const root = &document->root;
     return TomlTable(std::move(document), root, "");

@@ -1,6 +1,5 @@
 #include "protocol/text/text_file.hpp"
 
-#include <sstream>
 #include <vector>
 
 #include "protocol/core/input_error.hpp"
@@ -24,11 +23,9 @@ std::ifstream open_file(const std::filesystem::path& file) {
 }
 
 std::string read_text_file(const std::filesystem::path& file) {
-    std::ifstream in = open_file(file);
-    std::ostringstream content;
-    content << in.rdbuf();
-    if (in.bad()) refuse(file);
-    return std::move(content).str();
+    std::string content;
+    read_file_in_blocks(file, [&content](std::string_view block) { content += block; });
+    return content;
 }
 
 void read_file_in_blocks(const std::filesystem::path& file,

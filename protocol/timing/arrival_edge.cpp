@@ -1,6 +1,5 @@
 #include "protocol/timing/arrival_edge.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace a351::timing {
@@ -50,7 +49,7 @@ void ArrivalEdge::close_block() {
         open_block_.clear();
         return;
     }
-    std::sort(open_block_.begin(), open_block_.end());
+    std::ranges::sort(open_block_);
     if (open_block_.size() >= kFewestOfBlock) {
         Nanoseconds largest{0};
         for (std::size_t i = 1; i < open_block_.size() * 9 / 10; ++i)
@@ -94,11 +93,9 @@ EdgeLine ArrivalEdge::line_around(std::int64_t index) const {
     const Nanoseconds latest_start = std::max(blocks.back().due - kWindow, blocks.front().due);
     const Nanoseconds from =
         std::clamp(period_.of(index) - kWindow / 2, blocks.front().due, latest_start);
-    const auto is_before = [](const ArrivalBlock& block, Nanoseconds due) {
-        return block.due < due;
-    };
-    const auto begin = std::lower_bound(blocks.begin(), blocks.end(), from, is_before);
-    const auto end = std::lower_bound(begin + 1, blocks.end(), from + kWindow, is_before);
+    const auto begin = std::ranges::lower_bound(blocks, from, {}, &ArrivalBlock::due);
+    const auto end =
+        std::ranges::lower_bound(begin + 1, blocks.end(), from + kWindow, {}, &ArrivalBlock::due);
     return fit({begin, end}, index);
 }
 

@@ -191,12 +191,10 @@ EdgeFit fit_edge(std::span<const ArrivalBlock> blocks, Nanoseconds at, Nanosecon
     const double busy = std::max(needed - hidden, 0.0);
     const double uncertainty = std::max(allowed.top - level, level - allowed.bottom) +
                                2.0 * kSlack_ns + busy + (usual ? 0.0 : kUnseenTimer_ns);
-    EdgeFit fit;
-    fit.y = Nanoseconds(std::llround(level));
-    fit.skew = slope;
-    fit.uncertainty = Nanoseconds(std::llround(uncertainty));
-    fit.skew_uncertainty = 0.5 * (allowed.largest_slope - allowed.least_slope);
-    return fit;
+    return {.y = Nanoseconds(std::llround(level)),
+            .skew = slope,
+            .uncertainty = Nanoseconds(std::llround(uncertainty)),
+            .skew_uncertainty = 0.5 * (allowed.largest_slope - allowed.least_slope)};
 }
 
 }  // namespace a351::timing

@@ -9,7 +9,6 @@ namespace a351::timing {
 namespace {
 
 using std::chrono::abs;
-using std::chrono::milliseconds;
 
 // Change of a host crystal's rate with temperature, relative: some tenths of a ppm per degC.
 constexpr double kHostRateWander = 5e-6;
@@ -50,11 +49,9 @@ void UtcHistory::observe(const ClockReading& reading) {
         pairs_.clear();
         is_synchronised_ = true;
     }
-    Pair pair;
-    pair.awake = awake(reading.raw, sleeps());
-    pair.offset = reading.realtime.time_since_epoch() - pair.awake.time_since_epoch();
-    pair.error = std::chrono::microseconds(reading.max_error_us);
-    pair.sleeps = sleeps();
+    const RawTime awake = this->awake(reading.raw, sleeps());
+    Pair pair{awake, reading.realtime.time_since_epoch() - awake.time_since_epoch(),
+              std::chrono::microseconds(reading.max_error_us), sleeps()};
     if (!is_synchronised_) pair.error = std::max(pair.error, kUnknownClockError);
     if (!pairs_.empty()) join(pair);
     pairs_.push_back(pair);
@@ -69,9 +66,7 @@ void UtcHistory::join(Pair& pair) {
     pair.stretch = pairs_.back().stretch;
     if (follows(pairs_.back())) return;
     ++pair.stretch;
-    const auto begin = std::find_if(pairs_.begin(), pairs_.end(), [&](const Pair& p) {
-        return p.stretch == pairs_.back().stretch;
-    });
+    const auto begin = std::ranges::find(pairs_, pairs_.back().stretch, &Pair::stretch);
     if (begin == pairs_.begin() || pair.awake - begin->awake >= kSetBackWithin) return;
     if (!follows(*std::prev(begin))) return;
     pair.stretch = std::prev(begin)->stretch;
@@ -110,8 +105,7 @@ UtcHistory::Point UtcHistory::at(RawTime raw, std::size_t sleeps) const {
 
 UtcHistory::Point UtcHistory::between(RawTime raw, std::size_t sleeps) const {
     const RawTime awake = this->awake(raw, sleeps);
-    const auto after = std::upper_bound(pairs_.begin(), pairs_.end(), awake,
-                                        [](RawTime t, const Pair& p) { return t < p.awake; });
+    const auto after = std::ranges::upper_bound(pairs_, awake, {}, &Pair::awake);
     if (after == pairs_.begin()) return beyond(after, awake, sleeps);
     const auto before = std::prev(after);
     if (after == pairs_.end()) return beyond(before, awake, sleeps);

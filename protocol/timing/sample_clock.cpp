@@ -1,7 +1,6 @@
 #include "protocol/timing/sample_clock.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "protocol/timing/host_clock_rules.hpp"
@@ -121,10 +120,8 @@ UtcTime SampleClock::on(const TimePiece& piece, std::int64_t index) const {
 
 // The first piece also holds for samples before it.
 const TimePiece& SampleClock::piece_of(std::int64_t index) const {
-    const auto after =
-        std::upper_bound(pieces_.begin() + 1, pieces_.end(), index,
-                         [](std::int64_t i, const TimePiece& piece) { return i < piece.first; });
-    return *std::prev(after);
+    return *std::prev(
+        std::ranges::upper_bound(pieces_.begin() + 1, pieces_.end(), index, {}, &TimePiece::first));
 }
 
 UtcTime SampleClock::published(std::int64_t index) const {

@@ -11,7 +11,6 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/timing/arrival_edge.hpp"
 #include "protocol/timing/clock_reading.hpp"
-#include "protocol/timing/sample_period.hpp"
 #include "protocol/timing/utc_mapping.hpp"
 
 namespace a351::timing {

@@ -37,11 +37,6 @@ RawTime SampleIndex::start_of(std::int64_t index, RawTime arrival) const {
     return arrival - from_seconds(static_cast<double>(index) / rate_hz_);
 }
 
-/// Returns true if the last placed frame came more than kLate after its time.
-bool SampleIndex::was_late() const {
-    return start_of(*last_index_, last_arrival_) - earliest_start_ > kLate;
-}
-
 Placement SampleIndex::place(std::uint16_t count, bool contiguous, RawTime arrival) {
     if (!last_index_) {
         last_index_ = -1;
@@ -54,7 +49,8 @@ Placement SampleIndex::place(std::uint16_t count, bool contiguous, RawTime arriv
     const std::int64_t by_counter = difference / count_step_;
     if (contiguous) {
         if (difference == 0) return {Placement::Kind::duplicate, 0, 0};
-        if (was_late())
+        const Nanoseconds late_by = start_of(*last_index_, last_arrival_) - earliest_start_;
+        if (late_by > kLate)
             if (const auto advance = advance_by_time(difference, arrival))
                 return accept(*advance, count, arrival);
         if (is_whole && difference <= kCounterRange - kJumpBack)

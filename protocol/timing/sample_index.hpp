@@ -68,7 +68,6 @@ public:
 
 private:
     [[nodiscard]] RawTime start_of(std::int64_t index, RawTime arrival) const;
-    [[nodiscard]] bool was_late() const;
     [[nodiscard]] std::optional<std::int64_t> advance_by_time(std::uint16_t difference,
                                                               RawTime arrival) const;
     Placement accept(std::int64_t advance, std::uint16_t count, RawTime arrival);

@@ -16,11 +16,7 @@ using std::chrono::seconds;
 constexpr Nanoseconds kTrustedAfter = seconds(60);  // after a step, and after waking up
 constexpr Nanoseconds kSlopeOver = seconds(3);      // a reading is accurate to microseconds
 
-Nanoseconds max_error(const ClockReading& reading) { return microseconds(reading.max_error_us); }
-
 }  // namespace
-
-void UtcMapping::woke_up() { has_slept_ = true; }
 
 std::optional<Nanoseconds> UtcMapping::observe(const ClockReading& reading) {
     const Nanoseconds offset = reading.realtime.time_since_epoch() - reading.raw.time_since_epoch();
@@ -48,12 +44,12 @@ std::optional<Nanoseconds> UtcMapping::observe(const ClockReading& reading) {
     if (!doubted_ || abs(offset - doubted_->offset) > kClockStep) doubted_ = {reading.raw, offset};
     doubted_->offset = offset;
     if (!reading.is_synchronised && last_synchronised_) {
-        doubted_->since = reading.raw;
+        doubted_->raw = reading.raw;
         return std::nullopt;
     }
     const bool is_first =
         reading.is_synchronised && !last_synchronised_ && !is_just_awake(reading.raw);
-    if (!is_first && reading.raw - doubted_->since < kTrustedAfter) return std::nullopt;
+    if (!is_first && reading.raw - doubted_->raw < kTrustedAfter) return std::nullopt;
     doubted_.reset();
     recent_.clear();
     follow(reading, offset);
@@ -109,7 +105,8 @@ Nanoseconds UtcMapping::error_at(RawTime raw) const {
     const auto error = [&](const ClockReading& reading, Nanoseconds at_least) {
         const Nanoseconds since = std::max(raw - reading.raw, Nanoseconds(0));
         const Nanoseconds carried = std::max(raw - recent_.back().raw, Nanoseconds(0));
-        return std::max(max_error(reading), at_least) + host_drift(since) +
+        return std::max<Nanoseconds>(microseconds(reading.max_error_us), at_least) +
+               host_drift(since) +
                from_seconds(std::abs(slope()) * std::chrono::duration<double>(carried).count());
     };
     if (!last_synchronised_ || is_just_awake(last_->raw)) return error(*last_, kUnknownClockError);

@@ -39,7 +39,7 @@ public:
     std::optional<Nanoseconds> observe(const ClockReading& reading);
 
     /// Notes that the host slept between the last reading and the next one.
-    void woke_up();
+    void woke_up() { has_slept_ = true; }
 
     /// Returns true before the first reading.
     [[nodiscard]] bool is_empty() const noexcept { return recent_.empty(); }
@@ -58,18 +58,14 @@ private:
         RawTime raw;
         Nanoseconds offset{0};  ///< UTC since 1970 minus `raw`.
     };
-    struct Doubted {
-        RawTime since;
-        Nanoseconds offset{0};
-    };
     [[nodiscard]] double slope() const;
     [[nodiscard]] Nanoseconds offset_at(RawTime raw) const;
     [[nodiscard]] bool is_just_awake(RawTime raw) const noexcept;
     [[nodiscard]] bool is_leap(const ClockReading& reading, Nanoseconds departure) const noexcept;
     void follow(const ClockReading& reading, Nanoseconds offset);
 
-    std::deque<Pair> recent_;  ///< Followed readings of the last 3 s, and one before.
-    std::optional<Doubted> doubted_;
+    std::deque<Pair> recent_;      ///< Followed readings of the last 3 s, and one before.
+    std::optional<Pair> doubted_;  ///< Raw time since when, and newest offset.
     bool has_slept_ = false;
     std::optional<RawTime> awake_since_;
     std::optional<UtcTime> leap_at_;    ///< Midnight of the last announced leap second.

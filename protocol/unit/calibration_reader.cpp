@@ -1,8 +1,10 @@
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include "protocol/linear_algebra/cholesky.hpp"
+#include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/strict_toml.hpp"
 #include "protocol/text/text_file.hpp"
@@ -57,9 +59,9 @@ void require_in_range(const text::TomlTable& table, const std::vector<double>& v
     for (std::size_t k = 0; k < kSize; ++k) {
         const auto [low, high] = ranges.at(k);
         if (values[k] >= low && values[k] <= high) continue;
-        std::string trouble(names.at(k));
-        trouble += " = " + text::shortest(values[k]) + ": out of range";
-        table.refuse("values", trouble, text::shortest(low) + " to " + text::shortest(high));
+        table.refuse("values",
+                     fmt::format("{} = {}: out of range", names.at(k), text::shortest(values[k])),
+                     fmt::format("{} to {}", text::shortest(low), text::shortest(high)));
     }
 }
 
@@ -71,11 +73,9 @@ std::optional<CalibratedCoefficients<kCount>> coefficients_of(
     if (!document.has(name)) return std::nullopt;
     text::TomlTable table = document.table(name);
     const std::vector<std::string> found = table.strings("coefficients");
-    if (!std::equal(found.begin(), found.end(), names.begin(), names.end())) {
-        std::string allowed;
-        for (const std::string_view one : names)
-            allowed += (allowed.empty() ? "" : ", ") + std::string(one);
-        table.refuse("coefficients", "not those of this table, in this order", allowed);
+    if (!std::ranges::equal(found, names)) {
+        table.refuse("coefficients", "not those of this table, in this order",
+                     text::joined({names.begin(), names.end()}));
     }
     constexpr double kAny = std::numeric_limits<double>::max();
     const auto values = table.numbers("values", -kAny, kAny);
@@ -83,7 +83,7 @@ std::optional<CalibratedCoefficients<kCount>> coefficients_of(
     table.require_all_read();
     const auto require_count = [&table](std::string_view key, std::size_t has, std::size_t wants) {
         if (has != wants)
-            table.refuse(key, std::to_string(has) + " numbers", std::to_string(wants) + " numbers");
+            table.refuse(key, fmt::format("{} numbers", has), fmt::format("{} numbers", wants));
     };
     require_count("values", values.size(), kSize);
     require_count("covariance", covariance.size(), kSize * kSize);

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <nlohmann/json.hpp>
 
 #include "protocol/text/csv.hpp"
@@ -21,11 +23,11 @@ std::string quoted(const std::string& text) {
 
 std::string time_line(std::string_view key, UtcTime time) {
     constexpr int kNanosecondDecimals = 9;
-    return std::string(key) + " = \"" + to_rfc3339(time, kNanosecondDecimals) + "\"\n";
+    return fmt::format("{} = \"{}\"\n", key, to_rfc3339(time, kNanosecondDecimals));
 }
 
 std::string number_line(std::string_view key, double value) {
-    return std::string(key) + " = " + text::shortest(value) + '\n';
+    return fmt::format("{} = {}\n", key, text::shortest(value));
 }
 
 template <typename Names, int kCount>
@@ -34,14 +36,14 @@ std::string table(std::string_view name, const Names& names,
     std::string list, values, covariance;
     for (Eigen::Index i = 0; i < kCount; ++i) {
         const std::string comma = i == 0 ? "" : ", ";
-        list += comma + '"' + std::string(names.at(static_cast<std::size_t>(i))) + '"';
+        list += fmt::format("{}\"{}\"", comma, names.at(static_cast<std::size_t>(i)));
         values += comma + text::shortest(part.values(i));
         covariance += "\n ";
         for (Eigen::Index j = 0; j < kCount; ++j)
             covariance += ' ' + text::shortest(part.covariance(i, j)) + ',';
     }
-    return "\n[" + std::string(name) + "]\ncoefficients = [" + list + "]\nvalues = [" + values +
-           "]\ncovariance = [" + covariance + "\n]\n";
+    return fmt::format("\n[{}]\ncoefficients = [{}]\nvalues = [{}]\ncovariance = [{}\n]\n", name,
+                       list, values, covariance);
 }
 
 }  // namespace
@@ -60,8 +62,8 @@ std::string to_toml(const Calibration& calibration) {
                 number_line("after_power_on_h", calibration.warm_up->after_power_on_h);
     }
     for (const CalibrationData& data : calibration.data)
-        text +=
-            "\n[[data]]\nname = " + quoted(data.name) + "\nsha256 = " + quoted(data.sha256) + '\n';
+        text += fmt::format("\n[[data]]\nname = {}\nsha256 = {}\n", quoted(data.name),
+                            quoted(data.sha256));
     return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace a351::wire {
 namespace {
@@ -12,14 +13,9 @@ using Reason = Discarded::Reason;
 constexpr std::uint16_t kHalfWrap = 0x8000;
 constexpr std::size_t kFramesInARow = 3;
 
-std::uint16_t read_u16(Bytes bytes, std::size_t at) noexcept {
-    return static_cast<std::uint16_t>((std::to_integer<unsigned>(bytes[at]) << 8U) |
-                                      std::to_integer<unsigned>(bytes[at + 1]));
-}
-
 std::int32_t read_i32(Bytes bytes, std::size_t at) noexcept {
-    return static_cast<std::int32_t>((std::uint32_t{read_u16(bytes, at)} << 16U) |
-                                     read_u16(bytes, at + 2));
+    return static_cast<std::int32_t>((std::uint32_t{word_at(bytes, at)} << 16U) |
+                                     word_at(bytes, at + 2));
 }
 
 std::size_t tail_size(const BurstLayout& layout) noexcept {
@@ -27,7 +23,7 @@ std::size_t tail_size(const BurstLayout& layout) noexcept {
 }
 
 std::uint16_t count_of(const BurstLayout& layout, Bytes frame) noexcept {
-    return read_u16(frame, frame.size() - tail_size(layout) - 2);
+    return word_at(frame, frame.size() - tail_size(layout) - 2);
 }
 
 /// Returns the fault of a single frame, if it has one; other frames are not considered.
@@ -36,7 +32,7 @@ std::optional<Reason> find_fault(const BurstLayout& layout, Bytes frame) noexcep
     if (frame.back() != kEndByte) return Reason::bad_end_byte;
     if (layout.has_checksum()) {
         const std::size_t at = frame.size() - tail_size(layout);
-        if (read_u16(frame, at) != burst_checksum(frame.subspan(1, at - 1))) {
+        if (word_at(frame, at) != burst_checksum(frame.subspan(1, at - 1))) {
             return Reason::bad_checksum;
         }
     }
@@ -47,7 +43,7 @@ BurstValues read_values(const BurstLayout& layout, Bytes frame) noexcept {
     BurstValues values;
     std::size_t at = 1;
     if (layout.has_flag()) {
-        values.flag = read_u16(frame, at);
+        values.flag = word_at(frame, at);
         at += 2;
     }
     if (layout.has_temperature()) {
@@ -60,7 +56,7 @@ BurstValues read_values(const BurstLayout& layout, Bytes frame) noexcept {
             at += 4;
         }
     }
-    if (layout.has_count()) values.count = read_u16(frame, at);
+    if (layout.has_count()) values.count = word_at(frame, at);
     return values;
 }
 
@@ -92,7 +88,8 @@ std::optional<DecoderEvent> BurstDecoder::next(Bytes& input) noexcept {
                 break;
             }
             case Verdict::Kind::accept: {
-                if (run_.byte_count > 0) return take_run();  // The next call accepts it.
+                // The next call accepts it.
+                if (run_.byte_count > 0) return std::exchange(run_, {});
                 const BurstFrame frame = accept(Bytes(pending_).first(frame_size_));
                 drop_front(frame_size_);
                 return frame;
@@ -102,14 +99,12 @@ std::optional<DecoderEvent> BurstDecoder::next(Bytes& input) noexcept {
                 ++run_.byte_count;
                 follows_frame_ = false;
                 drop_front(1);
-                if (run_.byte_count == frame_size_) return take_run();
+                if (run_.byte_count == frame_size_) return std::exchange(run_, {});
                 break;
             }
         }
     }
 }
-
-std::size_t BurstDecoder::pending_bytes() const noexcept { return run_.byte_count + pending_size_; }
 
 /// Decides if a frame starts at the front of `bytes`.  More bytes may settle an undecided case but
 /// never change a decision, so the events do not depend on how the stream is cut.
@@ -177,12 +172,6 @@ BurstFrame BurstDecoder::accept(Bytes frame) noexcept {
     has_accepted_ = true;
     last_count_ = values.count;
     return BurstFrame(values);
-}
-
-DecoderEvent BurstDecoder::take_run() noexcept {
-    const Discarded run = run_;
-    run_ = {};
-    return run;
 }
 
 void BurstDecoder::drop_front(std::size_t byte_count) noexcept {

@@ -11,7 +11,6 @@
 #include <variant>
 
 #include "protocol/wire/burst_frame.hpp"
-#include "protocol/wire/burst_layout.hpp"
 
 namespace a351::wire {
 
@@ -52,9 +51,9 @@ public:
     [[nodiscard]] std::optional<DecoderEvent> next(std::span<const std::byte>& input) noexcept;
 
     /// Returns the number of bytes taken that no event covers yet.
-    [[nodiscard]] std::size_t pending_bytes() const noexcept;
-
-    [[nodiscard]] const BurstLayout& layout() const noexcept { return layout_; }
+    [[nodiscard]] std::size_t pending_bytes() const noexcept {
+        return run_.byte_count + pending_size_;
+    }
 
 private:
     static constexpr std::size_t kLookAheadFrames = 4;
@@ -70,7 +69,6 @@ private:
     [[nodiscard]] Verdict confirm_in_a_row(std::span<const std::byte> bytes) const noexcept;
     [[nodiscard]] bool is_count_ahead(std::uint16_t count, std::uint16_t previous) const noexcept;
     [[nodiscard]] BurstFrame accept(std::span<const std::byte> frame) noexcept;
-    [[nodiscard]] DecoderEvent take_run() noexcept;
     void drop_front(std::size_t byte_count) noexcept;
 
     BurstLayout layout_;

@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "protocol/wire/burst_layout.hpp"
+#include "protocol/wire/burst_frame.hpp"
 
 namespace a351::wire {
 namespace {
@@ -47,8 +47,7 @@ std::optional<std::uint16_t> parse_answer(const Register& reg,
         answer[3] != kEndByte) {
         return std::nullopt;
     }
-    return static_cast<std::uint16_t>((std::to_integer<unsigned>(answer[1]) << 8U) |
-                                      std::to_integer<unsigned>(answer[2]));
+    return word_at(answer, 1);
 }
 
 CommandSequence SamplingMode::stop() && { return stop_sampling(); }

@@ -1,12 +1,11 @@
 #include "protocol/wire/handshake.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cassert>
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
-
-#include "protocol/wire/burst_frame.hpp"
 
 namespace a351::wire {
 namespace {
@@ -31,16 +30,10 @@ constexpr std::uint8_t kFirstIdentityAddress = 0x6A;  // PROD_ID1-4, VERSION, SE
 constexpr std::size_t kIdentityRegisters = 9;
 constexpr std::size_t kVersionIndex = 4;
 
-std::string hex(std::uint16_t value) {
-    std::array<char, sizeof "0x0000"> text{};
-    std::snprintf(text.data(), text.size(), "0x%04X", static_cast<unsigned>(value));
-    return text.data();
-}
-
 std::string mismatch(const Register& reg, std::uint16_t expected, std::uint16_t found,
                      std::uint16_t mask) {
-    return std::string(reg.name) + ": expected " + hex(expected) + ", found " + hex(found) +
-           " (bits compared: " + hex(mask) + ")";
+    return fmt::format("{}: expected 0x{:04X}, found 0x{:04X} (bits compared: 0x{:04X})", reg.name,
+                       expected, found, mask);
 }
 
 void append_characters(std::uint16_t word, std::string& text) {
@@ -51,9 +44,8 @@ void append_characters(std::uint16_t word, std::string& text) {
 std::uint16_t rate_code(const DeviceProfile& profile, int output_rate_hz) {
     const auto found = std::ranges::find(profile.output_rates_hz, output_rate_hz, &Coded::value);
     if (found == profile.output_rates_hz.end()) {
-        throw std::invalid_argument("Handshake: profile " + std::string(profile.name) +
-                                    " has no output rate of " + std::to_string(output_rate_hz) +
-                                    " Hz");
+        throw std::invalid_argument(fmt::format("Handshake: profile {} has no output rate of {} Hz",
+                                                profile.name, output_rate_hz));
     }
     return static_cast<std::uint16_t>(found->code << 8U);
 }
@@ -64,8 +56,9 @@ Handshake::Handshake(const DeviceProfile& profile, SensorSettings settings,
                      std::string serial_number)
     : profile_(&profile), settings_(settings), expected_serial_number_(std::move(serial_number)) {
     if (profile.filter_coded(settings.filter_code) == nullptr) {
-        throw std::invalid_argument("Handshake: profile " + std::string(profile.name) +
-                                    " has no filter coded " + hex(settings.filter_code));
+        throw std::invalid_argument(
+            fmt::format("Handshake: profile {} has no filter coded 0x{:04X}", profile.name,
+                        settings.filter_code));
     }
     // TEMP_STABIL and MESMOD_SEL of SIG_CTRL stay as found.  So does the unused EXT_POL of
     // MSC_CTRL, because its high byte would start self tests.
@@ -80,7 +73,7 @@ Handshake::Handshake(const DeviceProfile& profile, SensorSettings settings,
     silence();
     queue_.push_back(Transmit{{kEndByte}});  // completes an interrupted command
     silence();
-    ask(Stage::mode, kModeCtrl);
+    ask(&Handshake::take_mode, kModeCtrl);
 }
 
 HandshakeStep Handshake::next(std::span<const std::byte> answer) {
@@ -114,8 +107,8 @@ void Handshake::wait(milliseconds time) {
     queue_.push_back(DrainUntilSilent{.quiet = time, .limit = time});
 }
 
-void Handshake::ask(Stage stage, const Register& reg) {
-    stage_ = stage;
+void Handshake::ask(Take take, const Register& reg) {
+    take_ = take;
     asked_ = &reg;
     tries_left_ = kTries;
     queue_read();
@@ -143,50 +136,34 @@ void Handshake::fail(std::string reason) {
 
 void Handshake::take_answer(std::span<const std::byte> answer) {
     const auto value = parse_answer(*asked_, answer);
-    if (stage_ == Stage::id) {  // not required: Epson's other devices answer 0x5345
+    if (asked_ == &kId) {  // not required: Epson's other devices answer 0x5345
         if (!value) queue_.push_back(kShortDrain);
         return ask_target();
     }
     if (!value) {
-        return retry(std::string(asked_->name) + ": expected an answer of 4 bytes, found none in " +
-                     std::to_string(kTries) + " tries");
+        return retry(fmt::format("{}: expected an answer of 4 bytes, found none in {} tries",
+                                 asked_->name, kTries));
     }
     has_answered_ = true;
-    switch (stage_) {
-        case Stage::mode:
-            return take_mode(*value);
-        case Stage::start_up:
-            return take_start_up(*value);
-        case Stage::diagnosis:
-            return take_diagnosis(*value);
-        case Stage::identity:
-            return take_identity(*value);
-        case Stage::configuration:
-            return take_configuration(*value);
-        case Stage::aliasing:
-            return take_aliasing(*value);
-        case Stage::window:
-            return take_window(*value);
-        case Stage::id:
-            break;
-    }
+    (this->*take_)(*value);
 }
 
 void Handshake::take_mode(std::uint16_t value) {
     config_ = ConfigMode::from_mode_ctrl(value);
     if (!config_) return retry(mismatch(kModeCtrl, kModeStatConfig, value, kModeStat));
     polls_left_ = static_cast<int>(kStartUpLimit / kStartUpPoll);
-    ask(Stage::start_up, kGlobCmd);
+    ask(&Handshake::take_start_up, kGlobCmd);
 }
 
 void Handshake::take_start_up(std::uint16_t value) {
-    if ((value & kGlobNotReady) == 0) return ask(Stage::diagnosis, kDiagStat);
+    if ((value & kGlobNotReady) == 0) return ask(&Handshake::take_diagnosis, kDiagStat);
     if (--polls_left_ == 0) {
-        return fail(mismatch(kGlobCmd, 0, value, kGlobNotReady) + ": not ready after " +
-                    std::to_string(kStartUpLimit.count()) + " ms");
+        return fail(fmt::format("{}: not ready after {} ms",
+                                mismatch(kGlobCmd, 0, value, kGlobNotReady),
+                                kStartUpLimit.count()));
     }
     wait(kStartUpPoll);
-    ask(Stage::start_up, kGlobCmd);
+    ask(&Handshake::take_start_up, kGlobCmd);
 }
 
 void Handshake::take_diagnosis(std::uint16_t value) {
@@ -196,7 +173,7 @@ void Handshake::take_diagnosis(std::uint16_t value) {
     if ((value & kDiagFlashError) != 0) {
         return fail(found + ": FLASH_ERR, the sensor could not read its calibration");
     }
-    ask(Stage::identity, *register_at(Window::w1, kFirstIdentityAddress));
+    ask(&Handshake::take_identity, *register_at(Window::w1, kFirstIdentityAddress));
 }
 
 void Handshake::take_identity(std::uint16_t value) {
@@ -209,29 +186,29 @@ void Handshake::take_identity(std::uint16_t value) {
     }
     if (++identity_index_ < kIdentityRegisters) {
         const auto address = static_cast<std::uint8_t>(kFirstIdentityAddress + 2 * identity_index_);
-        return ask(Stage::identity, *register_at(Window::w1, address));
+        return ask(&Handshake::take_identity, *register_at(Window::w1, address));
     }
     identity_.has_expected_product_id =
         identity_.product_id.starts_with(profile_->product_id_prefix);
     if (!expected_serial_number_.empty() && identity_.serial_number != expected_serial_number_) {
-        return fail("another instrument: serial number " + identity_.serial_number + ", expected " +
-                    expected_serial_number_);
+        return fail(fmt::format("another instrument: serial number {}, expected {}",
+                                identity_.serial_number, expected_serial_number_));
     }
-    ask(Stage::id, kId);
+    ask(nullptr, kId);
 }
 
 void Handshake::ask_target() {
-    if (target_index_ == targets_.size()) return ask(Stage::aliasing, kFlag);
+    if (target_index_ == targets_.size()) return ask(&Handshake::take_aliasing, kFlag);
     writes_left_ = kWrites;
     polls_left_ = static_cast<int>(kFilterLimit / kFilterPoll);
-    ask(Stage::configuration, *targets_[target_index_].reg);
+    ask(&Handshake::take_configuration, *targets_[target_index_].reg);
 }
 
 void Handshake::take_configuration(std::uint16_t value) {
     const auto& [reg, wanted, mask] = targets_[target_index_];
     if (reg == &kFilterCtrl && (value & kFilterBusy) != 0 && --polls_left_ > 0) {
         wait(kFilterPoll);
-        return ask(Stage::configuration, *reg);
+        return ask(&Handshake::take_configuration, *reg);
     }
     if ((value & mask) == wanted) {
         ++target_index_;
@@ -239,18 +216,18 @@ void Handshake::take_configuration(std::uint16_t value) {
     }
     if (writes_left_-- == 0) return fail(mismatch(*reg, wanted, value, mask));
     send(config_->write(*reg, static_cast<std::uint16_t>((value & ~mask) | wanted), mask));
-    ask(Stage::configuration, *reg);
+    ask(&Handshake::take_configuration, *reg);
 }
 
 void Handshake::take_aliasing(std::uint16_t value) {
     if ((value & kFlagAliasing) != 0) {
         const FilterSpec* const filter = profile_->filter_coded(settings_.filter_code);
-        return fail(mismatch(kFlag, 0, value, kFlagAliasing) + ": ALIASI_ERR, filter " +
-                    (filter != nullptr ? std::string(filter->name)
-                                       : std::to_string(settings_.filter_code)) +
-                    " is not allowed at " + std::to_string(settings_.output_rate_hz) + " Hz");
+        return fail(fmt::format("{}: ALIASI_ERR, filter {} is not allowed at {} Hz",
+                                mismatch(kFlag, 0, value, kFlagAliasing),
+                                filter != nullptr ? filter->name : std::string_view(),
+                                settings_.output_rate_hz));
     }
-    ask(Stage::window, kWinCtrl);
+    ask(&Handshake::take_window, kWinCtrl);
 }
 
 void Handshake::take_window(std::uint16_t value) {

@@ -15,7 +15,7 @@
 #include <variant>
 #include <vector>
 
-#include "protocol/wire/burst_layout.hpp"
+#include "protocol/wire/burst_frame.hpp"
 #include "protocol/wire/commands.hpp"
 #include "protocol/wire/device_profile.hpp"
 
@@ -76,7 +76,8 @@ public:
     [[nodiscard]] HandshakeStep next(std::span<const std::byte> answer);
 
 private:
-    enum class Stage { mode, start_up, diagnosis, identity, id, configuration, aliasing, window };
+    /// Takes the value of the register that was asked for.
+    using Take = void (Handshake::*)(std::uint16_t value);
 
     /// Bits of a register that sampling depends on.
     struct Target {
@@ -88,7 +89,7 @@ private:
     void silence();
     void send(const CommandSequence& commands);
     void wait(std::chrono::milliseconds time);
-    void ask(Stage stage, const Register& reg);
+    void ask(Take take, const Register& reg);
     void queue_read();
     void retry(std::string reason);
     void fail(std::string reason);
@@ -108,7 +109,7 @@ private:
     std::string expected_serial_number_;
     std::vector<Target> targets_;
     std::deque<HandshakeStep> queue_;
-    Stage stage_ = Stage::mode;
+    Take take_ = nullptr;
     const Register* asked_ = &kModeCtrl;
     bool is_waiting_for_answer_ = false;
     bool has_answered_ = false;

@@ -1,41 +1,35 @@
-#include "sim/command/device_command.hpp"
-
 #include <exception>
 #include <initializer_list>
 #include <iostream>
+#include <memory>
 #include <system_error>
 
-#include "protocol/core/input_error.hpp"
+#include "sim/command/commands.hpp"
 #include "sim/command/exit_report.hpp"
+#include "sim/command/options.hpp"
 #include "sim/device/device_stream.hpp"
-#include "sim/device/flash_file.hpp"
-#include "sim/line/control_orders.hpp"
+#include "sim/device/flash_memory.hpp"
 #include "sim/line/control_socket.hpp"
 #include "sim/line/place.hpp"
 #include "sim/line/sensor_port.hpp"
 #include "sim/oven/oven_port.hpp"
 #include "sim/scenario/survey_plan.hpp"
 #include "sim/signal/signal_source.hpp"
-#include "sim/survey/plan_files.hpp"
 
 namespace a351::sim {
 namespace {
 
-MachineIdentity identity_of(const DeviceCommand& command) {
-    return {product_of(command.unit), command.unit.serial, command.firmware,
-            !command.lacks_id_register};
-}
-
-FaultRules fault_rules(const DeviceCommand& command, double speed) {
-    FaultRules rules{profile_of(command.unit.profile), speed};
-    if (!command.oven_link.empty()) rules.oven_kinds = OvenPort::fault_kinds();
-    return rules;
-}
-
-FlashMemory flash_of(const DeviceCommand& command) {
-    if (command.state.empty()) return {};
-    return read_flash_file(command.state, profile_of(command.unit.profile));
-}
+struct DeviceCommand {
+    DayOptions day;
+    UnitOptions unit;
+    std::uint16_t firmware = 1;
+    bool lacks_id_register = false;
+    std::string state;  ///< File of the flash memory.  Here and below, an empty path means none.
+    std::string link, oven_link;
+    std::string clock;
+    double speed = 1.0;
+    std::string truth, report, faults, control;
+};
 
 /// Returns a store that writes the flash memory to `file`; the device reports a failure as
 /// FLASH_BU_ERR.
@@ -76,56 +70,17 @@ void take_all(std::initializer_list<std::function<void()>> steps) {
 
 void say(const std::string& trouble) { std::cerr << "a351-sim: " << trouble << std::endl; }
 
-}  // namespace
-
-CLI::App* add_device(CLI::App& app, DeviceCommand& command) {
-    CLI::App* device =
-        app.add_subcommand("device", "Serve the emulated sensor on a pseudo-terminal");
-    add_day(*device, command.day);
-    add_unit(*device, command.unit);
-    device->add_option("--firmware", command.firmware, "Firmware version")->capture_default_str();
-    device->add_flag("--no-id", command.lacks_id_register,
-                     "Register W0:4C, which the data sheet does not have, reads 0");
-    device
-        ->add_option("--state", command.state, "TOML file that keeps the flash memory between runs")
-        ->type_name("FILE");
-    device
-        ->add_option("--link", command.link,
-                     "Symbolic link to make to the sensor's pseudo-terminal")
-        ->type_name("PATH")
-        ->required();
-    device
-        ->add_option("--oven-link", command.oven_link,
-                     "Symbolic link to make to the pseudo-terminal of the oven's controller")
-        ->type_name("PATH");
-    CLI::Option* clock = add_clock(*device, command.clock);
-    device
-        ->add_option("--speed", command.speed,
-                     "Simulated seconds per real second, from the start of the scenario on")
-        ->check(CLI::Range(1e-3, 1e6))
-        ->excludes(clock)
-        ->capture_default_str();
-    device->add_option("--truth", command.truth, "File to write: every frame and what became of it")
-        ->type_name("FILE");
-    device->add_option("--report", command.report, "JSON file to write at the end")
-        ->type_name("FILE");
-    device->add_option("--faults", command.faults, "TOML file of the faults and their times")
-        ->type_name("FILE");
-    device
-        ->add_option("--control", command.control,
-                     "Unix socket to make; it takes faults and orders while the emulator runs")
-        ->type_name("PATH");
-    return device;
-}
-
 void run(const DeviceCommand& command, const std::function<bool()>& should_stop) {
     check_paths(command);
     const Scenario scenario = load_scenario(command.day.scenario);
     const wire::DeviceProfile& profile = profile_of(command.unit.profile);
-    const MachineIdentity identity = identity_of(command);
-    const FlashMemory flash = flash_of(command);
+    const MachineIdentity identity{product_of(command.unit), command.unit.serial, command.firmware,
+                                   !command.lacks_id_register};
+    const FlashMemory flash =
+        command.state.empty() ? FlashMemory() : read_flash_file(command.state, profile);
     const ClockScale clock = clock_of(command.clock, command.speed, scenario.start());
-    const FaultRules rules = fault_rules(command, clock.factor);
+    FaultRules rules{profile, clock.factor};
+    if (!command.oven_link.empty()) rules.oven_kinds = OvenPort::fault_kinds();
     FaultScript script;
     if (!command.faults.empty()) {
         script = read_fault_script(command.faults, scenario.start(), rules);
@@ -188,6 +143,51 @@ void run(const DeviceCommand& command, const std::function<bool()>& should_stop)
                   if (truth) truth->close();
               },
               write_report});
+}
+
+}  // namespace
+
+void add_device_command(CLI::App& app, UntilStopped until_stopped) {
+    const auto command = std::make_shared<DeviceCommand>();
+    CLI::App* device =
+        app.add_subcommand("device", "Serve the emulated sensor on a pseudo-terminal");
+    add_day(*device, command->day);
+    add_unit(*device, command->unit);
+    device->add_option("--firmware", command->firmware, "Firmware version")->capture_default_str();
+    device->add_flag("--no-id", command->lacks_id_register,
+                     "Register W0:4C, which the data sheet does not have, reads 0");
+    device
+        ->add_option("--state", command->state,
+                     "TOML file that keeps the flash memory between runs")
+        ->type_name("FILE");
+    device
+        ->add_option("--link", command->link,
+                     "Symbolic link to make to the sensor's pseudo-terminal")
+        ->type_name("PATH")
+        ->required();
+    device
+        ->add_option("--oven-link", command->oven_link,
+                     "Symbolic link to make to the pseudo-terminal of the oven's controller")
+        ->type_name("PATH");
+    CLI::Option* clock = add_clock(*device, command->clock);
+    device
+        ->add_option("--speed", command->speed,
+                     "Simulated seconds per real second, from the start of the scenario on")
+        ->check(CLI::Range(1e-3, 1e6))
+        ->excludes(clock)
+        ->capture_default_str();
+    device
+        ->add_option("--truth", command->truth, "File to write: every frame and what became of it")
+        ->type_name("FILE");
+    device->add_option("--report", command->report, "JSON file to write at the end")
+        ->type_name("FILE");
+    device->add_option("--faults", command->faults, "TOML file of the faults and their times")
+        ->type_name("FILE");
+    device
+        ->add_option("--control", command->control,
+                     "Unix socket to make; it takes faults and orders while the emulator runs")
+        ->type_name("PATH");
+    device->callback([command, until_stopped] { run(*command, until_stopped()); });
 }
 
 }  // namespace a351::sim

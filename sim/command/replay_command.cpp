@@ -1,16 +1,26 @@
-#include "sim/command/replay_command.hpp"
-
 #include <array>
 #include <charconv>
+#include <filesystem>
 #include <iostream>
+#include <memory>
 
 #include "protocol/core/input_error.hpp"
+#include "sim/command/commands.hpp"
+#include "sim/command/options.hpp"
 #include "sim/line/sensor_port.hpp"
-#include "sim/replay/open_recording.hpp"
 #include "sim/replay/replay_device.hpp"
 
 namespace a351::sim {
 namespace {
+
+struct ReplayCommand {
+    std::vector<std::filesystem::path> files;
+    std::string link;
+    std::string speed = "1";  ///< A factor, or "max".
+    std::string clock;
+    std::string axes = "1,2,Z";
+    UnitOptions unit;  ///< Unit of a miniSEED recording, which does not name it.
+};
 
 constexpr double kSlowest = 1e-3, kFastest = 1e6;
 
@@ -45,36 +55,6 @@ ReplayTiming timing_of(const ReplayCommand& command) {
     return command.speed == "max" ? ReplayTiming::as_fast_as_read : ReplayTiming::from_host_start;
 }
 
-}  // namespace
-
-CLI::App* add_replay(CLI::App& app, ReplayCommand& command) {
-    CLI::App* replay = app.add_subcommand("replay", "Serve a recording on a pseudo-terminal");
-    replay
-        ->add_option("FILE", command.files,
-                     "Journal segments, or miniSEED files of a data root, or their directories")
-        ->type_name("")
-        ->required();
-    replay
-        ->add_option("--link", command.link,
-                     "Symbolic link to make to the sensor's pseudo-terminal")
-        ->type_name("PATH")
-        ->required();
-    CLI::Option* clock = add_clock(*replay, command.clock);
-    replay
-        ->add_option("--speed", command.speed,
-                     "Recorded seconds per real second; max: as fast as the host reads")
-        ->type_name("X|max")
-        ->excludes(clock)
-        ->capture_default_str();
-    replay
-        ->add_option("--axes", command.axes,
-                     "For miniSEED only: last letters of the channels of x, y and z")
-        ->type_name("X,Y,Z")
-        ->capture_default_str();
-    add_unit(*replay, command.unit, "For miniSEED only.  ");
-    return replay;
-}
-
 void run(const ReplayCommand& command, const std::function<bool()>& should_stop) {
     ReplayDevice device(open_recording(files_of(command)), timing_of(command), steady_now());
     const double factor = command.speed == "max" ? 1.0 : factor_of(command.speed);
@@ -93,6 +73,37 @@ void run(const ReplayCommand& command, const std::function<bool()>& should_stop)
         std::cerr << "a351-sim: " << left_out
                   << " samples were not replayed, because a channel lacks them\n";
     }
+}
+
+}  // namespace
+
+void add_replay_command(CLI::App& app, UntilStopped until_stopped) {
+    const auto command = std::make_shared<ReplayCommand>();
+    CLI::App* replay = app.add_subcommand("replay", "Serve a recording on a pseudo-terminal");
+    replay
+        ->add_option("FILE", command->files,
+                     "Journal segments, or miniSEED files of a data root, or their directories")
+        ->type_name("")
+        ->required();
+    replay
+        ->add_option("--link", command->link,
+                     "Symbolic link to make to the sensor's pseudo-terminal")
+        ->type_name("PATH")
+        ->required();
+    CLI::Option* clock = add_clock(*replay, command->clock);
+    replay
+        ->add_option("--speed", command->speed,
+                     "Recorded seconds per real second; max: as fast as the host reads")
+        ->type_name("X|max")
+        ->excludes(clock)
+        ->capture_default_str();
+    replay
+        ->add_option("--axes", command->axes,
+                     "For miniSEED only: last letters of the channels of x, y and z")
+        ->type_name("X,Y,Z")
+        ->capture_default_str();
+    add_unit(*replay, command->unit, "For miniSEED only.  ");
+    replay->callback([command, until_stopped] { run(*command, until_stopped()); });
 }
 
 }  // namespace a351::sim

@@ -1,7 +1,5 @@
 #include "sim/device/device_stream.hpp"
 
-#include <algorithm>
-
 namespace a351::sim {
 namespace {
 
@@ -12,14 +10,6 @@ constexpr int kMostAtOnce = 1024;
 
 DeviceStream::DeviceStream(SampleSource& source, RegisterMachine& machine)
     : source_(source), machine_(machine) {}
-
-int DeviceStream::repeats() const {
-    return std::max(1, machine_.output_rate_hz() / source_.rate_hz());
-}
-
-int DeviceStream::stride() const {
-    return std::max(1, source_.rate_hz() / machine_.output_rate_hz());
-}
 
 bool DeviceStream::is_holding() const {
     return held_ && held_rate_hz_ == machine_.output_rate_hz();
@@ -46,32 +36,22 @@ void DeviceStream::advance_to(const Instant& now, LineSink& line) {
     for (int taken = 0; taken < kMostAtOnce && !line.is_full(); ++taken) {
         const std::optional<UtcTime> due = next_due();
         if (!due || *due > now.simulated) return;
-        if (!is_holding()) take_sample();
-        if (held_->index % stride() == 0) send_sample(*due, line);
-        if (++repeat_ >= repeats()) held_.reset();
+        if (!is_holding()) {
+            held_ = source_.next();
+            held_rate_hz_ = machine_.output_rate_hz();
+            repeat_ = 0;
+        }
+        send_sample(*due, line);
+        if (++repeat_ >= held_rate_hz_ / source_.rate_hz()) held_.reset();
     }
-}
-
-void DeviceStream::take_sample() {
-    held_ = source_.next();
-    held_rate_hz_ = machine_.output_rate_hz();
-    repeat_ = 0;
-    for (; next_index_ < held_->index; ++next_index_) {
-        if (next_index_ % stride() != 0) continue;
-        for (int i = 0; i < repeats(); ++i) machine_.skip_sample();
-    }
-    ++next_index_;
 }
 
 void DeviceStream::send_sample(UtcTime due, LineSink& line) {
     bytes_.clear();
     const auto values = machine_.sample(held_->values, bytes_);
     if (!values) return;
-    TruthRecord truth;
-    truth.utc = instant();
-    truth.values = *values;
-    truth.sampling_run = static_cast<std::uint16_t>(machine_.sampling_run());
-    truth.grid_index = static_cast<std::uint32_t>(held_->index);
+    const TruthRecord truth{instant(), *values, static_cast<std::uint16_t>(machine_.sampling_run()),
+                            static_cast<std::uint32_t>(held_->index)};
     line.send(bytes_, due, &truth);
 }
 

@@ -3,7 +3,6 @@
 /// The emulated sensor in simulated time: takes samples from their source at their instants, hands
 /// them to the register machine and sends its bytes when they are due.  No I/O and no clock.
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -15,12 +14,10 @@
 namespace a351::sim {
 
 /// The grid of samples is fixed in simulated time.  A sample due in sampling mode is sent; in other
-/// modes samples are taken but not sent.  If the source's index jumps, COUNT advances by the
-/// missing samples too.
+/// modes samples are taken but not sent.
 ///
-/// If the output rate is above the source's, each sample is repeated.  If it is below, only samples
-/// whose index is a multiple of the ratio are sent.  The greater rate must be a multiple of the
-/// other.  A new output rate starts with the source's next sample.
+/// If the output rate is above the source's, of which it must be a multiple, each sample is
+/// repeated.  A new output rate starts with the source's next sample.
 class DeviceStream final : public LineDevice {
 public:
     /// Both arguments must outlive this.
@@ -32,11 +29,8 @@ public:
     [[nodiscard]] int baud() const override { return machine_.baud(); }
 
 private:
-    [[nodiscard]] int repeats() const;
-    [[nodiscard]] int stride() const;
     [[nodiscard]] bool is_holding() const;
     [[nodiscard]] UtcTime instant() const;
-    void take_sample();
     void send_sample(UtcTime due, LineSink& line);
 
     SampleSource& source_;
@@ -44,7 +38,6 @@ private:
     std::optional<TimedSample> held_;  ///< Sample whose repeats are not all sent.
     int held_rate_hz_ = 0;             ///< Output rate for which held_ is valid.
     int repeat_ = 0;                   ///< Next repeat of held_.
-    std::int64_t next_index_ = 0;      ///< Index expected next from the source.
     std::vector<std::byte> bytes_;     ///< A member to reuse its memory.
 };
 

@@ -2,12 +2,20 @@
 /// @file
 /// Memory that the emulated sensor keeps without power: the registers marked "Flash Backup" in
 /// table 7.1 of the M-A352AD10 data sheet (rev. 20251023) and the coefficients of the user filter
-/// (5.17.2).
+/// (5.17.2).  As a TOML file it keeps settings between runs:
+///
+///     format = 1
+///     [registers]
+///     SIG_CTRL = 0x8E04        # each register marked "Flash Backup", by its name
+///     [user_filter]
+///     bytes = ["0000002000000020 ..."]    # hexadecimal from address 0x0800 on; the rest is erased
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
 
+#include "protocol/wire/device_profile.hpp"
 #include "protocol/wire/registers.hpp"
 
 namespace a351::sim {
@@ -42,5 +50,15 @@ struct FlashMemory {
 
     bool operator==(const FlashMemory&) const = default;
 };
+
+/// Reads the file.
+/// @return the factory state if the file does not exist.
+/// @throws InputError  the file is damaged; names file, key and allowed values.
+[[nodiscard]] FlashMemory read_flash_file(const std::filesystem::path& file,
+                                          const wire::DeviceProfile& profile);
+
+/// Replaces the whole file: at any instant it holds the old or the new content.
+/// @throws std::system_error  the file cannot be replaced; names the path.
+void write_flash_file(const std::filesystem::path& file, const FlashMemory& memory);
 
 }  // namespace a351::sim

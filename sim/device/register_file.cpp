@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim/device/long_term_filter.hpp"
+#include "sim/device/signal_path.hpp"
 
 namespace a351::sim {
 namespace {

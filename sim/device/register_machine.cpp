@@ -10,7 +10,6 @@ namespace {
 using wire::Register;
 using wire::Window;
 
-constexpr std::byte kEndOfAnswer{0x0D};
 constexpr std::uint8_t kWriteBit = 0x80;
 constexpr std::uint8_t kEvenAddress = 0xFE;
 constexpr std::uint8_t kFirstUserFilter = 0xB;   // FILTER_SEL (7.12).
@@ -89,7 +88,9 @@ void RegisterMachine::pass_time(Nanoseconds now) {
     now_ = now;
     if (is_starting_ && now_ >= ready_at_) end_start_up();
     user_filter_.end_due(now_, coefficients_, (failing_ & wire::kDiagFlashError) == 0);
-    if (flash_job_ && now_ >= flash_job_->ends_at) end_flash_job();
+    if (flash_job_ && now_ >= flash_job_->ends_at) {
+        write_flash({std::exchange(flash_job_, std::nullopt)->settings, flash_.coefficients});
+    }
     raise_diagnostics(tests_.end_due(now_, failing_, latest_, profile_));
 }
 
@@ -109,7 +110,7 @@ void RegisterMachine::read(std::uint8_t address, std::vector<std::byte>& answers
     answers.push_back(std::byte{address});
     answers.push_back(static_cast<std::byte>(value >> 8));
     answers.push_back(static_cast<std::byte>(value & 0xFF));
-    answers.push_back(kEndOfAnswer);
+    answers.push_back(wire::kEndByte);
     if (window_ == Window::w0) clear_after_read(address & kEvenAddress);
 }
 
@@ -187,12 +188,6 @@ void RegisterMachine::write_command(std::uint8_t value) {
     }
 }
 
-void RegisterMachine::end_flash_job() {
-    const FlashMemory::Settings settings = flash_job_->settings;
-    flash_job_.reset();
-    write_flash({settings, flash_.coefficients});
-}
-
 void RegisterMachine::write_flash(const FlashMemory& content) {
     const bool is_kept =
         (failing_ & kDiagFlashBackup) == 0 && (!flash_store_ || flash_store_(content));
@@ -245,7 +240,7 @@ void RegisterMachine::put_gain_in_force() {
 void RegisterMachine::check_aliasing() {
     const auto rates = filter().allowed_rates_hz;
     is_aliased_ = !has(wire::kMscCtrl, wire::kMscExternalTrigger) &&
-                  std::find(rates.begin(), rates.end(), output_rate_hz()) == rates.end();
+                  std::ranges::count(rates, output_rate_hz()) == 0;
 }
 
 int RegisterMachine::baud() const {
@@ -283,8 +278,6 @@ void RegisterMachine::fall_back_to_configuration() {
 void RegisterMachine::raise_diagnostics(std::uint16_t diag_stat_bits) {
     registers_.at(wire::kDiagStat) |= diag_stat_bits;
 }
-
-void RegisterMachine::clear_diagnostics() { registers_.at(wire::kDiagStat) = 0; }
 
 void RegisterMachine::apply_settings(std::span<const RegisterChange> changes, Nanoseconds now) {
     pass_time(now);

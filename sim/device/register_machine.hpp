@@ -4,8 +4,8 @@
 /// and no clock: time is an argument.
 ///
 /// Rules, times: M-A352AD10 data sheet, rev. 20251023, sections 5.2-5.17, 6.2, 7, tables 2.2, 2.4.
-/// It leaves some cases open.  See command_parser.hpp for damaged commands and transmit_buffer.hpp
-/// for frames faster than the line.  The others are decided here:
+/// It leaves some cases open.  See uart.hpp for damaged commands and for frames faster than the
+/// line.  The others are decided here:
 /// - A frame that carries FLAG counts as a read of FLAG: alarm bits show in one frame per excess.
 ///   If frames do not carry FLAG, the bits stay set until FLAG is read.
 /// - ACCL registers hold the acceleration for any OUTPUT_SEL; the tilt is in TILT (5.13).
@@ -30,13 +30,11 @@
 #include "protocol/wire/burst_frame.hpp"
 #include "protocol/wire/device_profile.hpp"
 #include "protocol/wire/registers.hpp"
-#include "sim/device/command_parser.hpp"
 #include "sim/device/flash_memory.hpp"
-#include "sim/device/long_term_filter.hpp"
 #include "sim/device/register_file.hpp"
 #include "sim/device/self_test.hpp"
-#include "sim/device/transmit_buffer.hpp"
-#include "sim/device/user_filter.hpp"
+#include "sim/device/signal_path.hpp"
+#include "sim/device/uart.hpp"
 #include "sim/signal/sample_source.hpp"
 
 namespace a351::sim {
@@ -46,6 +44,8 @@ struct MachineIdentity {
     std::string serial_number = "00000001";  ///< Eight characters.
     std::uint16_t firmware = 1;
     bool has_id_register = true;  ///< W0:4C, not in the data sheet, reads 5345 hexadecimal.
+
+    bool operator==(const MachineIdentity&) const = default;
 };
 
 /// Returns the default product identifier of an emulated device with this profile.
@@ -112,8 +112,8 @@ public:
     void external_edge(Nanoseconds now);      ///< Edge at pin EXT, polarity of EXT_POL; wakes it.
     void fall_back_to_configuration();        ///< Stops sampling without a command.
     void raise_diagnostics(std::uint16_t diag_stat_bits);
-    void clear_diagnostics();
-    void jump_counter(std::uint16_t ticks);
+    void clear_diagnostics() { registers_.at(wire::kDiagStat) = 0; }
+    void jump_counter(unsigned ticks);
 
     /// Changes these settings and starts sampling; does nothing during start-up or sleep.
     void apply_settings(std::span<const RegisterChange> changes, Nanoseconds now);
@@ -163,7 +163,6 @@ private:
     void write_command(std::uint8_t value);
     void write_register(const wire::Register& reg, bool is_high_byte, std::uint8_t value);
     void put_register(const wire::Register& reg, std::uint16_t value);
-    void end_flash_job();
     void write_flash(const FlashMemory& content);
     void select_filter(std::uint16_t code);
     void put_gain_in_force();
@@ -178,7 +177,6 @@ private:
     void start_sampling();
     [[nodiscard]] bool begin_sample();
     void store(const SensorSample& sample);
-    void advance_counter(unsigned ticks);
     [[nodiscard]] std::array<std::int32_t, 3> filtered(const SensorSample& sample);
     [[nodiscard]] wire::BurstValues take_values(const wire::BurstLayout& layout);
     [[nodiscard]] std::uint16_t flag() const;

@@ -4,7 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "sim/device/output_stage.hpp"
 #include "sim/device/register_machine.hpp"
 
 namespace a351::sim {
@@ -79,11 +78,9 @@ void RegisterMachine::start_sampling() {
                        registers_.at(kLongFilterTaps));
 }
 
-void RegisterMachine::advance_counter(unsigned ticks) {
+void RegisterMachine::jump_counter(unsigned ticks) {
     registers_.at(kCount) = static_cast<std::uint16_t>((registers_.at(kCount) + ticks) & 0xFFFFU);
 }
-
-void RegisterMachine::jump_counter(std::uint16_t ticks) { advance_counter(ticks); }
 
 /// Passes one period of the output rate; returns false if it gives no sample.
 bool RegisterMachine::begin_sample() {
@@ -93,7 +90,7 @@ bool RegisterMachine::begin_sample() {
         --transient_left_;
         return false;
     }
-    advance_counter(profile_.count_step(output_rate_hz()));
+    jump_counter(profile_.count_step(output_rate_hz()));
     return true;
 }
 

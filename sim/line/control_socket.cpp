@@ -1,6 +1,7 @@
 #include "sim/line/control_socket.hpp"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -20,16 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail_at(const fs::path& path) {
-    throw std::system_error(errno, std::generic_category(), path.string());
-}
-
 sockaddr_un address_of(const fs::path& path) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     if (path.native().size() >= sizeof address.sun_path) {
-        throw InputError(path.string() + ": too long for a socket; allowed: up to " +
-                         std::to_string(sizeof address.sun_path - 1) + " characters");
+        throw InputError(fmt::format("{}: too long for a socket; allowed: up to {} characters",
+                                     path.string(), sizeof address.sun_path - 1));
     }
     std::memcpy(address.sun_path, path.c_str(), path.native().size() + 1);
     return address;
@@ -75,15 +72,15 @@ ControlSocket::ControlSocket(fs::path path, Handler handler)
     if (has_stale_socket(path_)) fs::remove(path_);
     const sockaddr_un address = address_of(path_);
     listener_ = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    if (listener_ < 0) fail_at(path_);
+    if (listener_ < 0) throw std::system_error(errno, std::generic_category(), path_.string());
     struct stat file {};
     if (::bind(listener_, plain(address), sizeof address) != 0 ||
         ::listen(listener_, static_cast<int>(kMostClients)) != 0 ||
         ::lstat(path_.c_str(), &file) != 0) {
         const std::error_code error(errno, std::generic_category());
         ::close(listener_);
-        throw InputError(path_.string() + ": " + error.message() +
-                         "; allowed: a path where a socket can be made");
+        throw InputError(fmt::format("{}: {}; allowed: a path where a socket can be made",
+                                     path_.string(), error.message()));
     }
     device_ = file.st_dev;
     inode_ = file.st_ino;
@@ -101,7 +98,8 @@ ControlSocket::~ControlSocket() {
 void ControlSocket::serve(const Instant&) {
     greet();
     std::erase_if(clients_, [this](Client& client) {
-        if (attend(client)) return false;
+        const bool is_there = read(client);
+        if (write(client) && is_there) return false;
         ::close(client.descriptor);
         return true;
     });
@@ -119,11 +117,6 @@ void ControlSocket::greet() {
     }
 }
 
-bool ControlSocket::attend(Client& client) const {
-    const bool is_there = read(client);
-    return write(client) && is_there;
-}
-
 bool ControlSocket::read(Client& client) const {
     std::array<char, 4096> buffer;
     const ssize_t got = ::recv(client.descriptor, buffer.data(), buffer.size(), 0);
@@ -135,8 +128,7 @@ bool ControlSocket::read(Client& client) const {
         client.in.erase(0, end + 1);
     }
     if (client.in.size() <= kLongestLine) return client.out.size() <= kMostUnread;
-    client.out += "error line too long; allowed: ";  // A single expression makes g++ 14 warn.
-    client.out += std::to_string(kLongestLine) + " bytes\n";
+    client.out += fmt::format("error line too long; allowed: {} bytes\n", kLongestLine);
     return false;
 }
 
@@ -169,6 +161,19 @@ void ControlSocket::watch(std::vector<pollfd>& descriptors) const {
 
 Nanoseconds ControlSocket::patience(const Instant&, const ClockScale&) const {
     return std::chrono::seconds(1);  // All its events wake a descriptor.
+}
+
+std::string execute(const std::string& line, const ControlActions& actions,
+                    const FaultRules& rules) {
+    if (line == "status") return actions.status();
+    if (line == "edge") {
+        actions.edge();
+    } else if (line == "quit") {
+        actions.quit();
+    } else {
+        actions.fault(parse_fault(line, rules));
+    }
+    return {};
 }
 
 }  // namespace a351::sim

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/line/fault.hpp"
 #include "sim/line/service.hpp"
 
 namespace a351::sim {
@@ -49,8 +50,7 @@ private:
         std::string in, out;
     };
     void greet();
-    [[nodiscard]] bool attend(Client& client) const;  ///< Returns false when it is gone.
-    [[nodiscard]] bool read(Client& client) const;
+    [[nodiscard]] bool read(Client& client) const;  ///< Returns false when the client is gone.
     [[nodiscard]] bool write(Client& client) const;
     [[nodiscard]] std::string answer(const std::string& line) const;
 
@@ -61,5 +61,20 @@ private:
     ino_t inode_ = 0;
     std::vector<Client> clients_;
 };
+
+/// Actions for the orders of the control socket.
+struct ControlActions {
+    std::function<std::string()> status;      ///< Returns the report so far, in one line.
+    std::function<void()> edge;               ///< Gives an edge at the device's pin EXT.
+    std::function<void()> quit;               ///< Ends the emulator, as SIGTERM does.
+    std::function<void(const Fault&)> fault;  ///< Applies the fault now.
+};
+
+/// Executes an order: `status`, `edge`, `quit`, or a fault with the names of a script, such as
+/// `flip_bit count=3`.
+/// @return the answer of `status`, otherwise empty.
+/// @throws InputError  as parse_fault(); also every exception of the action.
+[[nodiscard]] std::string execute(const std::string& line, const ControlActions& actions,
+                                  const FaultRules& rules);
 
 }  // namespace a351::sim

@@ -1,10 +1,13 @@
 #include "sim/line/fault.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <sstream>
 
 #include "protocol/core/input_error.hpp"
-#include "protocol/wire/burst_layout.hpp"
+#include "protocol/text/aligned_text.hpp"
+#include "protocol/wire/burst_frame.hpp"
 #include "protocol/wire/registers.hpp"
 
 namespace a351::sim {
@@ -28,15 +31,10 @@ int integer(text::TomlTable& table, std::string_view key, int fallback, int low,
     return static_cast<int>(table.integer_or(key, fallback, low, high));
 }
 
-void add_to(std::string& list, std::string_view item) {
-    list += (list.empty() ? "" : ", ") + std::string(item);
-}
-
 std::string list_of_kinds(const FaultRules& rules) {
-    std::string list;
-    for (const std::string_view name : kNames) add_to(list, name);
-    for (const std::string_view name : rules.oven_kinds) add_to(list, name);
-    return list;
+    std::vector<std::string> kinds(kNames.begin(), kNames.end());
+    kinds.insert(kinds.end(), rules.oven_kinds.begin(), rules.oven_kinds.end());
+    return text::joined(kinds);
 }
 
 /// Returns a number that is one of `values`; if it is absent, `fallback`.
@@ -44,18 +42,18 @@ int coded(text::TomlTable& table, std::string_view key, int fallback,
           std::span<const wire::Coded> values) {
     const int value = integer(table, key, fallback, 1, kMostBytes);
     if (!table.has(key) || std::ranges::count(values, value, &wire::Coded::value) > 0) return value;
-    std::string allowed;
-    for (const wire::Coded& each : values) add_to(allowed, std::to_string(each.value));
-    table.refuse(key, "the device has no such value", allowed);
+    std::vector<std::string> allowed;
+    for (const wire::Coded& each : values) allowed.push_back(std::to_string(each.value));
+    table.refuse(key, "the device has no such value", text::joined(allowed));
 }
 
 void read_settings(text::TomlTable& table, const FaultRules& rules, Fault& fault) {
     fault.output_rate_hz = coded(table, "output_rate_hz", 0, rules.profile.output_rates_hz);
     fault.filter = table.string_or("filter", "");
     if (!fault.filter.empty() && rules.profile.filter_named(fault.filter) == nullptr) {
-        std::string allowed;
-        for (const wire::FilterSpec& filter : rules.profile.filters) add_to(allowed, filter.name);
-        table.refuse("filter", "the device has no such filter", allowed);
+        std::vector<std::string> allowed;
+        for (const auto& filter : rules.profile.filters) allowed.emplace_back(filter.name);
+        table.refuse("filter", "the device has no such filter", text::joined(allowed));
     }
     fault.burst_ctrl = integer(table, "burst_ctrl", 0, 1, 0xFFFF);
     if (table.has("burst_ctrl") &&
@@ -80,8 +78,8 @@ void read_serial_number(text::TomlTable& table, Fault& fault) {
 /// Returns a setting of a command as a TOML line; strings have no quotes in a command.
 std::string as_toml(std::string_view key, std::string_view value) {
     const bool is_text = key == "kind" || key == "serial_number" || key == "filter";
-    return std::string(key) + " = " +
-           (is_text ? '"' + std::string(value) + '"' : std::string(value)) + '\n';
+    return is_text ? fmt::format("{} = \"{}\"\n", key, value)
+                   : fmt::format("{} = {}\n", key, value);
 }
 
 /// Returns true if TOML reads the word as a value and nothing else.
@@ -109,76 +107,31 @@ Fault read_fault(text::TomlTable& table, const std::string& kind, const FaultRul
         std::ranges::count(rules.oven_kinds, std::string_view(kind)) == 0) {
         table.refuse("kind", "not a known value", list_of_kinds(rules));
     }
-    const auto count = [&] { fault.count = integer(table, "count", 1, 1, kMostFrames); };
-    const auto seconds = [&](double fallback) {
-        fault.seconds = table.number_or("seconds", fallback, 0.0, kLongest_s);
-    };
-    switch (fault.kind) {
-        case FaultKind::flip_bit:
-            fault.bits = integer(table, "bits", 1, 1, 16);
-            count();
-            break;
-        case FaultKind::drop_bytes:
-        case FaultKind::insert_bytes:
-            fault.bytes = integer(table, "bytes", 1, 1, kMostBytes);
-            count();
-            break;
-        case FaultKind::garbage:
-            fault.bytes = integer(table, "bytes", 100, 1, kMostBytes);
-            count();
-            break;
-        case FaultKind::bad_checksum:
-        case FaultKind::duplicate_frame:
-        case FaultKind::reorder_frames:
-        case FaultKind::truncate_frame:
-        case FaultKind::lose_frames:
-        case FaultKind::counter_stuck:
-            count();
-            break;
-        case FaultKind::counter_jump:
-            count();
-            fault.ticks = integer(table, "ticks", 0, 1, 0xFFFF);
-            break;
-        case FaultKind::error_flags:
-            count();
-            fault.diag_stat = integer(table, "diag_stat", wire::kDiagHardError, 1, 0xFFFF);
-            break;
-        case FaultKind::counter_reset:
-        case FaultKind::reset:
-        case FaultKind::power_cycle:
-        case FaultKind::stop:
-            break;
-        case FaultKind::other_unit:
-            read_serial_number(table, fault);
-            break;
-        case FaultKind::change_settings:
-            read_settings(table, rules, fault);
-            break;
-        case FaultKind::change_baud:
-            fault.baud = coded(table, "baud", 115200, rules.profile.baud_rates);
-            break;
-        case FaultKind::failing_tests:
-            fault.diag_stat = integer(table, "diag_stat", wire::kDiagHardError, 0, 0xFFFF);
-            break;
-        case FaultKind::silence:
-        case FaultKind::stall:
-            seconds(5.0);
-            break;
-        case FaultKind::hang_up:
-            seconds(5.0);
-            fault.loses_power = table.boolean_or("loses_power", false);
-            break;
-        case FaultKind::oven:
-            fault.count = integer(table, "count", 1, -1, kMostFrames);  // -1: see OvenPort.
-            break;
-        case FaultKind::overrun:
-            if (rules.speed > FaultRules::kFastestOverrun) {
-                table.refuse("kind", "the emulator runs too fast for it",
-                             "up to 50 simulated seconds per second");
-            }
-            seconds(0.0);
-            break;
+    using enum FaultKind;
+    const auto is = [&fault](auto... kinds) { return ((fault.kind == kinds) || ...); };
+    if (is(flip_bit)) fault.bits = integer(table, "bits", 1, 1, 16);
+    if (is(drop_bytes, insert_bytes)) fault.bytes = integer(table, "bytes", 1, 1, kMostBytes);
+    if (is(garbage)) fault.bytes = integer(table, "bytes", 100, 1, kMostBytes);
+    if (fault.kind <= lose_frames || is(counter_jump, counter_stuck, error_flags)) {
+        fault.count = integer(table, "count", 1, 1, kMostFrames);
     }
+    if (is(oven)) fault.count = integer(table, "count", 1, -1, kMostFrames);  // -1: see OvenPort.
+    if (is(counter_jump)) fault.ticks = integer(table, "ticks", 0, 1, 0xFFFF);
+    if (is(error_flags, failing_tests)) {
+        const int least = is(error_flags) ? 1 : 0;
+        fault.diag_stat = integer(table, "diag_stat", wire::kDiagHardError, least, 0xFFFF);
+    }
+    if (is(other_unit)) read_serial_number(table, fault);
+    if (is(change_settings)) read_settings(table, rules, fault);
+    if (is(change_baud)) fault.baud = coded(table, "baud", 115200, rules.profile.baud_rates);
+    if (is(overrun) && rules.speed > FaultRules::kFastestOverrun) {
+        table.refuse("kind", "the emulator runs too fast for it",
+                     "up to 50 simulated seconds per second");
+    }
+    if (is(silence, stall, hang_up, overrun)) {
+        fault.seconds = table.number_or("seconds", is(overrun) ? 0.0 : 5.0, 0.0, kLongest_s);
+    }
+    if (is(hang_up)) fault.loses_power = table.boolean_or("loses_power", false);
     return fault;
 }
 
@@ -187,8 +140,8 @@ Fault parse_fault(std::string_view words, const FaultRules& rules) {
     std::string word;
     in >> word;
     if (!is_plain(word)) {
-        throw InputError("control: " + word +
-                         ": not a known value; allowed: " + list_of_kinds(rules));
+        throw InputError(
+            fmt::format("control: {}: not a known value; allowed: {}", word, list_of_kinds(rules)));
     }
     std::string toml = as_toml("kind", word);
     while (in >> word) {

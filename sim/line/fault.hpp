@@ -17,7 +17,7 @@
 namespace a351::sim {
 
 enum class FaultKind {
-    // Faults of frames: each damages the next `count` frames; a frame has one fault at most.
+    // Faults of frames come first: each damages the next `count` frames; a frame has one at most.
     flip_bit,
     bad_checksum,
     drop_bytes,

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "protocol/core/input_error.hpp"
-#include "sim/line/device_faults.hpp"
 
 namespace a351::sim {
 namespace {
@@ -14,6 +13,36 @@ using namespace std::chrono_literals;
 
 /// Time without a frame after which no frame is expected to take a fault, simulated.
 constexpr Nanoseconds kNoFrames = 1s;
+
+/// Returns the code of a value, shifted to the high byte of its register.
+std::uint16_t high_code(std::span<const wire::Coded> values, int value) {
+    const auto found = std::ranges::find(values, value, &wire::Coded::value);
+    return static_cast<std::uint16_t>(found->code << 8U);
+}
+
+/// Changes settings of a device and starts sampling, as if it had restarted with them.  The window
+/// that the host selected and a partial command are kept.
+void change_settings(RegisterMachine& machine, const wire::DeviceProfile& profile,
+                     const Fault& fault, Nanoseconds now) {
+    std::vector<RegisterChange> changes;
+    if (fault.output_rate_hz > 0) {
+        changes.push_back({wire::kSmplCtrl,
+                           high_code(profile.output_rates_hz, fault.output_rate_hz),
+                           wire::kHighByte});
+    }
+    if (!fault.filter.empty()) {
+        changes.push_back(
+            {wire::kFilterCtrl, profile.filter_named(fault.filter)->code, wire::kFilterSelect});
+    }
+    if (fault.burst_ctrl > 0) {
+        changes.push_back({wire::kBurstCtrl, static_cast<std::uint16_t>(fault.burst_ctrl)});
+    }
+    if (fault.baud > 0) {
+        changes.push_back(
+            {wire::kUartCtrl, high_code(profile.baud_rates, fault.baud), wire::kHighByte});
+    }
+    machine.apply_settings(changes, now);
+}
 
 }  // namespace
 
@@ -157,18 +186,11 @@ void FaultInjector::apply(const Fault& fault, UtcTime simulated) {
     }
     report_.applied.push_back({fault.name, simulated, frames_made_});
     const UtcTime end = later_by(fault.seconds, simulated);
+    if (fault.kind <= FaultKind::lose_frames) {  // Faults of frames come first.
+        waiting_.push_back({fault, fault.count});
+        return;
+    }
     switch (fault.kind) {
-        case FaultKind::flip_bit:
-        case FaultKind::bad_checksum:
-        case FaultKind::drop_bytes:
-        case FaultKind::insert_bytes:
-        case FaultKind::garbage:
-        case FaultKind::duplicate_frame:
-        case FaultKind::reorder_frames:
-        case FaultKind::truncate_frame:
-        case FaultKind::lose_frames:
-            waiting_.push_back({fault, fault.count});
-            return;
         case FaultKind::counter_jump:
         case FaultKind::counter_stuck:
         case FaultKind::counter_reset:
@@ -207,7 +229,7 @@ void FaultInjector::apply(const Fault& fault, UtcTime simulated) {
         case FaultKind::overrun:
             overrun_until_ = fault.seconds > 0.0 ? std::max(overrun_until_, end) : UtcTime::max();
             break;
-        case FaultKind::oven:
+        default:
             break;
     }
     count(fault.kind);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "sim/device/register_machine.hpp"
-#include "sim/line/fault_schedule.hpp"
+#include "sim/line/fault_script.hpp"
 #include "sim/line/frame_damage.hpp"
 #include "sim/line/line.hpp"
 #include "sim/line/run_faults.hpp"

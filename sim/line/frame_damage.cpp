@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstdint>
 
 #include "protocol/wire/burst_frame.hpp"
 
@@ -14,11 +13,6 @@ constexpr std::size_t kTail = 3;  ///< Checksum and end marker.
 /// Returns a number from 0 to count - 1.
 std::size_t draw(std::size_t count, RandomStream& random) {
     return static_cast<std::size_t>(random.bits() % count);
-}
-
-std::uint16_t word_at(std::span<const std::byte> bytes, std::size_t at) {
-    return static_cast<std::uint16_t>((std::to_integer<unsigned>(bytes[at]) << 8U) |
-                                      std::to_integer<unsigned>(bytes[at + 1]));
 }
 
 /// Returns true if `bytes` contain a whole frame of `size` bytes, judged by its markers and, with
@@ -53,7 +47,7 @@ Bytes joined(std::span<const std::byte> frame, std::size_t at, std::span<const s
 bool has_right_checksum(std::span<const std::byte> frame) {
     if (frame.size() < kTail + 3) return false;
     const std::size_t at = frame.size() - kTail;
-    return word_at(frame, at) == wire::burst_checksum(frame.subspan(1, at - 1));
+    return wire::word_at(frame, at) == wire::burst_checksum(frame.subspan(1, at - 1));
 }
 
 Bytes with_flipped_bits(std::span<const std::byte> frame, int bits, RandomStream& random) {

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
-
-#include "sim/line/baud.hpp"
 
 namespace a351::sim {
 namespace {
@@ -20,15 +19,42 @@ Nanoseconds wire_time(std::size_t bytes, int baud) {
     return Nanoseconds(1s) * static_cast<std::int64_t>(bytes) * kLineBitsPerByte / baud;
 }
 
-/// Removes the first `start` elements when they are at least half of the queue.
-template <class T>
-void compact(std::vector<T>& queue, std::size_t& start) {
-    if (2 * start < queue.size()) return;
-    queue.erase(queue.begin(), queue.begin() + static_cast<std::ptrdiff_t>(start));
-    start = 0;
+constexpr double kBitsPerByte = 10.0;  ///< Start bit, eight bits from the lowest on, stop bit.
+
+/// Returns the level of the line; the time is in bits of the sender.  The idle line is high.
+bool level(std::span<const std::byte> bytes, double bit) {
+    const auto index = static_cast<std::size_t>(bit / kBitsPerByte);
+    if (bit < 0.0 || index >= bytes.size()) return true;
+    const int within = static_cast<int>(bit) - 10 * static_cast<int>(index);
+    if (within == 0) return false;
+    if (within == 9) return true;
+    return ((std::to_integer<unsigned>(bytes[index]) >> (within - 1)) & 1U) != 0;
 }
 
 }  // namespace
+
+std::vector<std::byte> received_at_baud(std::span<const std::byte> bytes, int sent_baud,
+                                        int heard_baud) {
+    // In bits of the sender: length of a receiver's bit, end of the bytes, present position, which
+    // is the start of a bit or the end of a stop bit within it.
+    const double ratio = static_cast<double>(sent_baud) / heard_baud;
+    const double end = kBitsPerByte * static_cast<double>(bytes.size());
+    std::vector<std::byte> heard;
+    double at = 0.0;
+    while (at < end) {
+        if (level(bytes, at)) {
+            at = std::floor(at) + 1.0;
+            continue;
+        }
+        unsigned value = 0;
+        for (int bit = 0; bit < 8; ++bit) {
+            if (level(bytes, at + (bit + 1.5) * ratio)) value |= 1U << bit;
+        }
+        heard.push_back(static_cast<std::byte>(value));
+        at += 9.5 * ratio;
+    }
+    return heard;
+}
 
 Line::Line(const LineParameters& parameters, std::uint64_t seed, UtcTime start,
            SettledHandler on_settled)
@@ -111,23 +137,25 @@ void Line::unplug(UtcTime simulated) {
 
 void Line::remove(std::size_t byte_count, Way way, UtcTime simulated) {
     const std::uint64_t end = gone_ + byte_count;
-    for (std::size_t i = marks_start_; i < marks_.size() && marks_[i].begin <= end; ++i) {
-        Mark& mark = marks_[i];
+    while (!marks_.empty() && marks_.front().begin <= end) {
+        Mark& front = marks_.front();
         if (way != Way::handed_over) {
-            mark.bytes_lost += std::min(mark.end, end) - std::max(mark.begin, gone_);
+            front.bytes_lost += std::min(front.end, end) - std::max(front.begin, gone_);
         }
-        if (mark.end > end) break;
+        if (front.end > end) break;
+        Mark mark = front;
+        marks_.pop_front();
         const UtcTime shown = mark.end > gone_
                                   ? transport_.shown_at(static_cast<std::size_t>(mark.end - gone_))
                                   : simulated;
-        ++marks_start_;
         settle(mark, way, simulated, shown);
     }
     transport_.take(byte_count);
     queue_start_ += byte_count;
     gone_ = end;
-    compact(queue_, queue_start_);
-    compact(marks_, marks_start_);
+    if (2 * queue_start_ < queue_.size()) return;
+    queue_.erase(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(queue_start_));
+    queue_start_ = 0;
 }
 
 void Line::settle(Mark& mark, Way way, UtcTime simulated, UtcTime shown) {
@@ -139,7 +167,12 @@ void Line::settle(Mark& mark, Way way, UtcTime simulated, UtcTime shown) {
         ++report_.frames_lost;
     } else if (mark.bytes_lost > 0 && arrived == 0) {
         fate = Fate::lost;
-        count_lost(way);
+        if (way == Way::abandoned) {
+            ++report_.frames_pending;
+        } else {
+            ++report_.frames_lost;
+            ++(way == Way::overrun ? report_.lost_by_overrun : report_.lost_unplugged);
+        }
     } else if (mark.bytes_lost > 0 || fate == Fate::damaged) {
         fate = Fate::damaged;
         ++report_.frames_damaged;
@@ -148,15 +181,6 @@ void Line::settle(Mark& mark, Way way, UtcTime simulated, UtcTime shown) {
         count_sent(mark.truth, simulated - shown);
     }
     on_settled_(mark.truth);
-}
-
-void Line::count_lost(Way way) {
-    if (way == Way::abandoned) {
-        ++report_.frames_pending;
-        return;
-    }
-    ++report_.frames_lost;
-    ++(way == Way::overrun ? report_.lost_by_overrun : report_.lost_unplugged);
 }
 
 void Line::count_sent(const TruthRecord& truth, Nanoseconds lateness) {

@@ -5,6 +5,7 @@
 /// no clock.
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <span>
@@ -14,6 +15,13 @@
 #include "sim/line/transport.hpp"
 
 namespace a351::sim {
+
+/// Returns the bytes that a UART set to `heard_baud` receives when `bytes` are sent without a pause
+/// at `sent_baud`, 8N1, with an idle line before and after.  The UART waits for a falling edge and
+/// samples the bits in their middle.  Bytes without a stop bit are kept, as in a terminal without
+/// PARMRK.  At equal speeds the bytes are unchanged.
+[[nodiscard]] std::vector<std::byte> received_at_baud(std::span<const std::byte> bytes,
+                                                      int sent_baud, int heard_baud);
 
 /// Counts of frames whose fate is settled: handed over or lost.
 struct LineReport {
@@ -111,7 +119,6 @@ private:
     void carry(std::size_t byte_count, UtcTime leaves);
     void remove(std::size_t byte_count, Way way, UtcTime simulated);
     void settle(Mark& mark, Way way, UtcTime simulated, UtcTime shown);
-    void count_lost(Way way);
     void count_sent(const TruthRecord& truth, Nanoseconds lateness);
 
     LineParameters parameters_;
@@ -122,8 +129,7 @@ private:
     std::vector<std::byte> queue_;
     std::size_t queue_start_ = 0;  ///< Bytes before it are gone.
     std::uint64_t gone_ = 0;       ///< Bytes of the whole stream that were handed over or lost.
-    std::vector<Mark> marks_;
-    std::size_t marks_start_ = 0;  ///< Marks before it are settled.
+    std::deque<Mark> marks_;       ///< Those that are not settled.
     int last_run_ = 0;
     Nanoseconds least_lateness_ = Nanoseconds::max();  ///< In the present block of 50 frames.
     std::optional<UtcTime> last_frame_;                ///< Instant of the last frame sent here.

@@ -1,10 +1,10 @@
 #include "sim/line/place.hpp"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <string>
 #include <system_error>
 
 #include "protocol/core/input_error.hpp"
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const fs::path& path, const std::error_code& error,
                          const std::string& allowed) {
-    throw InputError(path.string() + ": " + error.message() + "; allowed: " + allowed);
+    throw InputError(fmt::format("{}: {}; allowed: {}", path.string(), error.message(), allowed));
 }
 
 /// Opens the file as a writer would; removes it again if this made it.
@@ -37,8 +37,8 @@ fs::file_status require_directory(const fs::path& path, const std::string& what)
     const fs::path directory = path.has_parent_path() ? path.parent_path() : fs::path(".");
     std::error_code error;
     if (!fs::is_directory(directory, error)) {
-        throw InputError(path.string() + ": " + directory.string() +
-                         " is no directory; allowed: " + allowed);
+        throw InputError(fmt::format("{}: {} is no directory; allowed: {}", path.string(),
+                                     directory.string(), allowed));
     }
     const fs::file_status status = fs::symlink_status(path, error);
     if (!fs::status_known(status)) refuse(path, error, allowed);

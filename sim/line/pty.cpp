@@ -1,6 +1,7 @@
 #include "sim/line/pty.hpp"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
@@ -40,7 +41,7 @@ constexpr std::array kSpeeds{
 speed_t speed_code(int baud) {
     const auto found = std::ranges::find(kSpeeds, baud, &Speed::baud);
     if (found == kSpeeds.end()) {
-        throw std::invalid_argument("no terminal has a speed of " + std::to_string(baud) + " baud");
+        throw std::invalid_argument(fmt::format("no terminal has a speed of {} baud", baud));
     }
     return found->code;
 }
@@ -57,8 +58,9 @@ bool has_stale_link(const fs::path& link) {
     std::error_code error;
     const fs::path target = fs::read_symlink(link, error);
     if (target.parent_path() != "/dev/pts" || fs::exists(target, error)) {
-        throw InputError(link.string() + ": leads to " + target.string() +
-                         "; allowed: a new path, or a link to a terminal that is gone");
+        throw InputError(fmt::format(
+            "{}: leads to {}; allowed: a new path, or a link to a terminal that is gone",
+            link.string(), target.string()));
     }
     return true;
 }
@@ -96,49 +98,42 @@ Pty::Terminal::~Terminal() {
     ::close(master);
 }
 
-void Pty::Terminal::swap(Terminal& other) noexcept {
-    std::swap(master, other.master);
-    std::swap(slave, other.slave);
-    std::swap(path, other.path);
-}
-
 void Pty::require_place(const fs::path& link) { static_cast<void>(has_stale_link(link)); }
 
-Pty::Pty(fs::path link, int baud) : link_(std::move(link)), baud_(baud), terminal_(baud) {
-    make_link();
+Pty::Pty(fs::path link, int baud)
+    : link_(std::move(link)), baud_(baud), terminal_(std::make_unique<Terminal>(baud)) {
+    come_back();
 }
 
 Pty::~Pty() { remove_link(); }
 
-void Pty::make_link() {
+void Pty::come_back() {
     std::error_code error;
     if (has_stale_link(link_)) fs::remove(link_, error);
-    fs::create_symlink(terminal_.path, link_, error);
+    fs::create_symlink(terminal_->path, link_, error);
     if (error) {
-        throw InputError(link_.string() + ": " + error.message() +
-                         "; allowed: a path where a link can be made");
+        throw InputError(fmt::format("{}: {}; allowed: a path where a link can be made",
+                                     link_.string(), error.message()));
     }
 }
 
 void Pty::remove_link() noexcept {
     std::error_code ignored;
-    if (fs::read_symlink(link_, ignored) == terminal_.path) fs::remove(link_, ignored);
+    if (fs::read_symlink(link_, ignored) == terminal_->path) fs::remove(link_, ignored);
 }
 
 void Pty::hang_up() {
-    Terminal next(baud_);  // Opened while the old one is open, so that its name differs.
+    auto next = std::make_unique<Terminal>(baud_);  // The old one is open: its name differs.
     remove_link();
-    terminal_.swap(next);
+    terminal_ = std::move(next);
 }
-
-void Pty::come_back() { make_link(); }
 
 std::size_t Pty::discard_unread() {
     std::array<std::byte, 4096> buffer;
     std::size_t count = 0;
     // The kernel refills the terminal from its own buffer a little later.
-    for (pollfd more{terminal_.slave, POLLIN, 0}; ::poll(&more, 1, kRefill_ms) > 0;) {
-        const ssize_t got = ::read(terminal_.slave, buffer.data(), buffer.size());
+    for (pollfd more{terminal_->slave, POLLIN, 0}; ::poll(&more, 1, kRefill_ms) > 0;) {
+        const ssize_t got = ::read(terminal_->slave, buffer.data(), buffer.size());
         if (got <= 0) break;
         count += static_cast<std::size_t>(got);
     }
@@ -147,35 +142,35 @@ std::size_t Pty::discard_unread() {
 
 std::vector<std::byte> Pty::read() {
     std::array<std::byte, 4096> buffer;
-    const ssize_t got = ::read(terminal_.master, buffer.data(), buffer.size());
+    const ssize_t got = ::read(terminal_->master, buffer.data(), buffer.size());
     if (got < 0) {
         if (errno == EAGAIN || errno == EINTR) return {};
-        fail_to("read " + terminal_.path);
+        fail_to("read " + terminal_->path);
     }
     return {buffer.begin(), buffer.begin() + got};
 }
 
 std::size_t Pty::write(std::span<const std::byte> bytes) {
-    const ssize_t taken = ::write(terminal_.master, bytes.data(), bytes.size());
+    const ssize_t taken = ::write(terminal_->master, bytes.data(), bytes.size());
     if (taken >= 0) return static_cast<std::size_t>(taken);
     if (errno == EAGAIN || errno == EINTR) return 0;
-    fail_to("write " + terminal_.path);
+    fail_to("write " + terminal_->path);
 }
 
 pollfd Pty::watched(bool for_space) const noexcept {
-    return {terminal_.master, static_cast<short>(for_space ? POLLIN | POLLOUT : POLLIN), 0};
+    return {terminal_->master, static_cast<short>(for_space ? POLLIN | POLLOUT : POLLIN), 0};
 }
 
 int Pty::baud() const {
     termios settings{};
-    if (::tcgetattr(terminal_.slave, &settings) != 0) fail_to("ask " + terminal_.path);
+    if (::tcgetattr(terminal_->slave, &settings) != 0) fail_to("ask " + terminal_->path);
     const auto found = std::ranges::find(kSpeeds, ::cfgetospeed(&settings), &Speed::code);
     return found == kSpeeds.end() ? 0 : found->baud;
 }
 
 std::size_t Pty::unread() const {
     int waiting = 0;
-    if (::ioctl(terminal_.slave, FIONREAD, &waiting) != 0) fail_to("ask " + terminal_.path);
+    if (::ioctl(terminal_->slave, FIONREAD, &waiting) != 0) fail_to("ask " + terminal_->path);
     return static_cast<std::size_t>(waiting);
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,7 +31,7 @@ public:
     Pty(const Pty&) = delete;
     Pty& operator=(const Pty&) = delete;
 
-    [[nodiscard]] const std::string& slave_path() const noexcept { return terminal_.path; }
+    [[nodiscard]] const std::string& slave_path() const noexcept { return terminal_->path; }
 
     /// Returns bytes that the host has written; empty if there are none.
     [[nodiscard]] std::vector<std::byte> read();
@@ -67,7 +68,6 @@ private:
         ~Terminal();
         Terminal(const Terminal&) = delete;
         Terminal& operator=(const Terminal&) = delete;
-        void swap(Terminal& other) noexcept;
         void open_slave(int baud);
 
         int master = -1;
@@ -75,12 +75,11 @@ private:
         std::string path;
     };
 
-    void make_link();
     void remove_link() noexcept;
 
     std::filesystem::path link_;
     int baud_;
-    Terminal terminal_;
+    std::unique_ptr<Terminal> terminal_;
 };
 
 }  // namespace a351::sim

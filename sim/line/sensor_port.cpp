@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "protocol/core/input_error.hpp"
-#include "sim/line/baud.hpp"
 
 namespace a351::sim {
 namespace {
@@ -35,17 +34,13 @@ SensorPort::SensorPort(Pty& pty, LineDevice& device, Line& line, FaultInjector* 
       device_(device),
       line_(line),
       faults_(faults),
+      sink_(faults != nullptr ? static_cast<LineSink&>(*faults) : line),
       on_trouble_(std::move(on_trouble)) {}
-
-LineSink& SensorPort::sink() noexcept {
-    if (faults_ != nullptr) return *faults_;
-    return line_;
-}
 
 void SensorPort::serve(const Instant& now) {
     set_speeds();
     if (faults_ != nullptr) faults_->begin(now);
-    device_.advance_to({now.simulated + line_.lead(), now.steady}, sink());
+    device_.advance_to({now.simulated + line_.lead(), now.steady}, sink_);
     if (faults_ != nullptr) faults_->catch_up(now);
     move_plug(now);
     take_commands(now);
@@ -62,9 +57,9 @@ void SensorPort::take_commands(const Instant& now) {
     const auto commands = pty_.read();
     if (commands.empty() || plug_ != Plug::in) return;
     if (device_.baud() == host_baud_) {
-        device_.receive(commands, now, sink());
+        device_.receive(commands, now, sink_);
     } else if (host_baud_ > 0) {
-        device_.receive(received_at_baud(commands, host_baud_, device_.baud()), now, sink());
+        device_.receive(received_at_baud(commands, host_baud_, device_.baud()), now, sink_);
     }
     set_speeds();
 }

@@ -52,7 +52,6 @@ public:
 private:
     enum class Plug { in, leaving, out };
 
-    [[nodiscard]] LineSink& sink() noexcept;
     void set_speeds();
     void take_commands(const Instant& now);
     void hand_over(const Instant& now);
@@ -65,6 +64,7 @@ private:
     LineDevice& device_;
     Line& line_;
     FaultInjector* faults_;
+    LineSink& sink_;  ///< Takes the bytes of the device: the faults, or without them the line.
     TroubleHandler on_trouble_;
     int host_baud_ = 0;
     bool is_blocked_ = false;  ///< The terminal takes no more.

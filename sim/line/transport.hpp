@@ -4,8 +4,8 @@
 /// polling, scheduling and stalls.  Simulated time, no clock; random numbers depend on a seed only.
 
 #include <cstdint>
+#include <deque>
 #include <optional>
-#include <vector>
 
 #include "protocol/core/utc_time.hpp"
 #include "sim/noise/random.hpp"
@@ -55,10 +55,7 @@ private:
         UtcTime shown;
         Nanoseconds jitter{0};
     };
-    [[nodiscard]] UtcTime next_tick(UtcTime time) const;
-    [[nodiscard]] UtcTime next_poll(UtcTime time) const;
     [[nodiscard]] UtcTime after_stalls(UtcTime time);
-    void schedule(Packet& packet);
 
     LineParameters parameters_;
     UtcTime start_;
@@ -68,8 +65,7 @@ private:
     UtcTime hold_until_;
     UtcTime last_arrival_;
     UtcTime last_shown_;  ///< Time of the packet before the newest.
-    std::vector<Packet> packets_;
-    std::size_t front_ = 0;  ///< Packets before it are gone.
+    std::deque<Packet> packets_;
 };
 
 }  // namespace a351::sim

@@ -2,8 +2,6 @@
 /// @file
 /// Slow random parts of the acceleration: one value per step, stationary from the first one on.
 
-#include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "sim/noise/random.hpp"

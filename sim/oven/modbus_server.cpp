@@ -1,6 +1,5 @@
 #include "sim/oven/modbus_server.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace a351::sim {
@@ -8,12 +7,23 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kBitsPerCharacter = 11.0;
-constexpr double kSilence = 3.5;  ///< Silence that ends a frame, in characters.
+constexpr int kUnit = 1;                   ///< Unit number, 1 ... 99: factory setting.
+constexpr Nanoseconds kAnswerWait = 20ms;  ///< "Send data wait time": factory setting.
+constexpr Nanoseconds kRestartTime = 5s;   ///< E5EK manual, section 6.4.
+constexpr Nanoseconds kFaultDelay = 1s;    ///< Lateness of a delayed answer: chosen.
 constexpr std::size_t kLongestRequest = 264;
 constexpr std::size_t kBabble = 64;
 constexpr std::byte kBroadcast{0};
 constexpr std::uint16_t kCommandAddress = 0x0000, kOtherCommandAddress = 0xFFFF;
+
+/// Returns the time on the line of some characters.
+constexpr Nanoseconds characters(double count) {
+    constexpr double kBitsPerCharacter = 11.0;
+    return from_seconds(count * kBitsPerCharacter / ModbusServer::kBaud);
+}
+
+/// Silence that ends a frame: Modbus over Serial Line V1.02, 2.5.1.1.
+constexpr Nanoseconds kSilence = characters(3.5);
 
 std::size_t index_of(OvenFault fault) { return static_cast<std::size_t>(fault); }
 
@@ -37,18 +47,6 @@ std::vector<std::byte> nonsense(std::uint16_t seed) {
 }
 
 }  // namespace
-
-ModbusServer::ModbusServer(OvenController& controller, const ServerOptions& options)
-    : controller_(controller),
-      options_(options),
-      // Modbus over Serial Line V1.02, 2.5.1.1: above 19 200 baud the time is fixed.
-      silence_(options.baud > 19'200 ? Nanoseconds(1750us) : characters(kSilence)) {}
-
-Nanoseconds ModbusServer::characters(double count) const {
-    return from_seconds(count * kBitsPerCharacter / options_.baud);
-}
-
-void ModbusServer::fail_next(OvenFault kind, int count) { remaining_[index_of(kind)] = count; }
 
 void ModbusServer::restart(Nanoseconds now) {
     controller_.restart();
@@ -74,7 +72,7 @@ void ModbusServer::receive(std::span<const std::byte> bytes, Nanoseconds now) {
     if (bytes.empty()) return;
     end_by_silence(now);
     last_byte_ = now;
-    if (is_restarting_ && now - restarted_at_ >= options_.restart_time) is_restarting_ = false;
+    if (is_restarting_ && now - restarted_at_ >= kRestartTime) is_restarting_ = false;
     if (is_ignoring_) return;
     if (answer_ || is_restarting_ || !controller_.speaks_modbus()) {
         return ignore_run(report_.ignored);
@@ -90,7 +88,7 @@ void ModbusServer::receive_noise(Nanoseconds now) {
 }
 
 void ModbusServer::end_by_silence(Nanoseconds now) {
-    if (now - last_byte_ <= silence_) return;
+    if (now - last_byte_ <= kSilence) return;
     is_ignoring_ = false;
     if (received_.empty()) return;
     const std::vector<std::byte> frame = std::exchange(received_, {});
@@ -123,7 +121,7 @@ void ModbusServer::handle(std::span<const std::byte> request, Nanoseconds now) {
         static_cast<void>(answer_to(request, now));
         return;
     }
-    if (std::to_integer<int>(request[0]) != options_.unit) {
+    if (std::to_integer<int>(request[0]) != kUnit) {
         ++report_.for_other_units;
         return;
     }
@@ -145,7 +143,7 @@ void ModbusServer::handle(std::span<const std::byte> request, Nanoseconds now) {
             return;
         }
         answer.is_exception = (frame[1] & std::byte{0x80}) != std::byte{0};
-        if (fault == OvenFault::wrong_unit) frame[0] = static_cast<std::byte>(options_.unit + 1);
+        if (fault == OvenFault::wrong_unit) frame[0] = static_cast<std::byte>(kUnit + 1);
         answer.bytes = sealed(std::move(frame));
     }
     if (fault) spend(*fault);
@@ -209,8 +207,8 @@ void ModbusServer::reply(Answer answer, std::size_t request_size, Nanoseconds no
     if (answer.fault == OvenFault::crc_error) answer.bytes.back() ^= std::byte{1};
     if (answer.fault == OvenFault::truncated) answer.bytes.resize(answer.bytes.size() / 2);
     const double on_the_line = static_cast<double>(request_size + answer.bytes.size());
-    answer.due = now + characters(on_the_line) + options_.answer_wait;
-    if (answer.fault == OvenFault::delay) answer.due += options_.fault_delay;
+    answer.due = now + characters(on_the_line) + kAnswerWait;
+    if (answer.fault == OvenFault::delay) answer.due += kFaultDelay;
     answer_ = std::move(answer);
 }
 
@@ -233,7 +231,7 @@ std::vector<std::byte> ModbusServer::advance_to(Nanoseconds now, bool has_master
 
 std::optional<Nanoseconds> ModbusServer::next_due() const {
     if (answer_) return answer_->due;
-    if (!received_.empty()) return last_byte_ + silence_ + 1ns;
+    if (!received_.empty()) return last_byte_ + kSilence + 1ns;
     return std::nullopt;
 }
 

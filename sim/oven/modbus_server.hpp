@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
 
 #include "protocol/core/utc_time.hpp"
 #include "sim/oven/modbus_frame.hpp"
@@ -22,17 +21,9 @@ enum class OvenFault {
     crc_error,   ///< One bit of the CRC is wrong.
     wrong_unit,  ///< Valid, but with the next unit's number.
     truncated,   ///< Only the first half.
-    delay        ///< Correct, but late by ServerOptions::fault_delay.
+    delay        ///< Correct, but 1 s late.
 };
 inline constexpr std::size_t kOvenFaultCount = 7;
-
-struct ServerOptions {
-    int unit = 1;  ///< 1 ... 99.
-    int baud = 9600;
-    Nanoseconds answer_wait = std::chrono::milliseconds(20);  ///< "Send data wait time", factory.
-    Nanoseconds restart_time = std::chrono::seconds(5);       ///< E5EK manual, section 6.4.
-    Nanoseconds fault_delay = std::chrono::seconds(1);
-};
 
 /// Counts of the received requests.  Every request, and every run of stray bytes up to a silence,
 /// is counted exactly once when it is over; an answer is counted when it leaves.
@@ -49,7 +40,7 @@ struct OvenReport {
 };
 
 /// Serves one controller.  Times are on the host's steady clock, because masters wait in real time.
-/// A character has 11 bits (8 data bits with parity, or two stop bits).
+/// The unit has number 1.  A character has 11 bits (8 data bits with parity, or two stop bits).
 ///
 /// A request ends at its own length; a request of an unknown function ends with a silence of 3.5
 /// characters.  After bytes that are not a request, or that come while the server does not listen,
@@ -59,7 +50,9 @@ struct OvenReport {
 /// that arrive before are ignored.
 class ModbusServer {
 public:
-    ModbusServer(OvenController& controller, const ServerOptions& options);
+    static constexpr int kBaud = 9600;  ///< Factory setting.
+
+    explicit ModbusServer(OvenController& controller) : controller_(controller) {}
 
     void receive(std::span<const std::byte> bytes, Nanoseconds now);
 
@@ -75,7 +68,9 @@ public:
 
     /// Gives the next `count` answers this fault; -1: all answers from now on; 0: none any more.
     /// If several kinds are active, the first in the order of OvenFault is applied.
-    void fail_next(OvenFault kind, int count);
+    void fail_next(OvenFault kind, int count) {
+        remaining_[static_cast<std::size_t>(kind)] = count;
+    }
 
     /// Switches the power off and on.
     void restart(Nanoseconds now);
@@ -90,7 +85,6 @@ private:
         bool is_exception = false;
     };
 
-    [[nodiscard]] Nanoseconds characters(double count) const;
     void end_by_silence(Nanoseconds now);
     void ignore_run(std::int64_t& counter);
     void forget_answer();
@@ -103,8 +97,6 @@ private:
     void reply(Answer answer, std::size_t request_size, Nanoseconds now);
 
     OvenController& controller_;
-    ServerOptions options_;
-    Nanoseconds silence_;  ///< Silence that ends a frame.
     std::vector<std::byte> received_;
     Nanoseconds last_byte_{0};
     bool is_ignoring_ = false;  ///< Ignores the rest of a run already counted.

@@ -1,15 +1,17 @@
 #include "sim/oven/oven_controller.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace a351::sim {
 namespace {
 
 constexpr std::size_t kMostRead = 106, kMostWritten = 104;  // H175, 4-4-1 and 4-4-2.
 
-constexpr std::int32_t kDisplayLow = -1999, kDisplayHigh = 9999;  ///< Four digits and a sign.
-constexpr std::int32_t kInputRangeHigh = 5000;  ///< K couple in 0.1 degC: -20.0 ... 500.0.
+constexpr std::int32_t kDisplayLow = -1999, kDisplayHigh = 9999;       ///< Four digits and a sign.
+constexpr std::int32_t kInputRangeLow = -200, kInputRangeHigh = 5000;  ///< K couple, 0.1 degC.
 constexpr std::int32_t kTypeKInDegrees = 5, kTypeKInTenths = 6;
 constexpr std::int32_t kTenDegrees = 100;
 
@@ -30,31 +32,32 @@ enum Command : std::uint8_t {
     kProgramStart = 0x11,
 };
 
+/// Largest parameter of each command.
+struct KnownCommand {
+    std::uint8_t command, most_parameter;
+};
+constexpr std::array kKnownCommands{
+    KnownCommand{kCommunicationWriting, 1},
+    KnownCommand{kRunStop, 1},
+    KnownCommand{kMultiSetPoint, 7},
+    KnownCommand{kAutoTuning, 2},
+    KnownCommand{kWriteMode, 1},
+    KnownCommand{kSaveRam, 0},
+    KnownCommand{kSoftwareReset, 0},
+    KnownCommand{kMoveToSetupArea1, 0},
+    KnownCommand{kMoveToProtectLevel, 0},
+    KnownCommand{kAutoManual, 1},
+    KnownCommand{kInitialise, 0},
+    KnownCommand{kCancelAlarmLatch, 5},
+    KnownCommand{kSetPointMode, 1},
+    KnownCommand{kInvertDirection, 1},
+    KnownCommand{kProgramStart, 1},
+};
+
 bool is_known(std::uint8_t command, std::uint8_t parameter) {
-    switch (command) {
-        case kCommunicationWriting:
-        case kRunStop:
-        case kWriteMode:
-        case kAutoManual:
-        case kSetPointMode:
-        case kInvertDirection:
-        case kProgramStart:
-            return parameter <= 1;
-        case kMultiSetPoint:
-            return parameter <= 7;
-        case kAutoTuning:
-            return parameter <= 2;
-        case kSaveRam:
-        case kSoftwareReset:
-        case kMoveToSetupArea1:
-        case kMoveToProtectLevel:
-        case kInitialise:
-            return parameter == 0;
-        case kCancelAlarmLatch:
-            return parameter <= 5 || parameter == 0x0F;
-        default:
-            return false;
-    }
+    const auto found = std::ranges::find(kKnownCommands, command, &KnownCommand::command);
+    if (command == kCancelAlarmLatch && parameter == 0x0F) return true;  // All alarms.
+    return found != kKnownCommands.end() && parameter <= found->most_parameter;
 }
 
 std::int32_t rounded(double value) { return static_cast<std::int32_t>(std::lround(value)); }
@@ -67,8 +70,7 @@ bool lies_within(std::int32_t value, std::int32_t low, std::int32_t high) {
 
 }  // namespace
 
-OvenController::OvenController(OvenPlant& plant, const ControllerOptions& options)
-    : plant_(plant), options_(options) {
+OvenController::OvenController(OvenPlant& plant) : plant_(plant) {
     settings_.set_point = to_tenths(plant.set_point());
     settings_.alarm_1 = kTenDegrees;
     settings_.proportional_band = rounded(plant.tuning().proportional_band_degc * 10.0);
@@ -104,7 +106,30 @@ std::uint32_t OvenController::status() const {
     return bits;
 }
 
+const OvenController::Setting* OvenController::find_setting(Variable variable) {
+    using Limits = std::numeric_limits<std::int32_t>;
+    constexpr std::int32_t kLow = Limits::min(), kHigh = Limits::max();  // Only the display's.
+    static constexpr std::array kSettings{
+        Setting{Variable::set_point, &Settings::set_point, kInputRangeLow, kInputRangeHigh, true},
+        Setting{Variable::alarm_1, &Settings::alarm_1, kLow, kHigh, true},
+        Setting{Variable::alarm_1_upper, &Settings::alarm_1_upper, kLow, kHigh, true},
+        Setting{Variable::alarm_1_lower, &Settings::alarm_1_lower, kLow, kHigh, true},
+        Setting{Variable::input_filter, &Settings::input_filter, 0, kHigh, false},
+        Setting{Variable::proportional_band, &Settings::proportional_band, 1, kHigh, false},
+        Setting{Variable::integral_time, &Settings::integral_time_s, 0, kHigh, false},
+        Setting{Variable::derivative_time, &Settings::derivative_time_s, 0, kHigh, false},
+        Setting{Variable::input_type, &Settings::input_type, kTypeKInDegrees, kTypeKInTenths,
+                false},
+    };
+    const auto found = std::ranges::find(kSettings, variable, &Setting::variable);
+    return found == kSettings.end() ? nullptr : &*found;
+}
+
 std::int32_t OvenController::value(Variable variable) const {
+    if (const Setting* const setting = find_setting(variable)) {
+        const std::int32_t value = settings_.*setting->place;
+        return setting->is_temperature ? shown(value) : value;
+    }
     switch (variable) {
         case Variable::process_value:
             return shown(process_value());
@@ -113,44 +138,23 @@ std::int32_t OvenController::value(Variable variable) const {
         case Variable::status_high:
             return static_cast<std::int32_t>(status() >> 16);
         case Variable::internal_set_point:
-        case Variable::set_point:
             return shown(settings_.set_point);
         case Variable::drive_heating:
             return rounded(plant_.drive() * 1000.0);
-        case Variable::alarm_1:
-            return shown(settings_.alarm_1);
-        case Variable::alarm_1_upper:
-            return shown(settings_.alarm_1_upper);
-        case Variable::alarm_1_lower:
-            return shown(settings_.alarm_1_lower);
         case Variable::decimal_point:
             return settings_.input_type == kTypeKInTenths ? 1 : 0;
-        case Variable::input_filter:
-            return settings_.input_filter;
-        case Variable::proportional_band:
-            return settings_.proportional_band;
-        case Variable::integral_time:
-            return settings_.integral_time_s;
-        case Variable::derivative_time:
-            return settings_.derivative_time_s;
-        case Variable::input_type:
-            return settings_.input_type;
         case Variable::control_kind:
             return settings_.kind == ControllerKind::on_off ? 0 : 1;
-        case Variable::heater_current:
-        case Variable::drive_cooling:
-        case Variable::status_2:
-        case Variable::status_2_high:
-            return 0;
+        default:
+            return 0;  // Heater current, cooling and status 2.
     }
-    return 0;
 }
 
 std::variant<std::vector<std::uint16_t>, Refusal> OvenController::read(std::uint16_t address,
                                                                        std::size_t count) const {
     const bool is_two_byte = is_two_byte_address(address);
     if (find_variable(address) == nullptr) return Refusal::address;
-    if (is_two_byte ? !options_.has_two_byte_addresses : count % 2 != 0) return Refusal::address;
+    if (!is_two_byte && count % 2 != 0) return Refusal::address;
     if (count < 1 || count > kMostRead) return Refusal::data;
     std::vector<std::uint16_t> words(count, 0);
     const std::size_t step = is_two_byte ? 1 : 2;
@@ -168,41 +172,17 @@ std::optional<Refusal> OvenController::set(Variable variable, std::int32_t digit
                                            Settings& next) const {
     if (!lies_within(digits, kDisplayLow, kDisplayHigh)) return Refusal::data;
     const std::int32_t tenths = settings_.input_type == kTypeKInTenths ? digits : 10 * digits;
-    const auto put = [](std::int32_t& place, std::int32_t value,
-                        bool is_allowed) -> std::optional<Refusal> {
-        if (!is_allowed) return Refusal::data;
-        place = value;
+    if (variable == Variable::control_kind) {
+        if (!lies_within(digits, 0, 1)) return Refusal::data;
+        next.kind = digits == 0 ? ControllerKind::on_off : ControllerKind::pi;
         return std::nullopt;
-    };
-    switch (variable) {
-        case Variable::set_point:
-            return put(next.set_point, tenths,
-                       lies_within(tenths, to_tenths(options_.set_point_low),
-                                   to_tenths(options_.set_point_high)));
-        case Variable::alarm_1:
-            return put(next.alarm_1, tenths, true);
-        case Variable::alarm_1_upper:
-            return put(next.alarm_1_upper, tenths, true);
-        case Variable::alarm_1_lower:
-            return put(next.alarm_1_lower, tenths, true);
-        case Variable::input_filter:
-            return put(next.input_filter, digits, digits >= 0);
-        case Variable::proportional_band:
-            return put(next.proportional_band, digits, digits > 0);
-        case Variable::integral_time:
-            return put(next.integral_time_s, digits, digits >= 0);
-        case Variable::derivative_time:
-            return put(next.derivative_time_s, digits, digits >= 0);
-        case Variable::input_type:
-            return put(next.input_type, digits,
-                       lies_within(digits, kTypeKInDegrees, kTypeKInTenths));
-        case Variable::control_kind:
-            if (!lies_within(digits, 0, 1)) return Refusal::data;
-            next.kind = digits == 0 ? ControllerKind::on_off : ControllerKind::pi;
-            return std::nullopt;
-        default:
-            return Refusal::address;
     }
+    const Setting* const setting = find_setting(variable);
+    if (setting == nullptr) return Refusal::address;
+    const std::int32_t value = setting->is_temperature ? tenths : digits;
+    if (!lies_within(value, setting->low, setting->high)) return Refusal::data;
+    next.*setting->place = value;
+    return std::nullopt;
 }
 
 std::optional<Refusal> OvenController::write(std::uint16_t address,
@@ -210,9 +190,7 @@ std::optional<Refusal> OvenController::write(std::uint16_t address,
     const bool is_two_byte = is_two_byte_address(address);
     const std::size_t step = is_two_byte ? 1 : 2;
     if (find_variable(address) == nullptr) return Refusal::address;
-    if (is_two_byte ? !options_.has_two_byte_addresses : words.size() % 2 != 0) {
-        return Refusal::address;
-    }
+    if (!is_two_byte && words.size() % 2 != 0) return Refusal::address;
     if (words.empty() || words.size() > kMostWritten) return Refusal::data;
     Settings next = settings_;
     bool is_for_setup = false;

@@ -11,7 +11,6 @@
 #include <variant>
 #include <vector>
 
-#include "protocol/core/units.hpp"
 #include "sim/oven/oven_variables.hpp"
 #include "sim/plant/oven_plant.hpp"
 
@@ -40,12 +39,6 @@ inline constexpr std::uint32_t kWritingEnabled = 1U << 25;
 /// Code of the operation command that restarts the controller (H175 section 4).
 inline constexpr std::uint8_t kSoftwareReset = 0x06;
 
-struct ControllerOptions {
-    bool has_two_byte_addresses = true;  ///< The earlier E5CN has none.
-    DegC set_point_low = DegC(-20.0);    ///< Lower limit of the set point.  The defaults are
-    DegC set_point_high = DegC(500.0);   ///< the range of a K couple shown in 0.1 degC.
-};
-
 /// The controller of one oven.  Only writes change the plant's set point, tuning and state.
 ///
 /// Differences from the device:
@@ -59,7 +52,7 @@ struct ControllerOptions {
 /// registers that are not in the map read 0 if the first register of the request exists.
 class OvenController {
 public:
-    explicit OvenController(OvenPlant& plant, const ControllerOptions& options = {});
+    explicit OvenController(OvenPlant& plant);
 
     /// Reads `count` registers, 1 ... 106, from `address` on; in four-byte mode both are even.
     [[nodiscard]] std::variant<std::vector<std::uint16_t>, Refusal> read(std::uint16_t address,
@@ -97,6 +90,16 @@ private:
         bool operator==(const Settings&) const = default;
     };
 
+    /// A number that can be written, within its limits.
+    struct Setting {
+        Variable variable;
+        std::int32_t Settings::*place;
+        std::int32_t low, high;
+        bool is_temperature;  ///< Shown and written in the display's last digit.
+    };
+    /// Returns the setting of a variable; null if it has none.
+    [[nodiscard]] static const Setting* find_setting(Variable variable);
+
     [[nodiscard]] std::int32_t value(Variable variable) const;
     [[nodiscard]] std::int32_t shown(std::int32_t tenths) const;
     [[nodiscard]] std::int32_t process_value() const;
@@ -108,7 +111,6 @@ private:
     [[nodiscard]] std::optional<Refusal> execute(std::uint8_t command, std::uint8_t parameter);
 
     OvenPlant& plant_;
-    ControllerOptions options_;
     Settings settings_;
     Settings stored_;
     bool is_in_ram_mode_ = false;

@@ -18,12 +18,11 @@ constexpr std::string_view kPowerCycle = "oven_power_cycle";
 
 }  // namespace
 
-OvenPort::OvenPort(std::filesystem::path link, OvenPlant& plant, const OvenOptions& options)
+OvenPort::OvenPort(std::filesystem::path link, OvenPlant& plant)
     : plant_(plant),
-      controller_(plant, options.controller),
-      server_(controller_, options.server),
-      baud_(options.server.baud),
-      pty_(std::move(link), options.server.baud) {}
+      controller_(plant),
+      server_(controller_),
+      pty_(std::move(link), ModbusServer::kBaud) {}
 
 void OvenPort::serve(const Instant& now) {
     if (std::exchange(wants_power_cycle_, false)) server_.restart(now.steady);
@@ -32,7 +31,7 @@ void OvenPort::serve(const Instant& now) {
         return;
     }
     const std::vector<std::byte> bytes = pty_.read();
-    const bool is_understood = pty_.baud() == baud_;
+    const bool is_understood = pty_.baud() == ModbusServer::kBaud;
     if (is_understood) {
         server_.receive(bytes, now.steady);
     } else if (!bytes.empty()) {
@@ -77,7 +76,7 @@ bool OvenPort::apply_fault(std::string_view kind, int count) {
         wants_power_cycle_ = true;
         return true;
     }
-    const auto found = std::find(kAnswerFaults.begin(), kAnswerFaults.end(), kind);
+    const auto found = std::ranges::find(kAnswerFaults, kind);
     if (found == kAnswerFaults.end()) return false;
     server_.fail_next(static_cast<OvenFault>(found - kAnswerFaults.begin()), count);
     return true;
@@ -85,9 +84,7 @@ bool OvenPort::apply_fault(std::string_view kind, int count) {
 
 std::vector<std::string_view> OvenPort::fault_kinds() {
     std::vector<std::string_view> kinds(kAnswerFaults.begin(), kAnswerFaults.end());
-    kinds.push_back(kSensorBreak);
-    kinds.push_back(kUnplug);
-    kinds.push_back(kPowerCycle);
+    kinds.insert(kinds.end(), {kSensorBreak, kUnplug, kPowerCycle});
     return kinds;
 }
 

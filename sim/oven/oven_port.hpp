@@ -9,11 +9,6 @@
 
 namespace a351::sim {
 
-struct OvenOptions {
-    ControllerOptions controller;
-    ServerOptions server;
-};
-
 /// The oven's controller on its own pseudo-terminal.  The baud rates of terminal and controller
 /// must agree, otherwise nothing is understood.  Parity is ignored, because a pseudo-terminal has
 /// none.
@@ -21,7 +16,7 @@ class OvenPort final : public Service {
 public:
     /// @param plant  must outlive this.
     /// @throws  as Pty.
-    OvenPort(std::filesystem::path link, OvenPlant& plant, const OvenOptions& options = {});
+    OvenPort(std::filesystem::path link, OvenPlant& plant);
 
     void serve(const Instant& now) override;
     void watch(std::vector<pollfd>& descriptors) const override;
@@ -51,7 +46,6 @@ private:
     OvenPlant& plant_;
     OvenController controller_;
     ModbusServer server_;
-    int baud_;
     Pty pty_;
     bool is_unplugged_ = false;
     bool wants_power_cycle_ = false;  ///< Done at the next serve(), which has the time.

@@ -1,7 +1,8 @@
 #include "sim/replay/journal_recording.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstdio>
 
 #include "protocol/core/input_error.hpp"
 
@@ -12,15 +13,8 @@ using record::JournalHeader;
 
 constexpr std::size_t kIdentifierSize = 8;
 
-std::string hex(std::uint16_t value) {
-    std::array<char, sizeof "0x0000"> text{};
-    std::snprintf(text.data(), text.size(), "0x%04X", static_cast<unsigned>(value));
-    return text.data();
-}
-
 std::string settings_text(int rate_hz, std::string_view filter, std::uint16_t burst_ctrl) {
-    return std::to_string(rate_hz) + " Hz, " + std::string(filter) + ", BURST_CTRL " +
-           hex(burst_ctrl);
+    return fmt::format("{} Hz, {}, BURST_CTRL 0x{:04X}", rate_hz, filter, burst_ctrl);
 }
 
 /// Returns the text with the length of an identifier, which unreadable characters may have changed.
@@ -34,8 +28,8 @@ JournalHeader read_header(const std::filesystem::path& file) {
     const auto chunk = reader.next();
     const auto* header = chunk ? std::get_if<JournalHeader>(&*chunk) : nullptr;
     if (header == nullptr) {
-        throw InputError(file.string() + ": " + reader.damage()->reason +
-                         "; allowed: journal segments with a whole header");
+        throw InputError(fmt::format("{}: {}; allowed: journal segments with a whole header",
+                                     file.string(), reader.damage()->reason));
     }
     return *header;
 }
@@ -43,19 +37,19 @@ JournalHeader read_header(const std::filesystem::path& file) {
 void require_known_settings(const std::filesystem::path& file, const JournalHeader& header) {
     const auto* profile = wire::find_profile(header.profile);
     if (profile == nullptr) {
-        throw InputError(file.string() + ": profile " + header.profile +
-                         ": unknown; allowed: A351, A352AD10");
+        throw InputError(fmt::format("{}: profile {}: unknown; allowed: A351, A352AD10",
+                                     file.string(), header.profile));
     }
-    const bool has_rate = std::ranges::count(profile->output_rates_hz, header.output_rate_hz,
-                                             &wire::Coded::value) > 0;
     const bool has_baud =
         std::ranges::count(profile->baud_rates, header.baud, &wire::Coded::value) > 0;
-    if (!has_rate || !has_baud || profile->filter_named(header.filter) == nullptr ||
+    if (!profile->has_output_rate(header.output_rate_hz) || !has_baud ||
+        profile->filter_named(header.filter) == nullptr ||
         !wire::BurstLayout::from_burst_ctrl(header.burst_ctrl)) {
-        throw InputError(file.string() + ": " +
-                         settings_text(header.output_rate_hz, header.filter, header.burst_ctrl) +
-                         ", " + std::to_string(header.baud) + " baud: settings that profile " +
-                         header.profile + " does not have; allowed: those of its data sheet");
+        throw InputError(fmt::format(
+            "{}: {}, {} baud: settings that profile {} does not have; allowed: those of its data "
+            "sheet",
+            file.string(), settings_text(header.output_rate_hz, header.filter, header.burst_ctrl),
+            header.baud, header.profile));
     }
 }
 
@@ -112,9 +106,7 @@ bool JournalRecording::load_chunk() {
             read_ = 0;
             return true;
         }
-        if (const auto& damage = reader_->damage()) {
-            damage_.push_back({damage->file, damage->offset, damage->byte_count, damage->reason});
-        }
+        if (const auto& damage = reader_->damage()) damage_.push_back(*damage);
         if (at_ + 1 == segments_.size()) return false;
         const JournalHeader& next = segments_[at_ + 1].header;
         if (next.session != header().session || !is_same_boot(header(), next)) return false;
@@ -161,11 +153,12 @@ std::string JournalRecording::objection(const RegisterMachine& machine) const {
         burst_ctrl == header().burst_ctrl && is_auto && !is_triggered) {
         return {};
     }
-    return "the host asks for " +
-           settings_text(machine.output_rate_hz(), filter->name, burst_ctrl) +
-           (is_auto ? "" : ", manual") + (is_triggered ? ", external trigger" : "") + "; " +
-           segments_[at_].file.string() + " was recorded with " +
-           settings_text(header().output_rate_hz, header().filter, header().burst_ctrl);
+    return fmt::format(
+        "the host asks for {}{}{}; {} was recorded with {}",
+        settings_text(machine.output_rate_hz(), filter->name, burst_ctrl),
+        is_auto ? "" : ", manual", is_triggered ? ", external trigger" : "",
+        segments_[at_].file.string(),
+        settings_text(header().output_rate_hz, header().filter, header().burst_ctrl));
 }
 
 }  // namespace a351::sim

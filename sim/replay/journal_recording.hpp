@@ -3,13 +3,11 @@
 /// Journal segments as a recording: the received bytes as they came, including damage.
 /// Format: protocol/journal/journal-format.md.
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "protocol/journal/journal_reader.hpp"
 #include "sim/replay/recording.hpp"
 
 namespace a351::sim {

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "protocol/journal/journal_reader.hpp"
 #include "sim/device/line_device.hpp"
 #include "sim/device/register_machine.hpp"
 
@@ -16,15 +19,12 @@ struct RecordedUnit {
     const wire::DeviceProfile* profile = nullptr;  ///< Not null.
     MachineIdentity identity;
     int baud = 460800;
+
+    bool operator==(const RecordedUnit&) const = default;
 };
 
 /// Bytes of a file that could not be replayed.
-struct RecordingDamage {
-    std::filesystem::path file;
-    std::uint64_t offset = 0;
-    std::uint64_t byte_count = 0;
-    std::string reason;
-};
+using RecordingDamage = record::JournalDamage;
 
 /// A recording: sessions, each one run of sampling, made of pieces.  The first session is the
 /// current one at the beginning.
@@ -57,5 +57,20 @@ public:
     /// Returns the number of samples so far that were left out because a channel lacks them.
     [[nodiscard]] virtual std::int64_t incomplete_samples() const { return 0; }
 };
+
+struct RecordingFiles {
+    /// Journal segments or miniSEED files, distinguished by their first bytes.  A directory means
+    /// the segments in it, or, if it has none, the day files below it.  In a directory, segments
+    /// without a whole header are skipped and reported by Recording::damage().
+    std::vector<std::filesystem::path> files;
+    std::array<std::string, 3> axes{"1", "2", "Z"};  ///< Channels of x, y, z; for archives.
+    RecordedUnit archive_unit = {};                  ///< Unit to emulate for an archive.
+};
+
+/// Opens the files.  Segments of one directory are replayed by number, directories in the order
+/// given.
+/// @throws InputError  a file is missing, empty or of neither kind; journal and miniSEED are mixed;
+///         JournalRecording or ArchiveSource refuses the files.
+[[nodiscard]] std::unique_ptr<Recording> open_recording(const RecordingFiles& input);
 
 }  // namespace a351::sim

@@ -9,25 +9,17 @@ namespace {
 /// Wait while the host does not sample: nothing is due, and the host's commands wake the port.
 constexpr Nanoseconds kIdle = std::chrono::hours(1);
 
-bool is_same(const RecordedUnit& a, const RecordedUnit& b) {
-    return a.profile == b.profile && a.baud == b.baud &&
-           a.identity.product_id == b.identity.product_id &&
-           a.identity.serial_number == b.identity.serial_number &&
-           a.identity.firmware == b.identity.firmware;
-}
-
 /// Returns the factory state with the recorded baud rate.
 FlashMemory flash_of(const RecordedUnit& unit) {
     FlashMemory flash;
     std::size_t i = 0;
     for (const wire::Register& reg : wire::kRegisters) {
-        if (!reg.is_saved_in_flash) continue;
         if (&reg == &wire::kUartCtrl) {
             const auto coded =
                 std::ranges::find(unit.profile->baud_rates, unit.baud, &wire::Coded::value);
             flash.settings[i] = static_cast<std::uint16_t>(coded->code << 8U);
         }
-        ++i;
+        if (reg.is_saved_in_flash) ++i;
     }
     return flash;
 }
@@ -89,7 +81,7 @@ void ReplayDevice::end_session(Nanoseconds now) {
     has_begun_ = false;
     const RecordedUnit before = recording_->unit();
     is_over_ = !recording_->begin_next_session();
-    if (!is_over_ && !is_same(before, recording_->unit())) install_unit(now);
+    if (!is_over_ && before != recording_->unit()) install_unit(now);
 }
 
 std::optional<UtcTime> ReplayDevice::next_due() const {

@@ -31,9 +31,7 @@ std::vector<AmbientKnot> Scenario::ambient_knots() const {
 }
 
 DegC ambient_at(const std::vector<AmbientKnot>& knots, UtcTime time) {
-    const auto after =
-        std::upper_bound(knots.begin(), knots.end(), time,
-                         [](UtcTime t, const AmbientKnot& knot) { return t < knot.time; });
+    const auto after = std::ranges::upper_bound(knots, time, {}, &AmbientKnot::time);
     if (after == knots.begin()) return DegC(after->degc);
     const AmbientKnot& before = *(after - 1);
     if (after == knots.end()) return DegC(before.degc);

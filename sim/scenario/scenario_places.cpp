@@ -1,5 +1,7 @@
 #include "sim/scenario/scenario_places.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -14,12 +16,12 @@ constexpr double kColdestDegC = -40.0, kWarmestDegC = 80.0;
 constexpr double kShortestSetUpSeconds = 60.0;
 
 text::Site read_site(text::TomlTable& table) {
-    text::Site site;
-    site.name = required_name(table);
-    site.longitude = Degrees(required_number(table, "longitude_deg", -180.0, 360.0));
-    site.latitude = Degrees(required_number(table, "latitude_deg", -90.0, 90.0));
-    site.altitude = Metres(required_number(table, "altitude_m", -500.0, 9000.0));
-    site.gravity = MilliGal(required_number(table, "gravity_mgal", 970000.0, 990000.0));
+    const text::Site site{
+        .name = required_name(table),
+        .longitude = Degrees(required_number(table, "longitude_deg", -180.0, 360.0)),
+        .latitude = Degrees(required_number(table, "latitude_deg", -90.0, 90.0)),
+        .altitude = Metres(required_number(table, "altitude_m", -500.0, 9000.0)),
+        .gravity = MilliGal(required_number(table, "gravity_mgal", 970000.0, 990000.0))};
     table.require_all_read();
     return site;
 }
@@ -28,9 +30,9 @@ text::Site read_site(text::TomlTable& table) {
 void require_below_set_point(const text::TomlTable& table, std::string_view key, double degc,
                              const Scenario& scenario) {
     if (degc < scenario.oven.set_point_degc) return;
-    std::string allowed = "colder than oven.set_point_degc = ";
-    allowed += text::shortest(scenario.oven.set_point_degc);
-    table.refuse(key, "the oven only heats", allowed);
+    table.refuse(key, "the oven only heats",
+                 fmt::format("colder than oven.set_point_degc = {}",
+                             text::shortest(scenario.oven.set_point_degc)));
 }
 
 std::string read_site_name(text::TomlTable& table, const Scenario& scenario) {
@@ -114,7 +116,8 @@ void read_occupations(text::TomlTable& document, Scenario& scenario) {
     }
     for (const ListedOccupation& one : scenario.occupations) {
         if (text::find_site(scenario.sites, one.site) == nullptr) {
-            document.refuse("site", "lacks " + one.site + ", which the base's occupations use",
+            document.refuse("site",
+                            fmt::format("lacks {}, which the base's occupations use", one.site),
                             "every site in use, or a new [[occupation]] list");
         }
     }
@@ -146,8 +149,9 @@ void read_ambient(text::TomlTable& document, Scenario& scenario) {
     if (!scenario.ambient.empty()) return;
     const bool is_course_known =
         !scenario.fixed_record &&
-        std::all_of(scenario.occupations.begin(), scenario.occupations.end(),
-                    [](const ListedOccupation& one) { return one.ambient_degc.has_value(); });
+        std::ranges::all_of(scenario.occupations, [](const ListedOccupation& one) {
+            return one.ambient_degc.has_value();
+        });
     if (!is_course_known) {
         document.refuse("ambient", "missing",
                         "at least one [[ambient]], or ambient_degc in every [[occupation]]");
@@ -161,10 +165,9 @@ void read_open_lids(text::TomlTable& document, Scenario& scenario) {
         if (table.has("site")) {
             lid.site = read_site_name(table, scenario);
             lid.number = read_number(table);
-            if (std::none_of(scenario.occupations.begin(), scenario.occupations.end(),
-                             [&](const ListedOccupation& one) {
-                                 return one.site == lid.site && one.number == lid.number;
-                             })) {
+            if (std::ranges::none_of(scenario.occupations, [&](const ListedOccupation& one) {
+                    return one.site == lid.site && one.number == lid.number;
+                })) {
                 table.refuse("site", "no such stay", "site and number of an [[occupation]]");
             }
         } else {
@@ -190,9 +193,9 @@ void require_warm_oven(text::TomlTable& document, const Scenario& scenario) {
         warmest_degc = std::max(warmest_degc, lid.outside_degc);
     }
     if (warmest_degc < scenario.oven.set_point_degc) return;
-    std::string allowed = "above the warmest air around the oven, ";
-    allowed += text::shortest(warmest_degc) + " degC";
-    document.table("oven").refuse("set_point_degc", "the oven only heats", allowed);
+    document.table("oven").refuse("set_point_degc", "the oven only heats",
+                                  fmt::format("above the warmest air around the oven, {} degC",
+                                              text::shortest(warmest_degc)));
 }
 
 /// Returns the shortest length that draw_intervals() can draw.
@@ -210,9 +213,8 @@ void require_room_for_set_ups(text::TomlTable& document, const Scenario& scenari
         if (shortest_length_s(one, p) >= kShortestSetUpSeconds * static_cast<double>(parts)) {
             continue;
         }
-        std::string trouble = "leaves less than 60 s for a set-up of ";
-        trouble += one.site;
-        trouble += " (" + std::to_string(one.number) + ")";
+        const std::string trouble =
+            fmt::format("leaves less than 60 s for a set-up of {} ({})", one.site, one.number);
         if (is_listed && document.has("occupation")) {
             document.tables("occupation")[i].refuse("about_y_deg", trouble,
                                                     "fewer angles, or a longer occupation");

@@ -1,7 +1,9 @@
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <limits>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/strict_toml.hpp"
 #include "protocol/text/text_file.hpp"
@@ -67,7 +69,7 @@ private:
     bool has_base_;
 };
 
-void read_schedule(Section s, ScheduleParameters& p) {
+void read_schedule(Section& s, ScheduleParameters& p) {
     s.number("lead_in_h", p.lead_in_h, 0.0, 1000.0);
     s.number("lead_out_min", p.lead_out_min, 0.0, 1e5);
     s.number("length_s", p.length_s, 60.0, 1e6);
@@ -77,7 +79,6 @@ void read_schedule(Section s, ScheduleParameters& p) {
     s.integer("setups", p.set_ups, 1, 10);
     s.number("ambient_before_degc", p.ambient_before_degc, -40.0, 80.0);
     s.number("ambient_after_degc", p.ambient_after_degc, -40.0, 80.0);
-    s.done();
 }
 
 /// Reads a fixed record; keys that `base` has may be missing.
@@ -91,11 +92,10 @@ FixedRecord read_fixed_record(text::TomlTable table, const std::optional<FixedRe
     return record;
 }
 
-void read_cool_box(Section s, CoolBoxParameters& p) {
+void read_cool_box(Section& s, CoolBoxParameters& p) {
     s.number("walk_degc_per_sqrt_h", p.walk_degc_per_sqrt_h, 0.0, 10.0);
     s.number("open_tau_s", p.open_tau_s, 1.0, 1e5);
     s.number("closed_tau_s", p.closed_tau_s, 1.0, 1e5);
-    s.done();
 }
 
 /// Refuses a capacity so small that in one step of the plant the node would lose more heat than
@@ -108,7 +108,7 @@ void require_stable(const Section& s, std::string_view key, double capacity_j_pe
              text::shortest(least_j_per_k) + " or more, or larger resistances");
 }
 
-void read_oven(Section s, OvenParameters& p) {
+void read_oven(Section& s, OvenParameters& p) {
     s.number("heater_capacity_j_per_k", p.heater_capacity_j_per_k, 1.0, 1e6);
     s.number("body_capacity_j_per_k", p.body_capacity_j_per_k, 1.0, 1e6);
     s.number("heater_body_k_per_w", p.heater_body_k_per_w, 0.01, 1e4);
@@ -131,10 +131,9 @@ void read_oven(Section s, OvenParameters& p) {
                    body_w_per_k + 1.0 / p.heater_ambient_k_per_w);
     require_stable(s, "body_capacity_j_per_k", p.body_capacity_j_per_k,
                    body_w_per_k + 1.0 / p.body_ambient_k_per_w);
-    s.done();
 }
 
-void read_error(Section s, TemperatureErrorParameters& p, double& unit_scatter) {
+void read_error(Section& s, TemperatureErrorParameters& p, double& unit_scatter) {
     s.number("reference_degc", p.reference_degc, 0.0, 80.0);
     s.number("crystal_static_mgal_per_degc", p.crystal_static_mgal_per_degc, -1e5, 1e5);
     s.number("crystal_dynamic_mgal_per_degc", p.crystal_dynamic_mgal_per_degc, -1e5, 1e5);
@@ -144,10 +143,9 @@ void read_error(Section s, TemperatureErrorParameters& p, double& unit_scatter) 
     s.number("warm_up_mgal", p.warm_up_mgal, -1e4, 1e4);
     s.number("warm_up_tau_h", p.warm_up_tau_h, 0.01, 1000.0);
     s.number("unit_scatter", unit_scatter, 0.0, 0.9);
-    s.done();
 }
 
-void read_sensor(Section s, SensorParameters& p, double run_in_h) {
+void read_sensor(Section& s, SensorParameters& p, double run_in_h) {
     s.number("bias_mgal", p.bias_mgal, -1e5, 1e5);
     s.number("horizontal_bias_max_mgal", p.horizontal_bias_max_mgal, 0.0, 1e5);
     s.number("levelling_sigma_deg", p.levelling_sigma_deg, 0.0, 10.0);
@@ -161,23 +159,20 @@ void read_sensor(Section s, SensorParameters& p, double run_in_h) {
     }
     s.number("temperature_warm_up_degc", p.temperature_warm_up_degc, -10.0, 10.0);
     s.number("temperature_warm_up_tau_h", p.temperature_warm_up_tau_h, 0.01, 1000.0);
-    s.done();
 }
 
-void read_clock(Section s, ClockParameters& p) {
+void read_clock(Section& s, ClockParameters& p) {
     s.number("error_ppm", p.error_ppm, -1e4, 1e4);
     s.number("wander_ppm_per_sqrt_h", p.wander_ppm_per_sqrt_h, 0.0, 100.0);
     s.number("temperature_ppm_per_degc", p.temperature_ppm_per_degc, -100.0, 100.0);
     s.number("declared_rate_hz", p.declared_rate_hz, 0.0, 51.0);
-    s.done();
 }
 
-void read_tide(Section s, TideParameters& p) {
+void read_tide(Section& s, TideParameters& p) {
     s.number("gravimetric_factor", p.gravimetric_factor, 0.0, 2.0);
-    s.done();
 }
 
-void read_slow_noise(Section s, SlowNoiseParameters& p) {
+void read_slow_noise(Section& s, SlowNoiseParameters& p) {
     s.number("flicker_mgal", p.flicker_mgal, 0.0, 1000.0);
     s.number("flicker_shortest_s", p.flicker_shortest_s, 10.0, 1e6);
     s.number("flicker_longest_s", p.flicker_longest_s, 10.0, 1e7);
@@ -197,10 +192,9 @@ void read_slow_noise(Section s, SlowNoiseParameters& p) {
     s.number("ripple_period_s", p.ripple_period_s, 10.0, 1e5);
     s.number("ripple_wander", p.ripple_wander, 0.0, 0.3);
     s.number("ripple_wander_s", p.ripple_wander_s, 1.0, 1e6);
-    s.done();
 }
 
-void read_vibration(Section s, VibrationParameters& p) {
+void read_vibration(Section& s, VibrationParameters& p) {
     s.number("ground_mgal", p.ground_mgal, 0.0, 1e5);
     s.number("ground_low_hz", p.ground_low_hz, 0.1, 20.0);
     s.number("ground_high_hz", p.ground_high_hz, 0.1, 20.0);
@@ -223,10 +217,9 @@ void read_vibration(Section s, VibrationParameters& p) {
     s.range("axis_share", p.axis_share, 0.0, 1.0);
     s.number("spike_probability", p.spike_probability, 0.0, 1.0);
     s.range("spike_gal", p.spike_gal, 0.0, 1000.0);
-    s.done();
 }
 
-void read_line(Section s, LineParameters& p) {
+void read_line(Section& s, LineParameters& p) {
     s.number("latency_timer_ms", p.latency_timer_ms, 0.0, 255.0);
     s.number("latency_timer_ppm", p.latency_timer_ppm, -1e4, 1e4);
     s.number("usb_poll_ms", p.usb_poll_ms, 0.0, 100.0);
@@ -235,22 +228,17 @@ void read_line(Section s, LineParameters& p) {
     s.range("stall_s", p.stall_s, 0.0, 60.0);
     s.boolean("is_bytewise", p.is_bytewise);
     s.boolean("is_paced", p.is_paced);
-    s.done();
 }
 
 const EmbeddedScenario* find_embedded(std::string_view name) {
     const auto all = embedded_scenarios();
-    const auto found =
-        std::find_if(all.begin(), all.end(), [name](const auto& s) { return s.name == name; });
+    const auto found = std::ranges::find(all, name, &EmbeddedScenario::name);
     return found == all.end() ? nullptr : &*found;
 }
 
 std::string name_list() {
-    std::string list;
-    for (const std::string_view name : scenario_names()) {
-        list += (list.empty() ? "" : ", ") + std::string(name);
-    }
-    return list;
+    const auto names = scenario_names();
+    return text::joined({names.begin(), names.end()});
 }
 
 }  // namespace
@@ -265,8 +253,10 @@ Scenario parse_scenario(std::string_view toml, const std::filesystem::path& orig
         scenario = parse_scenario(found->toml, base + ".toml");
     }
     scenario.name = required_name(document);
-    const auto section = [&](std::string_view name) {
-        return Section(document, name, !base.empty());
+    const auto read = [&](std::string_view name, auto reader, auto&... values) {
+        Section section(document, name, !base.empty() || name == "clock" || name == "line");
+        reader(section, values...);
+        section.done();
     };
     const bool has_own_record = document.table("schedule").has("start_utc");
     if (has_own_record || (scenario.fixed_record && !document.has("occupation"))) {
@@ -276,17 +266,17 @@ Scenario parse_scenario(std::string_view toml, const std::filesystem::path& orig
         if (has_own_record) scenario.open_lids.clear();
     } else {
         scenario.fixed_record.reset();
-        read_schedule(section("schedule"), scenario.schedule);
+        read("schedule", read_schedule, scenario.schedule);
     }
-    read_cool_box(section("cool_box"), scenario.cool_box);
-    read_oven(section("oven"), scenario.oven);
-    read_error(section("temperature_error"), scenario.error, scenario.unit_scatter);
-    read_sensor(section("sensor"), scenario.sensor, scenario.oven.run_in_h);
-    read_clock(Section(document, "clock", true), scenario.clock);
-    read_tide(section("tide"), scenario.tide);
-    read_slow_noise(section("slow_noise"), scenario.slow_noise);
-    read_vibration(section("vibration"), scenario.vibration);
-    read_line(Section(document, "line", true), scenario.line);
+    read("cool_box", read_cool_box, scenario.cool_box);
+    read("oven", read_oven, scenario.oven);
+    read("temperature_error", read_error, scenario.error, scenario.unit_scatter);
+    read("sensor", read_sensor, scenario.sensor, scenario.oven.run_in_h);
+    read("clock", read_clock, scenario.clock);
+    read("tide", read_tide, scenario.tide);
+    read("slow_noise", read_slow_noise, scenario.slow_noise);
+    read("vibration", read_vibration, scenario.vibration);
+    read("line", read_line, scenario.line);
     read_places(document, scenario);
     document.require_all_read();
     return scenario;
@@ -297,9 +287,9 @@ Scenario load_scenario(const std::string& name_or_file) {
         return parse_scenario(found->toml, name_or_file + ".toml");
     }
     if (!std::filesystem::is_regular_file(name_or_file)) {
-        throw InputError("--scenario " + name_or_file +
-                         ": neither a scenario nor a file; allowed: " + name_list() +
-                         ", or a file");
+        throw InputError(
+            fmt::format("--scenario {}: neither a scenario nor a file; allowed: {}, or a file",
+                        name_or_file, name_list()));
     }
     return parse_scenario(text::read_text_file(name_or_file), name_or_file);
 }

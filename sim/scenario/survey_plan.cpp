@@ -1,5 +1,7 @@
 #include "sim/scenario/survey_plan.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
@@ -24,10 +26,8 @@ UtcTime whole_milliseconds(UtcTime time) {
 
 [[noreturn]] void refuse(const Scenario& scenario, const ListedOccupation& listed,
                          const char* trouble) {
-    std::string line = "scenario ";
-    line += scenario.name + ": occupation of " + listed.site;
-    line += " (" + std::to_string(listed.number) + "): ";
-    throw InputError(line + trouble);
+    throw InputError(fmt::format("scenario {}: occupation of {} ({}): {}", scenario.name,
+                                 listed.site, listed.number, trouble));
 }
 
 struct Interval {
@@ -95,28 +95,18 @@ private:
     RandomStream levelling_, placement_;
 };
 
-PlannedSetUp whole_record(const Scenario& scenario) {
-    PlannedSetUp set_up;
-    set_up.site = scenario.sites.front();
-    set_up.start = set_up.from = scenario.start();
-    set_up.end = scenario.end();
-    set_up.is_occupied = false;
-    return set_up;
-}
-
-std::string row_start(const PlannedSetUp& set_up) {
-    return set_up.site.name + "," + std::to_string(set_up.number) + "," +
-           to_rfc3339(set_up.start, 3) + "," + to_rfc3339(set_up.end, 3);
-}
-
 }  // namespace
 
 std::vector<PlannedSetUp> plan_survey(const Scenario& scenario, std::uint64_t seed) {
     SetUpDraws draws(scenario, seed);
     if (scenario.fixed_record) {
-        std::vector<PlannedSetUp> plan{whole_record(scenario)};
-        draws.draw(plan.front());
-        return plan;
+        PlannedSetUp set_up;
+        set_up.site = scenario.sites.front();
+        set_up.start = set_up.from = scenario.start();
+        set_up.end = scenario.end();
+        set_up.is_occupied = false;
+        draws.draw(set_up);
+        return {set_up};
     }
     const std::vector<Interval> intervals = draw_intervals(scenario, seed);
     std::vector<PlannedSetUp> plan;
@@ -161,9 +151,9 @@ TemperatureErrorParameters drawn_unit(const Scenario& scenario, std::uint64_t se
 std::string sites_csv(const Scenario& scenario) {
     std::string csv = "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\n";
     for (const text::Site& site : scenario.sites) {
-        csv += site.name + "," + shortest(site.longitude.value()) + "," +
-               shortest(site.latitude.value()) + "," + shortest(site.altitude.value()) + "," +
-               shortest(site.gravity->value()) + "\n";
+        csv += fmt::format("{},{},{},{},{}\n", site.name, shortest(site.longitude.value()),
+                           shortest(site.latitude.value()), shortest(site.altitude.value()),
+                           shortest(site.gravity->value()));
     }
     return csv;
 }
@@ -172,8 +162,9 @@ std::string schedule_csv(const std::vector<PlannedSetUp>& plan) {
     std::string csv = "site,occupation,start_utc,end_utc,used,note\n";
     for (const PlannedSetUp& set_up : plan) {
         if (!set_up.is_occupied) continue;
-        csv +=
-            row_start(set_up) + (set_up.is_outlier ? ",0,left out by the publication\n" : ",1,\n");
+        csv += fmt::format("{},{},{},{},{}\n", set_up.site.name, set_up.number,
+                           to_rfc3339(set_up.start, 3), to_rfc3339(set_up.end, 3),
+                           set_up.is_outlier ? "0,left out by the publication" : "1,");
     }
     return csv;
 }

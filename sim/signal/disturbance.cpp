@@ -13,9 +13,9 @@ namespace {
 double draw(RandomStream& stream, Range range) { return stream.uniform(range.low, range.high); }
 
 /// Draws a burst: length and strength once; frequency, phase and share of the strength per axis.
-Burst draw_burst(RandomStream& stream, Burst::Envelope envelope, Range length_s, Range hz,
-                 Range peak_gal, Range axis_share) {
-    Burst burst;
+Burst& draw_burst(std::vector<Burst>& bursts, RandomStream& stream, Burst::Envelope envelope,
+                  Range length_s, Range hz, Range peak_gal, Range axis_share) {
+    Burst& burst = bursts.emplace_back();
     burst.envelope = envelope;
     burst.length_s = draw(stream, length_s);
     const double peak_mgal = kMilliGalPerGal * draw(stream, peak_gal);
@@ -54,10 +54,9 @@ std::vector<Burst> draw_bursts(const Scenario& scenario, const std::vector<Plann
         const double mean_wait_s = 3600.0 / p.vehicles_per_h;
         double t = mean_wait_s * vehicles.exponential();
         while (t < record_s) {
-            Burst burst = draw_burst(vehicles, Burst::Envelope::swell, p.vehicle_s, p.vehicle_hz,
-                                     p.vehicle_gal, p.axis_share);
+            Burst& burst = draw_burst(bursts, vehicles, Burst::Envelope::swell, p.vehicle_s,
+                                      p.vehicle_hz, p.vehicle_gal, p.axis_share);
             burst.start_s = t;
-            bursts.push_back(burst);
             t += mean_wait_s * vehicles.exponential();
         }
     }
@@ -69,22 +68,19 @@ std::vector<Burst> draw_bursts(const Scenario& scenario, const std::vector<Plann
         const double start_s = seconds_between(scenario.start(), set_up.start);
         const double end_s = seconds_between(scenario.start(), set_up.end);
         if (handling.uniform() < p.handling_probability) {
-            Burst burst = draw_burst(handling, Burst::Envelope::decay, p.handling_s, p.handling_hz,
-                                     p.handling_gal, p.axis_share);
+            Burst& burst = draw_burst(bursts, handling, Burst::Envelope::decay, p.handling_s,
+                                      p.handling_hz, p.handling_gal, p.axis_share);
             burst.start_s = start_s;
-            bursts.push_back(burst);
         }
         if (handling.uniform() < p.handling_probability) {
-            Burst burst = draw_burst(handling, Burst::Envelope::growth, p.handling_s, p.handling_hz,
-                                     p.handling_gal, p.axis_share);
+            Burst& burst = draw_burst(bursts, handling, Burst::Envelope::growth, p.handling_s,
+                                      p.handling_hz, p.handling_gal, p.axis_share);
             burst.start_s = end_s - burst.length_s;
-            bursts.push_back(burst);
         }
         if (knocks.uniform() < p.knock_probability / set_up.parts) {
-            Burst burst = draw_burst(knocks, Burst::Envelope::decay, p.knock_s, p.knock_hz,
-                                     p.knock_gal, p.axis_share);
+            Burst& burst = draw_burst(bursts, knocks, Burst::Envelope::decay, p.knock_s, p.knock_hz,
+                                      p.knock_gal, p.axis_share);
             burst.start_s = start_s + (end_s - start_s) * draw(knocks, p.knock_position);
-            bursts.push_back(burst);
         }
     }
     std::stable_sort(bursts.begin(), bursts.end(),

@@ -2,13 +2,9 @@
 
 #include <chrono>
 #include <cmath>
-#include <numbers>
 
 namespace a351::sim {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-constexpr double kRadiansPerDegree = kPi / 180.0;
 
 // Longman's table 1: centimetre, gram, second.
 constexpr double kNewton = 6.673e-8;
@@ -20,7 +16,7 @@ constexpr double kEarthRadius = 6.378270e8;
 constexpr double kMoonEccentricity = 0.05490;
 constexpr double kMotionRatio = 0.074804;        ///< Mean motion of the Sun divided by the Moon's.
 constexpr double kMoonInclination = 0.08979719;  ///< To the ecliptic.
-constexpr double kObliquity = 23.452 * kRadiansPerDegree;
+constexpr double kObliquity = 23.452 * kRadPerDeg;
 
 /// Returns the cosine of the zenith angle of a body at `longitude` in an orbit inclined by
 /// `inclination`.
@@ -63,12 +59,12 @@ MilliGal earth_tide(Degrees latitude, Degrees longitude, Metres height, UtcTime 
         std::atan2(sin(w) * sin(N) / sin(I), cos(N) * cos(nu) + sin(N) * sin(nu) * cos(w));
     const double sigma = s - (N - alpha);
 
-    const double t = (15.0 * (ut_hours - 12.0) + longitude.value()) * kRadiansPerDegree;
+    const double t = (15.0 * (ut_hours - 12.0) + longitude.value()) * kRadPerDeg;
     const double moon_longitude = sigma + 2.0 * e * sin(s - p) + 1.25 * e * e * sin(2.0 * (s - p)) +
                                   3.75 * m * e * sin(s - 2.0 * h + p) +
                                   1.375 * m * m * sin(2.0 * (s - h));
     const double sun_longitude = h + 2.0 * e1 * sin(h - p1);
-    const double phi = latitude.value() * kRadiansPerDegree;
+    const double phi = latitude.value() * kRadPerDeg;
     const double moon_zenith = cos_zenith(phi, I, moon_longitude, t + h - nu);
     const double sun_zenith = cos_zenith(phi, w, sun_longitude, t + h);
 

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "sim/noise/random.hpp"
-#include "sim/scenario/scenario.hpp"
+#include "sim/scenario/survey_plan.hpp"
 
 namespace a351::sim {
 
@@ -37,5 +38,11 @@ private:
     double late_s_ = 0.0;    ///< Start of the second minus its nominal instant.
     double longer_s_ = 0.0;  ///< Length of the second minus 1 s.
 };
+
+/// Returns the plan with its limits converted from the sensor's time, in which a scenario is
+/// written, to UTC.  With a true clock the plan is unchanged.
+[[nodiscard]] std::vector<PlannedSetUp> by_true_time(const Scenario& scenario,
+                                                     const std::vector<PlannedSetUp>& plan,
+                                                     std::uint64_t seed);
 
 }  // namespace a351::sim

@@ -1,5 +1,7 @@
 #include "sim/signal/set_up_truth.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +9,6 @@
 #include "protocol/text/csv.hpp"
 #include "sim/signal/disturbance.hpp"
 #include "sim/signal/signal_source.hpp"
-#include "sim/signal/true_time.hpp"
 
 namespace a351::sim {
 namespace {
@@ -118,26 +119,23 @@ std::string truth_csv(const Scenario& scenario, const std::vector<PlannedSetUp>&
     std::string csv =
         "site,occupation,start_utc,end_utc,gravity_mgal,used,set_up,ambient_degc,"
         "temperature_degc,about_y_deg,about_x_deg";
-    for (const char* column : kTermColumns) csv += std::string(",") + column;
+    for (const char* column : kTermColumns) csv += fmt::format(",{}", column);
     csv += ",tilt_mgal,burst_mgal,rectification_mgal\n";
     const std::vector<SetUpTruth> truth = set_up_truth(scenario, plan, seed);
     const std::vector<PlannedSetUp> rows = by_true_time(scenario, plan, seed);
     for (std::size_t i = 0; i < truth.size(); ++i) {
         const PlannedSetUp& set_up = rows[i];
         const SetUpTruth& mean = truth[i];
-        csv += set_up.site.name + "," + std::to_string(set_up.number) + "," +
-               to_rfc3339(set_up.start, 3) + "," + to_rfc3339(set_up.end, 3) + "," +
-               shortest(set_up.site.gravity->value()) + (set_up.is_outlier ? ",0," : ",1,") +
-               std::to_string(set_up.part);
-        const auto cell = [&csv](double value) {
-            csv += ',';
-            csv += shortest(rounded(value));
-        };
+        csv += fmt::format("{},{},{},{},{},{},{}", set_up.site.name, set_up.number,
+                           to_rfc3339(set_up.start, 3), to_rfc3339(set_up.end, 3),
+                           shortest(set_up.site.gravity->value()), set_up.is_outlier ? 0 : 1,
+                           set_up.part);
+        const auto cell = [&csv](double value) { csv += "," + shortest(rounded(value)); };
         cell(mean.ambient_degc);
         cell(mean.temperature_degc);
         cell(set_up.about_y_rad * kDegPerRad);
         cell(set_up.about_x_rad * kDegPerRad);
-        std::for_each(mean.terms_mgal.begin(), mean.terms_mgal.end(), cell);
+        std::ranges::for_each(mean.terms_mgal, cell);
         cell(mean.tilt_mgal);
         cell(mean.burst_mgal);
         cell(mean.rectification_mgal);

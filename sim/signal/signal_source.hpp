@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "protocol/wire/device_profile.hpp"
 #include "sim/noise/random.hpp"
@@ -76,7 +75,7 @@ private:
     SlowSignal slow_;
     Disturbances disturbances_;
     RandomStream white_, ground_, spikes_, temperature_;
-    std::array<BandNoise, 3> ground_filter_;
+    std::vector<BandNoise> ground_filter_;  ///< One per axis.
     std::array<double, 3> bias_mgal_{};
     std::vector<std::array<double, 3>> vertical_;  ///< One unit vector per set-up.
     SensorClock clock_;

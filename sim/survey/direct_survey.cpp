@@ -1,8 +1,8 @@
 #include "sim/survey/direct_survey.hpp"
 
-#include <array>
-#include <cinttypes>
-#include <cstdio>
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -18,9 +18,8 @@
 #include "sim/line/transport.hpp"
 #include "sim/noise/random.hpp"
 #include "sim/scenario/survey_plan.hpp"
+#include "sim/signal/set_up_truth.hpp"
 #include "sim/signal/signal_source.hpp"
-#include "sim/signal/true_time.hpp"
-#include "sim/survey/plan_files.hpp"
 #include "sim/truth/truth_file.hpp"
 
 namespace a351::sim {
@@ -52,26 +51,16 @@ timing::ClockReading clock_at(const Scenario& scenario, UtcTime utc) {
     return reading;
 }
 
-/// Returns a boot identifier of the simulated host.
-std::string boot_id(RandomStream& stream) {
-    std::array<char, sizeof "00000000-0000-4000-8000-000000000000"> text{};
-    std::snprintf(text.data(), text.size(), "00000000-0000-4000-8000-%012" PRIx64,
-                  stream.bits() >> 16U);
-    return text.data();
-}
-
 record::JournalHeader journal_header(const Scenario& scenario, const wire::DeviceProfile& profile,
                                      const MachineIdentity& identity, std::uint64_t seed) {
     record::JournalHeader header;
     // Different days with the same seed get different sessions and different hosts.
-    std::string day = "session of " + scenario.name;
-    day += " at " + to_rfc3339(scenario.start(), 3);
-    day += " by " + std::string(profile.name);
-    RandomStream session(seed, day);
+    RandomStream session(seed, fmt::format("session of {} at {} by {}", scenario.name,
+                                           to_rfc3339(scenario.start(), 3), profile.name));
     for (std::uint8_t& byte : header.session.bytes) {
         byte = static_cast<std::uint8_t>(session.bits() >> 56U);
     }
-    header.boot_id = boot_id(session);
+    header.boot_id = fmt::format("00000000-0000-4000-8000-{:012x}", session.bits() >> 16U);
     header.program_version = A351_VERSION;
     header.profile = profile.name;
     header.product_id = identity.product_id;
@@ -129,12 +118,8 @@ std::vector<record::Event> planned_events(const std::vector<PlannedSetUp>& plan,
                                           const record::SessionId& session) {
     std::vector<record::Event> events;
     const auto add = [&](std::string type, const PlannedSetUp& set_up, UtcTime utc) {
-        record::Event event;
-        event.type = std::move(type);
-        event.session = session;
-        event.utc = utc;
-        event.details = {{"site", set_up.site.name}};
-        events.push_back(std::move(event));
+        events.push_back(
+            {std::move(type), utc, session, std::nullopt, {{"site", set_up.site.name}}});
     };
     for (const PlannedSetUp& set_up : plan) {
         if (!set_up.is_occupied) continue;
@@ -225,10 +210,35 @@ void require_no_day(const fs::path& root) {
     for (const char* name : {"journal", "archive", "events", "metadata", "truth.bin", "sites.csv",
                              "schedule.csv", "truth.csv", "survey.toml", PartialRoot::kName}) {
         if (fs::exists(root / name)) {
-            throw InputError("--out " + root.string() + ": already holds " + name +
-                             "; allowed: a directory without a day");
+            throw InputError(
+                fmt::format("--out {}: already holds {}; allowed: a directory without a day",
+                            root.string(), name));
         }
     }
+}
+
+/// Writes survey.toml, with which a351-correct corrects the day from the tables of write_plan();
+/// nothing if there are no occupations at two sites: at a single site gravity does not change, and a
+/// fitted model would be meaningless.
+void write_survey_file(const Scenario& scenario, const fs::path& directory) {
+    const auto is_elsewhere = [&](const ListedOccupation& one) {
+        return one.site != scenario.occupations.front().site;
+    };
+    if (std::ranges::none_of(scenario.occupations, is_elsewhere)) return;
+    write_text_file(
+        directory / "survey.toml",
+        fmt::format("# Simulated day; true gravity: truth.csv.  occupations = \"\" uses the event "
+                    "log, which\n"
+                    "# has the same times.\n"
+                    "[survey]\n"
+                    "name = \"{}\"\n"
+                    "root = \".\"\n"
+                    "sites = \"sites.csv\"\n"
+                    "occupations = \"schedule.csv\"\n"
+                    "base = \"{}\"\n"
+                    "model = \"auto\"\n"
+                    "flags = \"ignore\"\n",
+                    scenario.name, scenario.sites.front().name));
 }
 
 DirectSurvey write_day(const Scenario& scenario, const wire::DeviceProfile& profile,
@@ -272,11 +282,20 @@ DirectSurvey write_day(const Scenario& scenario, const wire::DeviceProfile& prof
     for (const record::Event& event : collected.events()) {
         record::append_event(files, root / "events", event);
     }
-    if (has_two_sites(scenario)) write_survey_file(scenario, root);
+    write_survey_file(scenario, root);
     return {collected.frames(), static_cast<std::int64_t>(archive.records_written())};
 }
 
 }  // namespace
+
+void write_plan(const Scenario& scenario, std::uint64_t seed, const fs::path& directory) {
+    const std::vector<PlannedSetUp> plan = plan_survey(scenario, seed);
+    const std::string truth = truth_csv(scenario, plan, seed);
+    fs::create_directories(directory);
+    write_text_file(directory / "sites.csv", sites_csv(scenario));
+    write_text_file(directory / "schedule.csv", schedule_csv(by_true_time(scenario, plan, seed)));
+    write_text_file(directory / "truth.csv", truth);
+}
 
 DirectSurvey write_survey(const Scenario& scenario, const wire::DeviceProfile& profile,
                           std::uint64_t seed, const fs::path& root) {

@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "protocol/wire/device_profile.hpp"
-#include "sim/device/register_machine.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace a351::sim {
@@ -26,5 +25,12 @@ struct DirectSurvey {
 /// @throws std::system_error  a file cannot be written.
 DirectSurvey write_survey(const Scenario& scenario, const wire::DeviceProfile& profile,
                           std::uint64_t seed, const std::filesystem::path& root);
+
+/// Writes sites.csv, schedule.csv and truth.csv of a simulated day into `directory`, which is made
+/// if it does not exist.  Without occupations, schedule and truth have no rows.
+/// @throws InputError         the occupations do not fit into the record; nothing is written.
+/// @throws std::system_error  a file cannot be written.
+void write_plan(const Scenario& scenario, std::uint64_t seed,
+                const std::filesystem::path& directory);
 
 }  // namespace a351::sim

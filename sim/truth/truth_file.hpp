@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <vector>
 
 #include "protocol/core/utc_time.hpp"
 #include "protocol/wire/burst_frame.hpp"
@@ -51,9 +50,5 @@ private:
     std::filesystem::path path_;
     std::ofstream out_;
 };
-
-/// Returns all records of a truth file.
-/// @throws InputError  the file cannot be read or is not a truth file.
-[[nodiscard]] std::vector<TruthRecord> read_truth(const std::filesystem::path& file);
 
 }  // namespace a351::sim

@@ -6,13 +6,11 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <numbers>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "corrector/eemd/eemd.hpp"
-#include "corrector/eemd/noise.hpp"
+#include "tests/unit/eemd/series.hpp"
 
 namespace {
 
@@ -24,12 +22,6 @@ Series read_input(const std::string& name) {
     Series values;
     for (double value = 0.0; in >> value;) values.push_back(value);
     return values;
-}
-
-double rms(std::span<const double> values) {
-    double squares = 0.0;
-    for (const double value : values) squares += value * value;
-    return std::sqrt(squares / static_cast<double>(values.size()));
 }
 
 double median(Series values) {
@@ -48,8 +40,9 @@ void report_closure(const char* name) {
     options.complementary_pairs = true;
     const EemdResult pairs = eemd(signal, options);
     std::printf("%s: closure / rms  plain %.1e  pairs %.1e  ensemble %.1e (theory, rms: %.1e)\n",
-                name, plain.closure_error / rms(signal), pairs.closure_error / rms(signal),
-                ensemble.closure_error / rms(signal),
+                name, closure_error(signal, plain) / rms(signal),
+                closure_error(signal, pairs) / rms(signal),
+                closure_error(signal, ensemble) / rms(signal),
                 ensemble.noise_level / std::sqrt(160.0) / rms(signal));
     std::printf("  %-8s %9s %10s %8s %12s\n", "", "extrema", "period", "share", "error / rms");
     const auto line = [](const std::string& what, const Component& component) {
@@ -87,7 +80,6 @@ Series with_spikes(Series piece, double noise) {
 struct Treatment {
     const char* name;
     EndRule ends;
-    SplineEnds spline;
     bool reflect;
 };
 
@@ -105,15 +97,8 @@ void report_ends(std::size_t length) {
                 length);
     std::printf("  %-34s %22s %22s\n", "", "as it is: whole  ends", "spikes: whole  ends");
     for (const Treatment& treatment :
-         {Treatment{"line, not-a-knot", EndRule::line, SplineEnds::not_a_knot, false},
-          Treatment{"line, natural", EndRule::line, SplineEnds::natural, false},
-          Treatment{"mirror, not-a-knot", EndRule::mirror, SplineEnds::not_a_knot, false},
-          Treatment{"mirror, natural", EndRule::mirror, SplineEnds::natural, false},
-          Treatment{"pinned, not-a-knot", EndRule::pinned, SplineEnds::not_a_knot, false},
-          Treatment{"record reflected, line, not-a-knot", EndRule::line, SplineEnds::not_a_knot,
-                    true},
-          Treatment{"record reflected, mirror, natural", EndRule::mirror, SplineEnds::natural,
-                    true}}) {
+         {Treatment{"line", EndRule::line, false}, Treatment{"mirror", EndRule::mirror, false},
+          Treatment{"record reflected, line", EndRule::line, true}}) {
         std::printf("  %-34s", treatment.name);
         for (const bool spikes : {false, true}) {
             Series of_whole;
@@ -125,7 +110,6 @@ void report_ends(std::size_t length) {
                 if (spikes) piece = with_spikes(piece, noise);
                 options.ensemble_size = 80;
                 options.ends = treatment.ends;
-                options.spline_ends = treatment.spline;
                 options.reflect_ends = treatment.reflect;
                 Series error = slow_part(eemd(piece, options), slow);
                 for (std::size_t i = 0; i < length; ++i) error[i] -= truth[begin + i];

@@ -112,7 +112,7 @@ BENCHMARK(ensemble_threads)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseR
 void ensemble_s4(benchmark::State& state) {
     const auto signal = noisy_oscillation(static_cast<std::size_t>(state.range(0)));
     EemdOptions options = options_for(state);
-    options.stopping = SNumber{4, 50};
+    options.stopping = SNumber{4};
     for (auto _ : state) benchmark::DoNotOptimize(eemd(signal, options));
 }
 BENCHMARK(ensemble_s4)

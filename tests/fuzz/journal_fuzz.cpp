@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "protocol/archive/archiver.hpp"
-#include "protocol/archive/retiming.hpp"
+#include "protocol/archive/retime.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/journal/journal_codec.hpp"
 #include "protocol/journal/journal_reader.hpp"

@@ -189,8 +189,9 @@ with Scratch() as scratch:
     print("shifts of first and last times against the recorded ones [s]:", shifts)
     # If the daemon is still configuring when the first bytes are due, it gets them late, so the first times are not tested.
     if not IS_SANITIZED:  # Slow programs are later, by varying amounts.
-        demand("in time: the last sample within 0.2 s of its recorded time",
-               all(abs(last) < 0.2 for _, last in shifts.values()))
+        # Both runs are at 20x: where the host delays one of them by 50 ms, its times shift by 1 s.
+        demand("in time: the last sample within 1 s of its recorded time",
+               all(abs(last) < 1.0 for _, last in shifts.values()))
 
     fast = scratch / "fast"
     begun = time.monotonic()

@@ -46,7 +46,7 @@ class Watch(threading.Thread):
 
     def __init__(self):
         super().__init__(daemon=True)
-        self.pauses, self.is_over = [], threading.Event()
+        self.pauses, self.longest_s, self.is_over = [], 0.0, threading.Event()
         self.start()
 
     def run(self):
@@ -56,6 +56,7 @@ class Watch(threading.Thread):
             self.note(now_s() - before_s - SLEEP_S)
 
     def note(self, seconds):
+        self.longest_s = max(self.longest_s, seconds)
         if seconds > LONGEST_DELAY_S:
             self.pauses.append((seconds, datetime.datetime.now(datetime.timezone.utc)))
 
@@ -114,7 +115,10 @@ def wait_for(child, watch):
 
 
 def run(command, at_most_s):
-    """Runs the command once and returns its status and the pauses."""
+    """Runs the command once and returns its status and the pauses.
+
+    After a failure without a pause it reports the longest delay, which shows how busy the host was.
+    """
     watch = Watch()
     try:
         child = subprocess.Popen(command)
@@ -133,7 +137,10 @@ def run(command, at_most_s):
             timer.cancel()
     finally:
         kill_the_rest()
-    return status, watch.end()
+    pauses = watch.end()
+    if status not in (0, SKIPPED) and not pauses:
+        print(f"longest delay of the host during the failed run: {1e3 * watch.longest_s:.0f} ms", flush=True)
+    return status, pauses
 
 
 def as_text(pauses):

@@ -74,7 +74,7 @@ function frame_of(points, factor, middle) {
 function oven_rows(points, interval_ms) {
     const rows = [];
     for (const point of points) {
-        const before = rows.length ? rows[rows.length - 1][0] : point[0];
+        const before = rows.length ? rows.at(-1)[0] : point[0];
         if (point[0] - before > 3 * interval_ms) rows.push([before + interval_ms, null, null]);
         rows.push(point);
     }
@@ -169,17 +169,14 @@ export class Charts {
                 continue;
             }
             if (span_s !== this.spans_s[group]) return;
-            if (name === "oven") this.draw_oven(history, from_ms, now_ms);
+            if (history.points.length === 0) set_text(`caption-${name}`, `${kNames[name]}: no data in this span`);
+            else if (name === "oven") this.draw_oven(history, from_ms, now_ms);
             else this.draw_envelope(name, history, from_ms, now_ms);
         }
     }
 
     draw_envelope(name, history, from_ms, to_ms) {
         const points = history.points;
-        if (points.length === 0) {
-            set_text(`caption-${name}`, `${kNames[name]}: no data in this span`);
-            return;
-        }
         const low = Math.min(...points.map((point) => point[1]));
         const high = Math.max(...points.map((point) => point[2]));
         if (name === "temperature") {
@@ -199,13 +196,9 @@ export class Charts {
     }
 
     draw_oven(history, from_ms, to_ms) {
-        if (history.points.length === 0) {
-            set_text("caption-oven", "oven: no data in this span");
-            return;
-        }
         const rows = oven_rows(history.points, 1000 * history.interval_s);
         this.update("oven", ["UTC", "oven", "set point"], false, rows, from_ms, to_ms);
-        const [, value, set_point] = history.points[history.points.length - 1];
+        const [, value, set_point] = history.points.at(-1);
         set_text("caption-oven",
             `oven: ${number(value, 1)} °C (blue), set point ${number(set_point, 1)} °C (brown, dashed)`);
     }

@@ -2,13 +2,13 @@
 
 /** Formats a number with a true minus sign; a dash if it is not known. */
 export function number(value, digits = 2) {
-    if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+    if (!Number.isFinite(value)) return "–";
     return value.toFixed(digits).replace("-", "−");
 }
 
 /** Formats a number with at most three significant digits. */
 export function significant(value) {
-    if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+    if (!Number.isFinite(value)) return "–";
     return String(Number(value.toPrecision(3))).replace("-", "−");
 }
 
@@ -18,14 +18,9 @@ export function signed(value, digits = 1) {
     return value > 0 ? "+" + text : text;
 }
 
-/** Replaces "degC" by "°C". */
-export function unit(name) {
-    return name.replace("degC", "°C");
-}
-
 /** Formats seconds as 45 s, 3 min 20 s or 2 h 05 min. */
 export function duration(seconds) {
-    if (seconds === null || seconds === undefined || !Number.isFinite(seconds)) return "–";
+    if (!Number.isFinite(seconds)) return "–";
     const s = Math.max(0, Math.round(seconds));
     if (s < 60) return `${s} s`;
     if (s < 3600) return `${Math.floor(s / 60)} min ${String(s % 60).padStart(2, "0")} s`;
@@ -39,7 +34,7 @@ export function time_of_day(rfc3339, decimals = 0) {
 
 /** Formats a data volume in decimal units. */
 export function volume(bytes) {
-    if (bytes === null || bytes === undefined) return "–";
+    if (!Number.isFinite(bytes)) return "–";
     return bytes >= 1e9 ? `${number(bytes / 1e9, 1)} GB` : `${number(bytes / 1e6, 0)} MB`;
 }
 

@@ -5,10 +5,6 @@ import { duration, number, visible, volume } from "./format.js";
 
 const kReserve = { present: "in place", given_up: "released", unavailable: "not possible" };
 
-function index(value) {
-    return value === null || value === undefined ? "–" : String(value);
-}
-
 function behind(newest, kept, rate_hz) {
     if (newest === null || kept === null || !rate_hz) return "";
     return ` (${number((newest - kept) / rate_hz, 1)} s behind)`;
@@ -54,9 +50,9 @@ export function show_health(status, page) {
         ["Sensor", `${device.state}${device.trouble ? `: ${device.trouble}` : ""}, ${device.port || "no port"}`],
         ["Device", `${device.profile} ${device.product_id} serial ${device.serial_number || "–"}, ` +
             `${device.output_rate_hz} Hz, ${device.filter}${device.assumed ? ", assumed as in the last session" : ""}`],
-        ["Received", `sample ${index(status.received)}`],
-        ["Journaled", `sample ${index(status.journaled)}${behind(status.received, status.journaled, rate_hz)}`],
-        ["Archived", `sample ${index(status.archived)}${behind(status.received, status.archived, rate_hz)}`],
+        ["Received", `sample ${status.received ?? "–"}`],
+        ["Journaled", `sample ${status.journaled ?? "–"}${behind(status.received, status.journaled, rate_hz)}`],
+        ["Archived", `sample ${status.archived ?? "–"}${behind(status.received, status.archived, rate_hz)}`],
         ["Gaps", `${counters.gaps} gaps, ${counters.samples_missing} samples missing`],
         ["Errors", trouble_counts(counters)],
         ["Time", timing_text(status.timing)],

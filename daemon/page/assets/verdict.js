@@ -1,7 +1,7 @@
 // The verdict, and the level of the box.
 
 import { by_id, set_items, set_text } from "./dom.js";
-import { duration, number, signed, significant, time_of_day, unit, visible } from "./format.js";
+import { duration, number, signed, significant, time_of_day, visible } from "./format.js";
 
 const kAdvice = {
     "stable": "Readings taken now are valid.",
@@ -9,12 +9,11 @@ const kAdvice = {
     "warming up": "Wait: the oven has not reached its operating temperature.",
     "disturbed": "The box was touched or shaken: step back and wait.",
     "no data": "No verdict is possible: see Health below.",
-    "not assessed": "",
 };
 const kBubbleScale = 100 / 3; // Drawing units per arc minute: the rim is 3'.
 
 function check_text(check) {
-    const name = check.unit ? " " + unit(check.unit) : "";
+    const name = check.unit ? " " + check.unit.replace("degC", "°C") : "";
     const error = check.error ? ` ± ${significant(check.error)}` : "";
     const ending = check.ending ? " " + check.ending : "";
     return `${visible(check.quantity)} ${significant(check.value)}${error}${name}${ending} ` +

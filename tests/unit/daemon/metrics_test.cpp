@@ -52,14 +52,14 @@ Status busy() {
     status.disk_free_bytes = 123456789;
     status.longest_sync = std::chrono::milliseconds(250);
     status.oven =
-        OvenStatus{.state = "answering",
-                   .trouble = "",
-                   .port = "",
-                   .values = oven::ControllerValues{DegC(42.25), DegC(42.5), Percent(25.0), 0},
-                   .decimals = 1,
-                   .age = std::chrono::milliseconds(1500),
-                   .is_stale = false,
-                   .polls = {{"answered", 7}}};
+        OvenLinkStatus{.state = OvenLinkStatus::State::answering,
+                       .trouble = "",
+                       .port = "",
+                       .values = oven::ControllerValues{DegC(42.25), DegC(42.5), Percent(25.0), 0},
+                       .decimals = 1,
+                       .age = std::chrono::milliseconds(1500),
+                       .is_stale = false,
+                       .polls = {7}};
     return status;
 }
 

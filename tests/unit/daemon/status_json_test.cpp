@@ -47,28 +47,34 @@ TEST_CASE("the status gives the oven's values with units, and null for a doubtfu
           "[daemon][page]") {
     Page page;
     CHECK(page.ask(get("/api/status"))["oven"] == json{{"state", "disabled"}});
-    page.status.oven =
-        OvenStatus{.state = "answering",
-                   .trouble = "",
-                   .port = "/dev/pts/5",
-                   .values = oven::ControllerValues{DegC(42.5), DegC(43.0), Percent(25.0), 0x0100},
-                   .decimals = 1,
-                   .age = std::chrono::milliseconds(1500),
-                   .is_stale = false,
-                   .polls = {{"answered", 7}, {"bad_crc", 2}}};
-    CHECK(page.ask(get("/api/status"))["oven"] ==
-          json{{"state", "answering"},
-               {"trouble", ""},
-               {"port", "/dev/pts/5"},
-               {"process_value_degc", 42.5},
-               {"set_point_degc", 43.0},
-               {"heating_percent", 25.0},
-               {"status_word", 256},
-               {"has_input_error", false},
-               {"decimals", 1},
-               {"age_s", 1.5},
-               {"is_stale", false},
-               {"polls", {{"answered", 7}, {"bad_crc", 2}}}});
+    page.status.oven = OvenLinkStatus{
+        .state = OvenLinkStatus::State::answering,
+        .trouble = "",
+        .port = "/dev/pts/5",
+        .values = oven::ControllerValues{DegC(42.5), DegC(43.0), Percent(25.0), 0x0100},
+        .decimals = 1,
+        .age = std::chrono::milliseconds(1500),
+        .is_stale = false,
+        .polls = {7, 0, 2}};
+    CHECK(page.ask(get("/api/status"))["oven"] == json{{"state", "answering"},
+                                                       {"trouble", ""},
+                                                       {"port", "/dev/pts/5"},
+                                                       {"process_value_degc", 42.5},
+                                                       {"set_point_degc", 43.0},
+                                                       {"heating_percent", 25.0},
+                                                       {"status_word", 256},
+                                                       {"has_input_error", false},
+                                                       {"decimals", 1},
+                                                       {"age_s", 1.5},
+                                                       {"is_stale", false},
+                                                       {"polls",
+                                                        {{"answered", 7},
+                                                         {"timed_out", 0},
+                                                         {"bad_crc", 2},
+                                                         {"exception", 0},
+                                                         {"other_unit", 0},
+                                                         {"malformed", 0},
+                                                         {"no_port", 0}}}});
     page.status.oven->values->process_value.reset();
     page.status.oven->values->status = oven::kInputError;
     const auto doubtful = page.ask(get("/api/status"));

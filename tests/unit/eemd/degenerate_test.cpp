@@ -13,7 +13,7 @@ std::vector<EemdOptions> every_kind() {
     std::vector<EemdOptions> kinds;
     for (const double noise_ratio : {0.0, 0.1}) {
         for (const StoppingRule& stopping :
-             {StoppingRule(FixedSifts{10}), StoppingRule(SNumber{4, 50})}) {
+             {StoppingRule(FixedSifts{10}), StoppingRule(SNumber{4})}) {
             for (const FinishRule finish : {FinishRule::at_most_two_extrema, FinishRule::always}) {
                 for (const int members : {1, 9}) {
                     EemdOptions options;
@@ -24,7 +24,6 @@ std::vector<EemdOptions> every_kind() {
                     options.mode_count = 6;
                     kinds.push_back(options);
                     options.ends = EndRule::mirror;
-                    options.spline_ends = SplineEnds::natural;
                     options.reflect_ends = true;
                     kinds.push_back(options);
                 }
@@ -44,7 +43,8 @@ void check_sane(const std::vector<double>& signal) {
             CHECK(component.size() == signal.size());
             for (const double value : component) REQUIRE(std::isfinite(value));
         }
-        CHECK(result.closure_error <= 9.0 * result.noise_level + 1e-13 * largest_magnitude(signal));
+        CHECK(closure_error(signal, result) <=
+              9.0 * result.noise_level + 1e-13 * largest_magnitude(signal));
     }
 }
 
@@ -118,7 +118,7 @@ TEST_CASE("a record of a million samples can be decomposed") {
     options.mode_count = 4;
     options.stopping = FixedSifts{2};
     const EemdResult result = eemd(signal, options);
-    CHECK(result.closure_error <= 1e-12);
+    CHECK(closure_error(signal, result) <= 1e-12);
     CHECK(result.modes[0].mean_period_samples > 2.0);
 }
 

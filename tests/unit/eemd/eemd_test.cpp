@@ -24,7 +24,6 @@ TEST_CASE("results are bit-identical on any number of threads and in every run")
         options.threads = threads;
         const EemdResult many = eemd(signal, options);
         CHECK(components_of(many) == components_of(one));
-        CHECK(many.closure_error == one.closure_error);
         for (std::size_t k = 0; k < one.modes.size(); ++k) {
             CHECK(many.modes[k].standard_error == one.modes[k].standard_error);
         }
@@ -156,9 +155,8 @@ TEST_CASE("with complementary pairs the components add up to the signal") {
     EemdOptions options = small_ensemble(20);
     options.complementary_pairs = true;
     const EemdResult result = eemd(signal, options);
-    CHECK(result.members == 20);
     CHECK(result.noise_level > 0.01);
-    CHECK(result.closure_error <= 1e-12 * rms(signal));
+    CHECK(closure_error(signal, result) <= 1e-12 * rms(signal));
 }
 
 TEST_CASE("with complementary pairs an inverted signal has inverted components, bit for bit") {
@@ -212,7 +210,7 @@ TEST_CASE("the components of a record with reflected ends have the length of the
         options.mode_count = 3;
         const EemdResult result = eemd(part, options);
         for (const auto& component : components_of(result)) CHECK(component.size() == n);
-        CHECK(result.closure_error <= 1e-12);
+        CHECK(closure_error(part, result) <= 1e-12);
     }
     // A cosine reflected at its extrema continues unchanged: one mode with equal extrema.
     std::vector<double> cosine(401);
@@ -274,10 +272,10 @@ TEST_CASE("an option outside its range is refused by name") {
     options = {};
     options.stopping = FixedSifts{0};
     refused(options, "stopping.count = 0");
-    options.stopping = SNumber{0, 50};
+    options.stopping = FixedSifts{10001};
+    refused(options, "stopping.count = 10001");
+    options.stopping = SNumber{0};
     refused(options, "stopping.repeats = 0");
-    options.stopping = SNumber{4, 10001};
-    refused(options, "stopping.max_sifts = 10001");
 }
 
 }  // namespace a351::corrector

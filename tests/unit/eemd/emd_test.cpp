@@ -20,9 +20,9 @@ TEST_CASE("modes and residue of plain EMD add up to the signal") {
         const EemdResult result = eemd(signal, plain());
         const double ulp =
             std::nextafter(largest_magnitude(signal), HUGE_VAL) - largest_magnitude(signal);
-        CHECK(result.closure_error <= 8.0 * ulp * static_cast<double>(result.modes.size() + 1));
+        CHECK(closure_error(signal, result) <=
+              8.0 * ulp * static_cast<double>(result.modes.size() + 1));
         CHECK(result.noise_level == 0.0);
-        CHECK(result.members == 1);
         CHECK_FALSE(result.residue.standard_error);
     }
 }
@@ -83,7 +83,7 @@ TEST_CASE("every decomposition has the requested number of modes") {
         options.mode_count = count;
         const EemdResult result = eemd(mixed_series(100), options);
         CHECK(result.modes.size() == static_cast<std::size_t>(count));
-        CHECK(result.closure_error < 1e-13);
+        CHECK(closure_error(mixed_series(100), result) < 1e-13);
     }
     CHECK(eemd(mixed_series(64), plain()).modes.size() == 5);
     CHECK(eemd(mixed_series(63), plain()).modes.size() == 4);

@@ -132,35 +132,32 @@ TEST_CASE("the noise that an ensemble leaves has the theoretical size within 5 p
 
 TEST_CASE("a short record reversed in time has its first mode reversed, with every end rule") {
     // Records are short, so that their modes have few extrema.
-    for (const EndRule ends : {EndRule::line, EndRule::mirror, EndRule::pinned}) {
-        for (const SplineEnds spline_ends : {SplineEnds::not_a_knot, SplineEnds::natural}) {
-            for (std::size_t n = 8; n <= 40; ++n) {
-                for (std::uint64_t seed = 0; seed < 50; ++seed) {
-                    SiftOptions options;
-                    options.stopping = FixedSifts{1};  // each sift amplifies rounding
-                    options.ends = ends;
-                    options.spline_ends = spline_ends;
-                    std::vector<double> signal = white_noise(n, seed);
-                    // The mean of three samples leaves waves of five samples and longer.
-                    for (std::size_t i = 0; i + 2 < n && seed % 2 == 1; ++i) {
-                        signal[i] = signal[i] + signal[i + 1] + signal[i + 2];
-                    }
-                    const auto first_mode = [&] {
-                        EmdWorkspace emd(n);
-                        std::copy(signal.begin(), signal.end(), emd.residue().begin());
-                        const auto mode = emd.next_mode(options);
-                        return std::vector<double>(mode.begin(), mode.end());
-                    };
-                    const std::vector<double> forward = first_mode();
-                    std::reverse(signal.begin(), signal.end());
-                    std::vector<double> backward = first_mode();
-                    std::reverse(backward.begin(), backward.end());
-                    INFO(n << " samples, seed " << seed << ", ends " << static_cast<int>(ends));
-                    REQUIRE(backward.size() == forward.size());
-                    const double limit = 1e-11 * largest_magnitude(forward);
-                    for (std::size_t i = 0; i < forward.size(); ++i) {
-                        REQUIRE(std::abs(backward[i] - forward[i]) <= limit);
-                    }
+    for (const EndRule ends : {EndRule::line, EndRule::mirror}) {
+        for (std::size_t n = 8; n <= 40; ++n) {
+            for (std::uint64_t seed = 0; seed < 50; ++seed) {
+                SiftOptions options;
+                options.stopping = FixedSifts{1};  // each sift amplifies rounding
+                options.ends = ends;
+                std::vector<double> signal = white_noise(n, seed);
+                // The mean of three samples leaves waves of five samples and longer.
+                for (std::size_t i = 0; i + 2 < n && seed % 2 == 1; ++i) {
+                    signal[i] = signal[i] + signal[i + 1] + signal[i + 2];
+                }
+                const auto first_mode = [&] {
+                    EmdWorkspace emd(n);
+                    std::copy(signal.begin(), signal.end(), emd.residue().begin());
+                    const auto mode = emd.next_mode(options);
+                    return std::vector<double>(mode.begin(), mode.end());
+                };
+                const std::vector<double> forward = first_mode();
+                std::reverse(signal.begin(), signal.end());
+                std::vector<double> backward = first_mode();
+                std::reverse(backward.begin(), backward.end());
+                INFO(n << " samples, seed " << seed << ", ends " << static_cast<int>(ends));
+                REQUIRE(backward.size() == forward.size());
+                const double limit = 1e-11 * largest_magnitude(forward);
+                for (std::size_t i = 0; i < forward.size(); ++i) {
+                    REQUIRE(std::abs(backward[i] - forward[i]) <= limit);
                 }
             }
         }

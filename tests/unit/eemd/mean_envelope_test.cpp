@@ -19,12 +19,11 @@ const std::vector<double> kKnots = {0,      0,    1,    2,      3.5,  5,      9.
 /// The mean of both splines, computed from the cubics of fit_mean_envelope().
 class Mean {
 public:
-    Mean(const std::vector<double>& x, std::vector<double> y, SplineEnds ends)
-        : x_(x), envelope_(x.size()) {
+    Mean(const std::vector<double>& x, std::vector<double> y) : x_(x), envelope_(x.size()) {
         std::vector<double> with_room = x;
         with_room.resize(x.size() + 8);
         y.resize(x.size() + 8);
-        fastest_kernels().fit_mean_envelope(with_room.data(), y.data(), x.size(), ends,
+        fastest_kernels().fit_mean_envelope(with_room.data(), y.data(), x.size(),
                                             envelope_.arrays());
     }
     [[nodiscard]] double operator()(double t) const {
@@ -51,8 +50,7 @@ std::vector<double> lane(const std::vector<double>& all, std::size_t first) {
 /// cubics y + b d + c d^2 + e d^3.
 class DenseSpline {
 public:
-    DenseSpline(std::vector<double> x, std::vector<double> y, SplineEnds ends)
-        : x_(std::move(x)), y_(std::move(y)) {
+    DenseSpline(std::vector<double> x, std::vector<double> y) : x_(std::move(x)), y_(std::move(y)) {
         const auto segments = static_cast<Eigen::Index>(x_.size()) - 1;
         Eigen::MatrixXd a = Eigen::MatrixXd::Zero(3 * segments, 3 * segments);
         Eigen::VectorXd right = Eigen::VectorXd::Zero(3 * segments);
@@ -68,15 +66,10 @@ public:
             a.block(row + 1, 3 * i, 1, 6) << 0, 1, 3 * h, 0, -1, 0;      // curvature
             row += 2;
         }
-        if (ends == SplineEnds::natural) {
-            a(row++, 1) = 1;
-            a.block(row++, 3 * segments - 2, 1, 2) << 1, 3 * h;
-        } else {
-            a(row, 2) = 1;
-            a(row++, 5) = -1;
-            a(row, 3 * segments - 4) = 1;
-            a(row++, 3 * segments - 1) = -1;
-        }
+        a(row, 2) = 1;
+        a(row++, 5) = -1;
+        a(row, 3 * segments - 4) = 1;
+        a(row, 3 * segments - 1) = -1;
         solution_ = a.fullPivLu().solve(right);
     }
     [[nodiscard]] double operator()(double t) const {
@@ -96,7 +89,7 @@ private:
 /// plain elimination from the left and substitution from the right, with 64-bit mantissas.
 class EliminatedSpline {
 public:
-    EliminatedSpline(std::vector<double> x, std::vector<double> y, SplineEnds ends)
+    EliminatedSpline(std::vector<double> x, std::vector<double> y)
         : x_(std::move(x)), y_(std::move(y)), c_(x_.size()) {
         const std::size_t n = x_.size();
         std::vector<long double> diagonal(n, 1.0L), above(n), below(n), right(n);
@@ -106,15 +99,13 @@ public:
             above[k] = h(k);
             right[k] = 3.0L * (slope(k) - slope(k - 1));
         }
-        if (ends == SplineEnds::not_a_knot) {
-            // The outermost curvatures are on the line through the next two.
-            const long double left = h(0) / h(1);
-            diagonal[1] += below[1] * (1.0L + left);
-            above[1] -= below[1] * left;
-            const long double last = h(n - 2) / h(n - 3);
-            diagonal[n - 2] += above[n - 2] * (1.0L + last);
-            below[n - 2] -= above[n - 2] * last;
-        }
+        // The outermost curvatures are on the line through the next two.
+        const long double left = h(0) / h(1);
+        diagonal[1] += below[1] * (1.0L + left);
+        above[1] -= below[1] * left;
+        const long double last = h(n - 2) / h(n - 3);
+        diagonal[n - 2] += above[n - 2] * (1.0L + last);
+        below[n - 2] -= above[n - 2] * last;
         for (std::size_t k = 2; k + 1 < n; ++k) {
             const long double factor = below[k] / diagonal[k - 1];
             diagonal[k] -= factor * above[k - 1];
@@ -123,10 +114,8 @@ public:
         for (std::size_t k = n - 2; k >= 1; --k) {
             c_[k] = (right[k] - (k + 2 < n ? above[k] * c_[k + 1] : 0.0L)) / diagonal[k];
         }
-        if (ends == SplineEnds::not_a_knot) {
-            c_[0] = c_[1] + h(0) / h(1) * (c_[1] - c_[2]);
-            c_[n - 1] = c_[n - 2] + h(n - 2) / h(n - 3) * (c_[n - 2] - c_[n - 3]);
-        }
+        c_[0] = c_[1] + left * (c_[1] - c_[2]);
+        c_[n - 1] = c_[n - 2] + last * (c_[n - 2] - c_[n - 3]);
     }
     [[nodiscard]] double operator()(double t) const {
         const auto after = std::upper_bound(x_.begin() + 1, x_.end() - 1, t);
@@ -159,7 +148,7 @@ TEST_CASE("splines through samples of two cubics have the mean of the cubics") {
         const std::vector<double> x(kKnots.begin(), kKnots.begin() + static_cast<long>(count));
         std::vector<double> y;
         for (std::size_t k = 0; k < count; ++k) y.push_back(k % 2 == 0 ? cubic(x[k]) : -3.0 * x[k]);
-        const Mean mean(x, y, SplineEnds::not_a_knot);
+        const Mean mean(x, y);
         for (double t = 0.0; t <= x[count - 2]; t += 0.25) {
             CHECK(mean(t) == Approx(0.5 * (cubic(t) - 3.0 * t)).epsilon(1e-12).margin(1e-12));
         }
@@ -185,7 +174,7 @@ TEST_CASE("envelopes with two to four knots are the polynomials through the knot
         const std::vector<double> knots(x.begin(), x.begin() + static_cast<long>(n));
         std::vector<double> y;
         for (std::size_t k = 0; k < n; ++k) y.push_back(at(k, x[k]));
-        const Mean mean(knots, y, SplineEnds::not_a_knot);
+        const Mean mean(knots, y);
         for (double t = 0.0; t <= x[n - 2]; t += 0.5) {
             CHECK(mean(t) == Approx(0.5 * (polynomial(0, n, t) + polynomial(1, n, t))));
         }
@@ -193,20 +182,17 @@ TEST_CASE("envelopes with two to four knots are the polynomials through the knot
 }
 
 TEST_CASE("the mean envelope agrees with dense solutions of both splines") {
-    for (const SplineEnds ends : {SplineEnds::not_a_knot, SplineEnds::natural}) {
-        // An envelope of three knots has no two segments left for not-a-knot.
-        const std::size_t fewest = ends == SplineEnds::natural ? 4 : 8;
-        for (std::size_t count = fewest; count <= kKnots.size(); ++count) {
-            const std::vector<double> x(kKnots.begin(), kKnots.begin() + static_cast<long>(count));
-            const std::vector<double> y = white_noise(count, 3);
-            const DenseSpline even(lane(x, 0), lane(y, 0), ends);
-            const DenseSpline odd(lane(x, 1), lane(y, 1), ends);
-            const Mean mean(x, y, ends);
-            for (std::size_t k = 1; k + 2 < count; ++k) {
-                const double t = x[k] + 0.375 * (x[k + 1] - x[k]);
-                INFO(count << " knots, t = " << t);
-                CHECK(mean(t) == Approx(0.5 * (even(t) + odd(t))).epsilon(1e-9).margin(1e-10));
-            }
+    // An envelope of three knots has no two segments left for the conditions at its ends.
+    for (std::size_t count = 8; count <= kKnots.size(); ++count) {
+        const std::vector<double> x(kKnots.begin(), kKnots.begin() + static_cast<long>(count));
+        const std::vector<double> y = white_noise(count, 3);
+        const DenseSpline even(lane(x, 0), lane(y, 0));
+        const DenseSpline odd(lane(x, 1), lane(y, 1));
+        const Mean mean(x, y);
+        for (std::size_t k = 1; k + 2 < count; ++k) {
+            const double t = x[k] + 0.375 * (x[k + 1] - x[k]);
+            INFO(count << " knots, t = " << t);
+            CHECK(mean(t) == Approx(0.5 * (even(t) + odd(t))).epsilon(1e-9).margin(1e-10));
         }
     }
 }
@@ -218,21 +204,19 @@ TEST_CASE("thousands of knots are eliminated without overflow, to the same accur
         x.push_back(x.back() + 1.0 + static_cast<double>((k * k) % 7) * (k > 2500 ? 1e5 : 1.0));
     }
     x.push_back(x.back());
-    for (const SplineEnds ends : {SplineEnds::not_a_knot, SplineEnds::natural}) {
-        for (const std::size_t count : {4999U, 5000U, 5001U, 5003U}) {
-            const std::vector<double> knots(x.end() - static_cast<long>(count), x.end());
-            const std::vector<double> y = white_noise(count, 4);
-            const EliminatedSpline even(lane(knots, 0), lane(y, 0), ends);
-            const EliminatedSpline odd(lane(knots, 1), lane(y, 1), ends);
-            const Mean mean(knots, y, ends);
-            for (std::size_t k = 1; k + 2 < count; ++k) {
-                const double t = knots[k] + 0.375 * (knots[k + 1] - knots[k]);
-                const double expected = 0.5 * (even(t) + odd(t));
-                INFO(count << " knots, t = " << t);
-                // The limits are relative to the cubics' terms, which are as large as the splines'
-                // swings between knots.
-                REQUIRE(mean(t) == Approx(expected).epsilon(1e-9).margin(1e-9));
-            }
+    for (const std::size_t count : {4999U, 5000U, 5001U, 5003U}) {
+        const std::vector<double> knots(x.end() - static_cast<long>(count), x.end());
+        const std::vector<double> y = white_noise(count, 4);
+        const EliminatedSpline even(lane(knots, 0), lane(y, 0));
+        const EliminatedSpline odd(lane(knots, 1), lane(y, 1));
+        const Mean mean(knots, y);
+        for (std::size_t k = 1; k + 2 < count; ++k) {
+            const double t = knots[k] + 0.375 * (knots[k + 1] - knots[k]);
+            const double expected = 0.5 * (even(t) + odd(t));
+            INFO(count << " knots, t = " << t);
+            // The limits are relative to the cubics' terms, which are as large as the splines'
+            // swings between knots.
+            REQUIRE(mean(t) == Approx(expected).epsilon(1e-9).margin(1e-9));
         }
     }
 }

@@ -1,14 +1,34 @@
 #include "corrector/eemd/noise.hpp"
 
+#include <array>
 #include "tests/support/catch.hpp"
 
 #include "tests/unit/eemd/series.hpp"
 
 namespace a351::corrector {
+namespace {
+
+using Words = std::array<std::uint32_t, 4>;
+
+std::uint32_t low_word(std::uint64_t value) { return static_cast<std::uint32_t>(value); }
+std::uint32_t high_word(std::uint64_t value) { return static_cast<std::uint32_t>(value >> 32); }
+
+/// Returns four random words of 32 bits for each counter and key, by Philox 4x32-10.
+Words philox(Words counter, std::array<std::uint32_t, 2> key) {
+    for (int round = 0; round < 10; ++round) {
+        const std::uint64_t p0 = std::uint64_t{0xD2511F53} * counter[0];
+        const std::uint64_t p1 = std::uint64_t{0xCD9E8D57} * counter[2];
+        counter = {high_word(p1) ^ counter[1] ^ key[0], low_word(p1),
+                   high_word(p0) ^ counter[3] ^ key[1], low_word(p0)};
+        key = {key[0] + 0x9E3779B9U, key[1] + 0xBB67AE85U};
+    }
+    return counter;
+}
+
+}  // namespace
 
 TEST_CASE("Philox 4x32-10 gives the published words") {
     // Known answers of the authors' library Random123, file kat_vectors.
-    using Words = std::array<std::uint32_t, 4>;
     CHECK(philox({0, 0, 0, 0}, {0, 0}) == Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8});
     CHECK(philox({0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff}, {0xffffffff, 0xffffffff}) ==
           Words{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd});

@@ -51,6 +51,18 @@ inline double largest_magnitude(std::span<const double> values) {
     return largest;
 }
 
+/// Returns the largest magnitude of the signal minus the sum of the components.
+inline double closure_error(std::span<const double> signal, const EemdResult& result) {
+    const auto components = components_of(result);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < signal.size(); ++i) {
+        double total = 0.0;
+        for (const auto& component : components) total += component[i];
+        largest = std::max(largest, std::abs(signal[i] - total));
+    }
+    return largest;
+}
+
 /// Returns the signal minus the sum of the components.
 inline std::vector<double> closure(std::span<const double> signal, const EemdResult& result) {
     std::vector<double> rest(signal.begin(), signal.end());

@@ -43,22 +43,19 @@ std::vector<std::vector<std::uint64_t>> decompose(std::span<const double> signal
 
 TEST_CASE("every instruction set gives the same modes, bit for bit") {
     const std::vector<const SiftKernels*> faster = faster_kernels();
-    for (const EndRule ends : {EndRule::line, EndRule::mirror, EndRule::pinned}) {
-        for (const SplineEnds spline : {SplineEnds::not_a_knot, SplineEnds::natural}) {
-            SiftOptions options;
-            options.finish = FinishRule::always;
-            options.ends = ends;
-            options.spline_ends = spline;
-            for (std::size_t n = 1; n < 400; n += n < 70 ? 1 : 37) {
-                std::vector<double> signal = white_noise(n, n);
-                if (n % 3 == 0) {
-                    for (double& value : signal) value = std::round(value);  // plateaus
-                }
-                const auto portable = decompose(signal, options, portable_kernels());
-                for (const SiftKernels* const kernels : faster) {
-                    INFO(kernels->name << ", " << n << " samples");
-                    CHECK(decompose(signal, options, *kernels) == portable);
-                }
+    for (const EndRule ends : {EndRule::line, EndRule::mirror}) {
+        SiftOptions options;
+        options.finish = FinishRule::always;
+        options.ends = ends;
+        for (std::size_t n = 1; n < 400; n += n < 70 ? 1 : 37) {
+            std::vector<double> signal = white_noise(n, n);
+            if (n % 3 == 0) {
+                for (double& value : signal) value = std::round(value);  // plateaus
+            }
+            const auto portable = decompose(signal, options, portable_kernels());
+            for (const SiftKernels* const kernels : faster) {
+                INFO(kernels->name << ", " << n << " samples");
+                CHECK(decompose(signal, options, *kernels) == portable);
             }
         }
     }

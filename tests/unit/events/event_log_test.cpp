@@ -201,7 +201,6 @@ TEST_CASE("notes during an occupation are joined, other notes stay only in the l
                                              end, note("09:30", "on the road")});
     REQUIRE(occupations.size() == 1);
     CHECK(occupations[0].note == "wind; lorry; calm");
-    CHECK_FALSE(occupations[0].used);
 }
 
 TEST_CASE("events of other kinds change no occupation", "[record][event_log]") {

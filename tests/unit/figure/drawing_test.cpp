@@ -13,9 +13,7 @@ using namespace std::chrono_literals;
 namespace {
 
 Figure figure(const std::string& name, const std::string& commands) {
-    Figure figure;
-    figure.name = name;
-    figure.script = script_head(name, 300, 200) + commands + script_tail();
+    Figure figure = FigureData(name).figure("", 300, 200, commands);
     figure.data = "1 1\n2 4\n";
     return figure;
 }

@@ -2,10 +2,7 @@
 #include <regex>
 #include "tests/support/catch.hpp"
 
-#include "corrector/figure/map_figure.hpp"
-#include "corrector/figure/record_figures.hpp"
-#include "corrector/figure/table_figures.hpp"
-#include "corrector/figure/temperature_figure.hpp"
+#include "corrector/figure/survey_figures.hpp"
 #include "tests/golden/tsukuba_table.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 
@@ -29,28 +26,16 @@ RepresentativeValue record_at(UtcTime start) {
         if (i >= 2) curve.push_back(981700.5 + std::sin(0.03 * i));
     }
     const Hertz rate(0.5);
-    RepresentativeValue value{
-        .acceleration = MilliGal(981700.5),
-        .eemd_mean = {},
-        .smoother_mean = {},
-        .smoother_standard_error = {},
-        .series_mean = {},
-        .standard_error = {},
-        .temperature = {},
-        .interval_start = start + std::chrono::seconds(4),
-        .interval_end = start + std::chrono::seconds(598),
-        .flags = {},
-        .counts = {},
-        .x = {},
-        .y = {},
-        .z = {},
-        .rectification = {},
-        .noise_level = {},
-        .series = TimeSeries<MilliGal>(start, rate, series),
-        .curve = TimeSeries<MilliGal>(start + std::chrono::seconds(4), rate, curve),
-        .temperature_series = TimeSeries<DegC>(start, rate, temperature),
-    };
-    return value;
+    RecordSummary summary;
+    summary.curve_mean = MilliGal(981700.5);
+    return {summary,
+            {},
+            start + std::chrono::seconds(4),
+            start + std::chrono::seconds(598),
+            {},
+            {start, rate, series},
+            {start + std::chrono::seconds(4), rate, curve},
+            {start, rate, temperature}};
 }
 
 SurveyRow row_behind(const RepresentativeValue& value, const std::string& site) {

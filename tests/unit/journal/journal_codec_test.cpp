@@ -4,7 +4,6 @@
 #include <vector>
 #include "tests/support/catch.hpp"
 
-#include "protocol/journal/journal_header_json.hpp"
 #include "tests/unit/journal/journal_samples.hpp"
 
 namespace a351::record {

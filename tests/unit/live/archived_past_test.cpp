@@ -1,4 +1,4 @@
-#include "daemon/live/archived_past.hpp"
+#include "daemon/live/live_record.hpp"
 
 #include <span>
 #include <string>

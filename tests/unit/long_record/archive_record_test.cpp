@@ -118,7 +118,6 @@ TEST_CASE("another sensor begins a new stretch, with a warning", "[long_record][
                StartsWith("from 2026-03-01T12:10:00") && ContainsSubstring("another sensor"));
     SegmentOptions options;
     options.shortest = 10;
-    options.stuck = 1000;
     const RecordSegments parts = divide_record(record, options);
     REQUIRE(parts.segments.size() == 2);
     CHECK(parts.segments[1].serial_number == "X0000002");

@@ -95,13 +95,11 @@ TEST_CASE("noise without a response is refused, and so are periods with too few 
 TEST_CASE("an acceleration proportional to the temperature has finite limits, not NaN",
           "[long_record][response]") {
     const std::vector<double> temperature = simulated_segment("indoor", 1).temperature_degc;
-    ResponseOptions options;
     // The coherence is 1 except for rounding in either direction.
     for (const double factor : {-1.0, 1.1, 3.3, 7.7, 13.7, 1e3, 1.7e5}) {
         std::vector<double> acceleration;
         for (const double value : temperature) acceleration.push_back(factor * value);
-        for (const auto& point :
-             response_by_spectrum(temperature, acceleration, kRecordStep_s, options)) {
+        for (const auto& point : response_by_spectrum(temperature, acceleration, kRecordStep_s)) {
             CAPTURE(factor, point.period_s);
             CHECK(point.coherence <= 1.0);
             CHECK(std::isfinite(point.gain.low));
@@ -113,18 +111,16 @@ TEST_CASE("an acceleration proportional to the temperature has finite limits, no
 TEST_CASE("a response that is not a finite number is refused", "[long_record][response]") {
     std::vector<double> temperature = simulated_segment("indoor", 1).temperature_degc;
     const std::vector<double> acceleration = temperature, still(temperature.size(), 0.0);
-    ResponseOptions options;
     const auto is_refused = [](const ResponsePoint& point) { return !point.refusal.empty(); };
     // The values are so small that their squares vanish and quotients by them overflow.
     for (double& value : temperature) value *= 1e-158;
     for (const auto& x : {temperature, still}) {
-        const auto points = response_by_spectrum(x, acceleration, kRecordStep_s, options);
+        const auto points = response_by_spectrum(x, acceleration, kRecordStep_s);
         CHECK(std::all_of(points.begin(), points.end(), is_refused));
         for (const ResponsePoint& point : points) CHECK(std::isfinite(point.gain.high));
     }
     for (const auto& y : {still}) {
-        const auto points =
-            response_by_modes({acceleration}, acceleration, y, kRecordStep_s, options);
+        const auto points = response_by_modes({acceleration}, acceleration, y, kRecordStep_s);
         CHECK(std::all_of(points.begin(), points.end(), is_refused));
         for (const ResponsePoint& point : points) CHECK(std::isfinite(point.gain.high));
     }

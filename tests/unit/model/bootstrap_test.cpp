@@ -1,9 +1,9 @@
-#include "corrector/model/bootstrap.hpp"
-
 #include <cmath>
 #include <string>
 #include <vector>
 #include "tests/support/catch.hpp"
+
+#include "corrector/model/model_fit.hpp"
 
 using namespace a351::corrector;
 

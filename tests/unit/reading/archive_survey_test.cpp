@@ -60,7 +60,7 @@ TEST_CASE("the result contains the record of each row and the temperature of the
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         const RepresentativeValue& record = result.records[i];
         CHECK(record.interval_start == result.rows[i].start);
-        CHECK(record.acceleration == result.rows[i].acceleration);
+        CHECK(record.curve_mean == result.rows[i].acceleration);
         REQUIRE(record.temperature_series.size() == record.series.size());
         const double middle = seconds_between(Morning::kBegin, record.series.time_of(37.0));
         CHECK(record.temperature_series.values()[37] ==

@@ -4,7 +4,7 @@
 #include <random>
 #include "tests/support/catch.hpp"
 
-#include "corrector/report/long_record_page.hpp"
+#include "corrector/report/report.hpp"
 
 using namespace a351;
 using namespace a351::corrector;

@@ -1,4 +1,4 @@
-#include "corrector/report/reading_table.hpp"
+#include "corrector/report/result_tables.hpp"
 
 #include <map>
 #include <pugixml.hpp>

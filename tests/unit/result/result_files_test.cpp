@@ -118,7 +118,7 @@ TEST_CASE("the JSON holds settings, inputs, both RMS of the paper and every row"
 }
 
 TEST_CASE("the same rows give result files with the same bytes", "[survey][result]") {
-    const auto write = [] { return result_files(corrected("auto"), {{"model", "auto"}}, {}); };
+    const auto write = [] { return result_files(corrected("auto"), {{"model", "auto"}}, {}, {}); };
     CHECK(write() == write());
 }
 

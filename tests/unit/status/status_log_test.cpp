@@ -60,15 +60,16 @@ TEST_CASE_METHOD(Fixture,
                  "[daemon][status_log]") {
     Status status;
     CHECK(said(status, 0).empty());
-    status.oven.emplace();
-    status.oven->state = "answering";
-    status.oven->port = "/dev/pts/5, 9600 baud 8N2";
-    status.oven->polls = {{"answered", 1}, {"timed_out", 0}};
+    OvenLinkStatus& oven = status.oven.emplace();
+    oven.state = OvenLinkStatus::State::answering;
+    oven.trouble = "";
+    oven.port = "/dev/pts/5, 9600 baud 8N2";
+    oven.polls = {1};  // Answered, timed out.
     CHECK(said(status, 1) == "oven: answering (/dev/pts/5, 9600 baud 8N2)\n");
-    status.oven->polls = {{"answered", 2}, {"timed_out", 3}};
+    oven.polls = {2, 3};
     CHECK(said(status, 2) == "oven polls timed_out: 3 more, 3 in total\n");
-    status.oven->state = "silent";
-    status.oven->trouble = "no answer in time";
+    oven.state = OvenLinkStatus::State::silent;
+    oven.trouble = "no answer in time";
     CHECK(said(status, 3) == "oven: silent (no answer in time)\n");
     CHECK(said(status, 4).empty());
 }

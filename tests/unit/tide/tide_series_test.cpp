@@ -142,8 +142,9 @@ TEST_CASE("a tide that the survey declares as given must be in the table",
     row.site = "A";
     row.time = kStart;
     std::vector<SurveyRow> rows{row};
-    CHECK_THROWS_WITH(set_given_tide(rows), ContainsSubstring("tide = given"));
-    set_tide(rows, sites, TideModel::direct, kRigidEarth);
+    CHECK_THROWS_WITH(apply_tide(rows, sites, {"given", {}, {}}),
+                      ContainsSubstring("tide = given"));
+    apply_tide(rows, sites, {"direct", kRigidEarth, {}});
     CHECK(rows[0].tide ==
           direct_tide(rows[0].time, {Degrees(36.0), Degrees(140.0), Metres(10.0)}, kRigidEarth));
 }

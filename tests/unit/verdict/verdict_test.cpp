@@ -219,6 +219,19 @@ TEST_CASE("a reading that drifts at steady temperature is not stable, and its sl
     CHECK(slow.run(3600.0).state == VerdictState::stable);
 }
 
+TEST_CASE("the slope of the reading is also checked if the history must be longer than 40 min",
+          "[verdict]") {
+    VerdictOptions options;
+    options.history_min = 60.0;
+    Series series(options);
+    series.drift_mgal_per_h = 30.0;
+    series.run(3500.0);
+    CHECK(find(series.judge.verdict(), "acceleration slope") == nullptr);
+    series.run(400.0);
+    REQUIRE(find(series.judge.verdict(), "acceleration slope") != nullptr);
+    CHECK(series.judge.verdict().state == VerdictState::settling);
+}
+
 TEST_CASE("a changed tilt counts as a hand at the box", "[verdict]") {
     Series series;
     series.run(3600.0);

@@ -4,7 +4,7 @@
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/text_file.hpp"
-#include "sim/device/flash_file.hpp"
+#include "sim/device/flash_memory.hpp"
 #include "tests/unit/sim/device/machine_script.hpp"
 
 using namespace a351;

@@ -1,4 +1,4 @@
-#include "sim/device/long_term_filter.hpp"
+#include "sim/device/signal_path.hpp"
 
 #include "tests/support/catch.hpp"
 

@@ -1,7 +1,7 @@
 #include <cmath>
 #include "tests/support/catch.hpp"
 
-#include "sim/device/output_stage.hpp"
+#include "sim/device/signal_path.hpp"
 #include "tests/unit/sim/device/machine_script.hpp"
 
 using namespace a351;

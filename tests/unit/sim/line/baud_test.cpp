@@ -1,4 +1,4 @@
-#include "sim/line/baud.hpp"
+#include "sim/line/line.hpp"
 
 #include "tests/support/catch.hpp"
 

@@ -5,7 +5,7 @@
 #include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
-#include "sim/line/control_orders.hpp"
+#include "sim/line/control_socket.hpp"
 
 using namespace a351;
 using namespace a351::sim;

@@ -1,5 +1,3 @@
-#include "sim/truth/truth_file.hpp"
-
 #include <unistd.h>
 
 #include <fstream>
@@ -7,6 +5,7 @@
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/text_file.hpp"
+#include "tests/unit/sim/truth_reader.hpp"
 
 using namespace a351;
 using namespace a351::sim;

@@ -125,13 +125,6 @@ TEST_CASE("an address that does not exist or is read-only is refused as an addre
     CHECK(controller.write(0x2103, across_the_end) == Refusal::address);
 }
 
-TEST_CASE("the earlier E5CN knows four-byte addresses only", "[sim][oven_controller]") {
-    FakeOven oven;
-    const OvenController controller(oven, {.has_two_byte_addresses = false});
-    CHECK(read_refusal(controller, 0x2000, 1) == Refusal::address);
-    CHECK(shown_long(controller, 0x0000) == 425);
-}
-
 TEST_CASE("106 elements are read at once, and 104 written at most", "[sim][oven_controller]") {
     FakeOven oven;
     OvenController controller(oven);
@@ -159,13 +152,13 @@ TEST_CASE("several variables are written together or not at all", "[sim][oven_co
 
 TEST_CASE("the set point stays within its limits", "[sim][oven_controller]") {
     FakeOven oven;
-    OvenController controller(oven, {.set_point_low = DegC(20.0), .set_point_high = DegC(50.0)});
+    OvenController controller(oven);
     enable_writing(controller);
-    CHECK(put(controller, 0x2103, 500) == std::nullopt);
-    CHECK(put(controller, 0x2103, 501) == Refusal::data);
-    CHECK(put(controller, 0x2900, 200) == std::nullopt);
-    CHECK(put(controller, 0x2900, 199) == Refusal::data);
-    CHECK(oven.target == DegC(20.0));
+    CHECK(put(controller, 0x2103, 5000) == std::nullopt);
+    CHECK(put(controller, 0x2103, 5001) == Refusal::data);
+    CHECK(put(controller, 0x2900, -200) == std::nullopt);
+    CHECK(put(controller, 0x2900, -201) == Refusal::data);
+    CHECK(oven.target == DegC(-20.0));
 }
 
 TEST_CASE("a stopped controller does not heat the oven", "[sim][oven_controller]") {

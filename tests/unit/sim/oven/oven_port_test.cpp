@@ -28,10 +28,10 @@ public:
     FakeOven oven;
     std::filesystem::path link;
 
-    explicit RunningOven(const OvenOptions& options = {})
+    RunningOven()
         : link(std::filesystem::temp_directory_path() /
                ("a351-oven-" + std::to_string(::getpid()))),
-          port_(link, oven, options) {}
+          port_(link, oven) {}
     ~RunningOven() { stop(); }
 
     void start() {
@@ -61,8 +61,8 @@ private:
 /// libmodbus as the master: an implementation independent of ours.
 class Master {
 public:
-    explicit Master(const std::filesystem::path& link, int unit = 1)
-        : context_(modbus_new_rtu(link.c_str(), 9600, 'N', 8, 1), modbus_free) {
+    explicit Master(const std::filesystem::path& link, int unit = 1, int baud = 9600)
+        : context_(modbus_new_rtu(link.c_str(), baud, 'N', 8, 1), modbus_free) {
         REQUIRE(context_);
         REQUIRE(modbus_set_slave(context_.get(), unit) == 0);
         wait_at_most(5s);  // An answer takes 50 to 300 ms, longer on a busy machine.
@@ -198,9 +198,7 @@ TEST_CASE("the oven sensor is broken and repaired by the name of the fault", "[s
 }
 
 TEST_CASE("after a power cycle the oven answers only after its restart time", "[sim][oven_port]") {
-    OvenOptions options;
-    options.server.restart_time = 2s;
-    RunningOven running(options);
+    RunningOven running;
     REQUIRE(running.port().apply_fault("oven_power_cycle", 1));
     running.start();
     Master master(running.link);
@@ -212,11 +210,9 @@ TEST_CASE("after a power cycle the oven answers only after its restart time", "[
 }
 
 TEST_CASE("a master at another speed is not understood", "[sim][oven_port]") {
-    OvenOptions options;
-    options.server.baud = 19200;
-    RunningOven running(options);
+    RunningOven running;
     running.start();
-    Master master(running.link);
+    Master master(running.link, 1, 19200);
     master.wait_at_most(1s);
     CHECK(master.read(0x2000) == -1);
     CHECK(errno == ETIMEDOUT);

@@ -4,7 +4,7 @@
 
 #include "protocol/archive/archiver.hpp"
 #include "protocol/journal/journal_reader.hpp"
-#include "sim/replay/open_recording.hpp"
+#include "sim/replay/recording.hpp"
 #include "tests/unit/sim/replay/replay_host.hpp"
 
 namespace a351::sim {

@@ -2,7 +2,7 @@
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/journal/journal_codec.hpp"
-#include "sim/replay/open_recording.hpp"
+#include "sim/replay/recording.hpp"
 #include "tests/support/file_bytes.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/journal/journal_samples.hpp"

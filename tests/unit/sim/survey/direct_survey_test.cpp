@@ -13,7 +13,7 @@
 #include "protocol/station/station_xml.hpp"
 #include "protocol/text/csv.hpp"
 #include "sim/scenario/survey_plan.hpp"
-#include "sim/truth/truth_file.hpp"
+#include "tests/unit/sim/truth_reader.hpp"
 
 using namespace a351;
 using namespace a351::sim;

@@ -1,0 +1,83 @@
+#include "corrector/command/options.hpp"
+
+#include <fmt/core.h>
+
+#include "corrector/figure/drawing.hpp"
+#include "protocol/core/input_error.hpp"
+#include "protocol/text/csv.hpp"
+
+namespace a351::corrector {
+namespace {
+
+/// Returns the longest beginning of the path that exists.
+std::filesystem::path existing_part(std::filesystem::path path) {
+    while (path.has_relative_path() && !std::filesystem::exists(path)) path = path.parent_path();
+    return path;
+}
+
+/// @param allowed  what the option may name.
+void require_folder(std::string_view name, const std::filesystem::path& path,
+                    const std::filesystem::path& folder, std::string_view allowed) {
+    const std::filesystem::path existing = existing_part(folder);
+    if (std::filesystem::is_directory(existing)) return;
+    throw InputError(fmt::format("{} = {}: {} is not a folder; allowed: {}", name, path.string(),
+                                 existing.string(), allowed));
+}
+
+}  // namespace
+
+void add_column_options(CLI::App& command, std::string& input, std::string& column) {
+    add_required(
+        command, "--input", "CSV", input,
+        "Table with a header line; a column time, time_utc or time_s must ascend in equal steps");
+    add_required(command, "--column", "NAME", column,
+                 "Column to read; an empty cell is a missing sample");
+}
+
+void add_figures_option(CLI::App& command, std::vector<std::string>& formats) {
+    add_option(command, "--figures", "FORMAT", formats,
+               "Also write the figures in this format, besides SVG; may be repeated")
+        ->allow_extra_args(false)
+        ->check(CLI::IsMember(picture_formats()));
+}
+
+void add_tide_factors(CLI::App& command, TideFactors& factors) {
+    add_with_default(command, "--delta2", "FACTOR", factors.delta2,
+                     "Gravimetric factor of degree 2 (1: rigid Earth)");
+    add_with_default(command, "--delta3", "FACTOR", factors.delta3,
+                     "Gravimetric factor of degree 3 (1: rigid Earth)");
+}
+
+TideFactors tide_factor_options(const TideFactors& factors) {
+    constexpr double kLeast = 0.5, kGreatest = 2.0;  // 1 is a rigid Earth
+    return {number_option("--delta2", factors.delta2, kLeast, kGreatest),
+            number_option("--delta3", factors.delta3, kLeast, kGreatest)};
+}
+
+UtcTime instant_option(std::string_view name, const std::string& text) {
+    if (const auto time = parse_rfc3339(text)) return *time;
+    throw InputError(fmt::format(
+        "{} = {}: not an instant; allowed: YYYY-MM-DDThh:mm:ss with Z or +hh:mm", name, text));
+}
+
+double number_option(std::string_view name, double value, double low, double high) {
+    if (value >= low && value <= high) return value;
+    throw InputError(fmt::format("{} = {}: out of range; allowed: {} to {}", name,
+                                 text::shortest(value), text::shortest(low), text::shortest(high)));
+}
+
+void require_file_option(std::string_view name, const std::filesystem::path& path) {
+    using Type = std::filesystem::file_type;
+    const Type type = std::filesystem::symlink_status(path).type();
+    if (!path.has_filename() || (type != Type::not_found && type != Type::regular)) {
+        throw InputError(
+            fmt::format("{} = {}: not a regular file; allowed: a file", name, path.string()));
+    }
+    require_folder(name, path, std::filesystem::absolute(path).parent_path(), "a file in a folder");
+}
+
+void require_folder_option(std::string_view name, const std::filesystem::path& path) {
+    require_folder(name, path, std::filesystem::absolute(path), "a folder");
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,58 @@
+#pragma once
+/// @file
+/// The two ways to a sampling sensor on a port that is open: a known stream that continues is
+/// adopted, any other sensor is configured.
+
+#include <atomic>
+#include <cstddef>
+#include <variant>
+#include <vector>
+
+#include "daemon/source/host_clock.hpp"
+#include "daemon/source/port.hpp"
+#include "protocol/journal/journal.hpp"
+#include "protocol/journal/stream_end.hpp"
+#include "protocol/wire/handshake.hpp"
+
+namespace a351::daemon {
+
+/// The result of one read of the port.
+struct Read {
+    RawTime time;
+    std::vector<std::byte> bytes;
+};
+
+struct Listening {
+    enum class Outcome {
+        continues,  ///< The known stream continues: the sensor must not be touched.
+        not_known,  ///< Silence or any other bytes: the sensor is stopped and configured.
+        port_gone,
+    };
+    Outcome outcome = Outcome::not_known;
+    std::vector<Read> reads;  ///< Everything received, in order.
+};
+
+/// Listens on a port that was just opened.  Gives up after a silence of half a second or 20 frame
+/// periods, whichever is longer, or after some seconds of bytes without a known stream.
+/// The stream counts as known when ten consecutive frames keep the counter step of its rate, and
+/// their counter has the value that timing::SampleIndex expects from `known`.
+/// A device that restarted meanwhile is mistaken for the known stream in one of 20 cases: when its
+/// new counter happens to be within a second of the expected one, or continues the old one.
+/// @param stop  listening ends when it becomes true.
+[[nodiscard]] Listening listen_for(const record::StreamEnd& known, Port& port,
+                                   const HostClock& clock, const std::atomic<bool>& stop);
+
+struct PortGone {};
+
+struct HandshakeRun {
+    std::variant<wire::DeviceIdentity, wire::HandshakeFailure, PortGone> outcome;
+    std::vector<record::TxChunk> sent;  ///< Commands in order, for the journal.
+    std::size_t bytes_skipped = 0;      ///< Bytes received that were no answer.
+};
+
+/// Carries out the steps of the handshake on the port until it succeeds or fails.
+/// @param stop  the run ends with a failure when it becomes true.
+[[nodiscard]] HandshakeRun run_handshake(wire::Handshake& handshake, Port& port,
+                                         const HostClock& clock, const std::atomic<bool>& stop);
+
+}  // namespace a351::daemon

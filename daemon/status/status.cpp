@@ -1,0 +1,132 @@
+#include "daemon/status/status.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "protocol/oven/controller_values.hpp"
+
+namespace a351::daemon {
+namespace {
+
+// 1 GiB lasts 9 days at 50 Hz: 100 MB of journal and 15 MB of archive a day.
+constexpr std::uint64_t kLittleSpace_bytes = std::uint64_t{1} << 30;
+
+/// Replaces unprintable characters: a device may report any bytes as its name.
+std::string printable(std::string text) {
+    std::ranges::replace_if(
+        text, [](char c) { return c < ' ' || c > '~'; }, '?');
+    return text;
+}
+
+/// Adds the oven's reasons.  They contain nothing that varies from poll to poll, because the log
+/// distinguishes reasons by their text.
+void assess_oven(Status& status, const OvenLinkStatus& oven) {
+    using State = OvenLinkStatus::State;
+    if (oven.state == State::searching) {
+        status.warn("oven: searching: " + oven.trouble);
+    } else if (oven.is_stale) {
+        status.warn(fmt::format(
+            "oven: {}; check the controller's cable (sensor data are not affected)",
+            oven.state == State::answering ? "the last answer is old" : to_text(oven.state)));
+    } else if (oven.values && oven::has_input_error(oven.values->status)) {
+        status.warn(
+            "oven: input error, its temperature is not valid; check the controller's probe (sensor "
+            "data are not affected)");
+    }
+}
+
+/// Compares the declared rate with one measured over a day, which includes the temperature's daily
+/// course.
+void assess_rate(Status& status) {
+    constexpr std::chrono::hours kNearlyADay{23};
+    // Limit in ppm.  Above it, readers that join records by their rate lose samples in three days.
+    constexpr double kTolerable_ppm = 0.2;
+    const auto& measured = status.measured_rate;
+    if (!measured || measured->span < kNearlyADay || measured->uncertainty_ppm > kTolerable_ppm)
+        return;
+    const double rate_hz = measured->rate.value();
+    if (!status.declared_rate_hz) {
+        status.rate_advice =
+            fmt::format("measured over a day: set declared_rate_hz = {:.6f} in [storage]", rate_hz);
+        return;
+    }
+    const double departure_ppm = 1e6 * (rate_hz / *status.declared_rate_hz - 1.0);
+    if (std::abs(departure_ppm) <= kTolerable_ppm + measured->uncertainty_ppm) return;
+    status.rate_advice = fmt::format(
+        "sample rate: {:.6f} Hz over a day, {:+.2f} ppm from declared_rate_hz (limit 0.2 ppm plus "
+        "its uncertainty); change it only between deployments",
+        rate_hz, departure_ppm);
+    status.warn(status.rate_advice);
+}
+
+}  // namespace
+
+void fill(Status& status, const LinkStatus& link) {
+    status.link_state = to_text(link.state);
+    status.link_trouble = link.trouble;
+    status.port = link.port;
+    if (link.device) {
+        status.product_id = printable(link.device->product_id);
+        status.serial_number = printable(link.device->serial_number);
+    }
+    status.is_device_assumed = link.is_device_assumed;
+    status.more_counters.insert({{"link_sessions", link.sessions},
+                                 {"link_adoptions", link.adoptions},
+                                 {"link_stalls", link.stalls},
+                                 {"ports_lost", link.ports_lost},
+                                 {"handshake_failures", link.handshake_failures},
+                                 {"queue_full", link.queue_full}});
+    if (link.waits_for_journal) {
+        status.warn(
+            "the disk is too slow: the buffer is full, reading from the sensor waits and samples "
+            "may be lost; check the disk");
+    }
+    if (link.state != LinkStatus::State::sampling) {
+        status.fail("no data: " + link.trouble);
+    } else if (link.device && !link.device->has_expected_product_id) {
+        status.warn(fmt::format(
+            "product identifier {} does not match the profile; check the sensor and sensor.profile",
+            status.product_id));
+    }
+    if (link.baud != link.configured_baud) {
+        status.warn(
+            fmt::format("the sensor runs at {} baud, not at the configured {}; recording "
+                        "continues, set sensor.baud to match",
+                        link.baud, link.configured_baud));
+    }
+}
+
+void assess(Status& status) {
+    assess_rate(status);
+    if (status.oven) assess_oven(status, *status.oven);
+    const std::string& calibrated = status.calibrated_serial_number;
+    if (!calibrated.empty() && !status.serial_number.empty() &&
+        calibrated != status.serial_number) {
+        status.warn(
+            fmt::format("the calibration is for unit {}, but the sensor is unit {}: the verdict "
+                        "uses another unit's behaviour; check survey.calibration",
+                        printable(calibrated), status.serial_number));
+    }
+    if (status.timing_state == timing::TimingState::unlocked) {
+        status.warn(
+            "timing: unlocked, sample times are not known until 60 s of data have been received; "
+            "wait");
+    } else if (status.timing_state == timing::TimingState::holdover) {
+        status.warn(
+            "timing: holdover, the host clock is not synchronised or has jumped; synchronise it, "
+            "and correct the times later with a351-correct retime");
+    }
+    if (status.counters.records_withheld > 0) {
+        status.warn(
+            fmt::format("the host clock was not set: {} records are in the journal only; "
+                        "synchronise the clock, then run a351-correct retime",
+                        status.counters.records_withheld));
+    }
+    if (!status.disk_free_bytes)
+        status.warn("disk: the free space cannot be determined; check the disk of storage.root");
+    else if (*status.disk_free_bytes < kLittleSpace_bytes)
+        status.warn("disk: less than 1 GiB free, at most 9 days at 50 Hz; make room");
+}
+
+}  // namespace a351::daemon
