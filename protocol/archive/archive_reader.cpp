@@ -79,10 +79,10 @@ ChannelData read_channel(const fs::path& archive, const StationCodes& codes,
         if (file.filename() < first || file.filename() > last) continue;
         const auto bytes = read_bytes(file);
         for (std::size_t at = 0; at < bytes.size();) {
-            const std::size_t from = at;
+            const std::size_t unread = at;
             const auto record = next_record(bytes, channel, at);
             const std::size_t found = record ? at - kRecordSize : at;
-            if (found > from) data.damage.push_back({file, from, found - from});
+            if (found > unread) data.damage.push_back({file, unread, found - unread});
             if (record) collector.take(*record);
         }
     }
