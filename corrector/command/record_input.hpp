@@ -1,4 +1,9 @@
 #pragma once
+/// @file
+/// Long records as the user names them on the command line.
+///
+///     const LongRecord record = joined_record(read_records(options.files, window));
+///     const RecordSegments parts = divide_or_refuse(record, {}, options.files.front());
 
 #include <string>
 #include <vector>
@@ -10,11 +15,19 @@ namespace a351::corrector {
 
 /// Reads data roots (a day file of an archive means its root) and CSV files, each as a record.
 /// A progress bar and a warning for each skipped part go to standard error.
+///
+/// A data root that is named several times, or by several of its day files, is read once.  Any file
+/// that is not in an archive is taken as CSV.
+/// @param files   existing paths; symbolic links are followed.
+/// @param window  part to be read, the same for all.
+/// @return records in the order of the files.
+/// @throws std::filesystem::filesystem_error  a path does not exist.
 /// @throws InputError  one cannot be read.
 [[nodiscard]] std::vector<LongRecord> read_records(const std::vector<std::string>& files,
                                                    const RecordWindow& window);
 
-/// Returns the parts found by divide_record().
+/// Returns the parts found by divide_record(), with at least one segment.
+/// @param name  of the record, for the message.
 /// @throws InputError  no part can be analysed; gives the reason for each.
 [[nodiscard]] RecordSegments divide_or_refuse(const LongRecord& record,
                                               const SegmentOptions& options,

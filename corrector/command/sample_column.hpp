@@ -1,4 +1,13 @@
 #pragma once
+/// @file
+/// Input of the commands that work on one column of a table.
+///
+///     SampleColumn column("in.csv", "acceleration_mgal");
+///     std::vector<double> samples;
+///     while (column.read(samples)) work(samples);
+///
+/// Samples have no times here, because all commands count them.  A time column is only checked, so
+/// that a missing row does not shift the rest without notice.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,8 +26,16 @@ namespace a351::corrector {
 /// An empty cell is a missing sample.  Where the table has a column `time`, `time_utc` (RFC 3339)
 /// or `time_s` (seconds), it must ascend in steps that are each within a quarter of the mean of
 /// those before.
+///
+/// Memory is that of one block of 16 384 samples.  The first of `time`, `time_utc` and `time_s` in
+/// the header is checked.  With it a missing row is refused: a missing sample needs a row with an
+/// empty cell.  A table of one column may have blank lines as missing samples
+/// (single_step_test.cpp).
 class SampleColumn {
 public:
+    /// Opens the file and reads its header.
+    /// @param file    path of the CSV, or of a pipe.
+    /// @param column  name in the header.
     /// @throws InputError  the file cannot be read, has no header or no such column.
     SampleColumn(const std::string& file, const std::string& column);
 
@@ -27,7 +44,9 @@ public:
     ///                     line.
     [[nodiscard]] bool read(std::vector<double>& samples);
 
+    /// Returns the number of samples read so far, missing ones included.
     [[nodiscard]] std::size_t count() const noexcept { return count_; }
+    /// Returns the number of missing samples among them.
     [[nodiscard]] std::size_t missing_count() const noexcept { return missing_count_; }
 
     /// Bytes read so far, and size of the file (0 for a pipe).

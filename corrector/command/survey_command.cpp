@@ -15,6 +15,7 @@
 #include "corrector/job/survey_file.hpp"
 #include "corrector/job/survey_readings.hpp"
 #include "corrector/model/calibration_use.hpp"
+#include "corrector/model/model.hpp"
 #include "corrector/model/trend_comparison.hpp"
 #include "corrector/report/joint_page.hpp"
 #include "corrector/report/report.hpp"
@@ -180,10 +181,10 @@ void correct_days(const SurveyCommandOptions& options) {
         auto result = days.begin();
         for (JointDay& day : joint_days)
             if (day.trouble.empty()) day.result = &(result++)->result;
-        text::write_together(
-            out, {{"joint.csv", joint_csv(joint)}, {"joint.html", joint_html(joint_days)}});
-        std::cout << (troubles.empty() ? "all days\n" : "all corrected days\n") << joint_text(joint)
-                  << '\n';
+        text::write_together(out, {{"joint.csv", csv_table(joint_columns(), joint)},
+                                   {"joint.html", joint_html(joint_days)}});
+        std::cout << (troubles.empty() ? "all days\n" : "all corrected days\n")
+                  << aligned_text(table_of(joint_columns(), joint)) << '\n';
     }
     std::cout << "written to " << out.string() << '\n';
     if (!troubles.empty())

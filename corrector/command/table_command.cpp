@@ -6,6 +6,8 @@
 
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
+#include "corrector/model/model.hpp"
+#include "corrector/model/survey_correction.hpp"
 #include "corrector/report/report.hpp"
 #include "corrector/result/result_files.hpp"
 #include "corrector/result/table_text.hpp"

@@ -1,6 +1,9 @@
 #pragma once
 /// @file
 /// Pictures within an HTML page.
+///
+/// A page with its pictures inside is one file that can be sent and archived.  The price is its
+/// size: text and data of every picture are in it.
 
 #include <optional>
 #include <string>
@@ -9,8 +12,14 @@ namespace a351::corrector {
 
 /// Converts a picture of gnuplot to an element of an HTML page, without declaration, description
 /// and size; it takes the width of its place.
-/// @param prefix  of its ids, so that several pictures can be in one page.
-/// @return std::nullopt if it is no well-formed SVG.
+///
+/// References to ids within the picture get the same prefix: xlink:href="#X" and values that begin
+/// with url(#X).  Titles of the plots are removed, which a browser would show under the mouse.
+///
+/// Only pictures that this program made with gnuplot are meant: scripts in an SVG are not removed.
+/// @param svg     whole content of the file, UTF-8.
+/// @param prefix  of its ids, so that several pictures can be in one page; letters, digits and '-'.
+/// @return std::nullopt if it is no well-formed SVG, or if its root element has no viewBox.
 [[nodiscard]] std::optional<std::string> inline_svg(const std::string& svg,
                                                     const std::string& prefix);
 

@@ -1,7 +1,13 @@
 #pragma once
 /// @file
-/// Figures of a long record at one point: figures 2 to 7 of the publication, the response by period,
-/// and the effect of a calibration.
+/// Figures of a long record at one point: figures 2 to 7 of the publication, the response by
+/// period, and the effect of a calibration.
+///
+/// The figures have the data of the analysed segment, with two exceptions: record-raw shows all
+/// stretches, and record-20s all segments.  Times are hours after an instant that the axis names.
+/// Accelerations are in mGal, temperatures in degC.
+///
+/// draw() of drawing.hpp makes the pictures; make_long_record_page() of report.hpp does all of it.
 
 #include <vector>
 
@@ -10,17 +16,30 @@
 
 namespace a351::corrector {
 
-/// Returns the figures in the publication's order.  Of a long series the least and the greatest
-/// value of each of 1500 steps are drawn, of a long scatter at most kMostPoints points at equal
-/// distances.
+/// Returns the publication's figures.  Of a long series the least and the greatest value of each of
+/// 1500 steps are drawn, of a long scatter at most kMostPoints points at equal distances.
+///
+/// Names in order: record-raw (2a), record-20s (2b), trend (4), modes (5), scatter-modes (6),
+/// correlation (7), scatter (3), with the publication's numbers in brackets.
+/// - record-raw is absent if no part of the record was decimated.
+/// - modes, scatter-modes and correlation are absent without RecordAnalysis::modes.
+/// - modes shows the middle 12 h of a longer segment.
+/// @param result  analysed, with at least one stretch.
 [[nodiscard]] std::vector<Figure> long_record_figures(const RecordResult& result);
 
 /// Returns the figure of gain and phase by period, from spectra and from modes, with the two-path
 /// fit.
+///
+/// Refused points are left out.  The fit is drawn from 240 s to the length of the segment, with its
+/// 95 % limits by linear propagation of the covariance.  Phase is positive if the acceleration
+/// leads.  Without any point the figure has the fit alone.
 [[nodiscard]] Figure response_figure(const RecordResult& result);
 
 /// Returns the figures of a record before and after a calibration was applied: the series, and
 /// their Allan deviations.
+///
+/// Both ways of correction are shown, parametric and by modes.  A long series is drawn as means of
+/// neighbours, at most kMostPoints of them, minus the mean of the whole.
 /// @pre result.applied
 [[nodiscard]] std::vector<Figure> applied_figures(const RecordResult& result);
 

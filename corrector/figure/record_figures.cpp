@@ -85,11 +85,13 @@ double half_range(double spread_of_98) { return std::max(1.2 * spread_of_98, 1e-
 
 /// Returns a text on the part of the record that was averaged.
 std::string averaged_text(const CorrectedRow& row, double mean_mgal) {
-    if (!row.day) return fmt::format("mean over the interval {} mGal.", text::fixed(mean_mgal, 3));
+    const auto* const day = row.as<WholeDayRow>();
+    if (day == nullptr)
+        return fmt::format("mean over the interval {} mGal.", text::fixed(mean_mgal, 3));
     return fmt::format(
         "the model day averages {} s of it to {} mGal; trend and interval apply to the other "
         "models.",
-        text::fixed(row.day->averaged_s, 0), text::fixed(row.row.acceleration.value(), 3));
+        text::fixed(day->averaged_s, 0), text::fixed(row.row.acceleration.value(), 3));
 }
 
 Figure reading_figure(const SurveyCorrection& result, const ReadingRecord& record) {

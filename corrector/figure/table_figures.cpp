@@ -238,9 +238,11 @@ std::optional<Figure> residual_figure(const SurveyCorrection& result) {
     return data.figure(
         fmt::format("Residuals (reference minus corrected) in time, in sample; bars: standard "
                     "uncertainty {}",
-                    result.model == "day" ? "of the prediction without the reading's station."
-                    : result.network      ? "of a single reading, a priori."
-                                          : "as of a new station, from the scatter in sample."),
+                    result.as<WholeDayPart>() != nullptr
+                        ? "of the prediction without the reading's station."
+                    : result.as<NetworkAdjustment>() != nullptr
+                        ? "of a single reading, a priori."
+                        : "as of a new station, from the scatter in sample."),
         900, 430,
         fmt::format("{}set ylabel 'Residual (mGal)'\n"
                     "set offsets graph 0.02, graph 0.02, graph 0.03, graph 0.03\n{}",

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "corrector/model/model.hpp"
 #include "corrector/reading/representative_value.hpp"
 #include "protocol/text/strict_toml.hpp"
 
@@ -101,11 +102,11 @@ void use_calibration(SurveyFile& survey, const std::filesystem::path& file) {
 }
 
 TrendMethod trend_method_of(const SurveyFile& survey) noexcept {
-    return survey.survey.model == "paper" ? TrendMethod::eemd : survey.trend;
+    return survey.survey.model == paper_model().name() ? TrendMethod::eemd : survey.trend;
 }
 
 TrendCurve trend_curve_of(const SurveyFile& survey) {
-    if (survey.survey.model == "paper") return TrendCurve::paper;
+    if (survey.survey.model == paper_model().name()) return TrendCurve::paper;
     return survey.curve.value_or(RepresentativeOptions().curve);
 }
 

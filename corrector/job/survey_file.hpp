@@ -1,13 +1,20 @@
 #pragma once
 /// @file
 /// The survey file: data and options of one survey day.
+///
+///     SurveyFile survey = read_survey_file("day.toml");
+///     OccupationRows read = read_survey(survey, progress);  // survey_readings.hpp
+///
+/// The smallest file is `[survey]`: the data root is then `data` beside it, and the table of sites
+/// is `sites.csv` beside it.  Its keys are in the manual page a351-survey.toml(5).  Options of the
+/// command line are set in the struct after reading; the file itself is never changed.
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 
-#include "corrector/model/survey_correction.hpp"
+#include "corrector/model/corrected_survey.hpp"
 #include "corrector/reading/occupation_rows.hpp"
 #include "corrector/tide/tide_choice.hpp"
 
@@ -15,6 +22,18 @@ namespace a351::corrector {
 
 /// One survey day, from table [survey] of its TOML file.  Paths in the file are relative to it.
 /// The options of the average are those below; read_survey() sets `averaging` from them.
+///
+/// - `survey`: options of the correction, with the priors of table [prior].  `calibration` and
+///   `survey.calibration` belong together; use_calibration() sets both.
+/// - `tide`: source of the tide; a file is relative to the survey file.
+/// - `trend`, `curve`: as written in the file.  What is used depends on the model too: see
+///   trend_method_of() and trend_curve_of().
+/// - `cutoff_s`: kShortestCutoff_s to kLongestCutoff_s; it has an effect with any `trend`, because
+///   the other trend is computed for comparison.
+/// - `norm`: order of norm and decimation.
+/// - `seed`: also that of the bootstrap, survey.seed.  The same seed gives the same result.
+///
+/// A default-constructed object has the defaults of the file, but no paths.
 struct SurveyFile : SurveySource {
     std::string name;                   ///< Name of the day; default: the file's stem.
     std::filesystem::path calibration;  ///< File of survey.calibration; empty: none.
@@ -29,19 +48,29 @@ struct SurveyFile : SurveySource {
 };
 
 /// Reads a survey file.
+///
+/// The table of sites and the calibration are read and checked too.  Occupations, amendments and
+/// samples are not: read_survey() does this.  A message has file, line, key and value, and what is
+/// allowed; examples are in survey_file_test.cpp.
+/// @param file  TOML with table [survey] and, if wanted, table [prior].
 /// @throws InputError  unknown key or value, a root that is no directory, a base or datum that is
-///                     not in the table of sites.
+///                     not in the table of sites.  Also a file, a table of sites or a calibration
+///                     that cannot be read.
 [[nodiscard]] SurveyFile read_survey_file(const std::filesystem::path& file);
 
-/// Reads a calibration for the survey.
+/// Reads a calibration for the survey.  It replaces an earlier one.
+///
+/// The unit and the validity are compared with the record later, by check_calibration().
+/// @throws InputError  as read_calibration(); the survey has then the new path and its old numbers.
 void use_calibration(SurveyFile& survey, const std::filesystem::path& file);
 
 /// Returns the trend that is used: the publication's decomposition for model `paper`, else that of
-/// the file.
+/// the file.  Use it instead of SurveyFile::trend in every output.
 [[nodiscard]] TrendMethod trend_method_of(const SurveyFile& survey) noexcept;
 
 /// Returns the trend curve that is used: the publication's for model `paper`, else that of the file
-/// or the default.
+/// or the default.  With the smoother as trend it changes only eemd_mgal and the difference from
+/// it, which are for comparison.
 [[nodiscard]] TrendCurve trend_curve_of(const SurveyFile& survey);
 
 }  // namespace a351::corrector

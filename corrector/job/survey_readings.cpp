@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "corrector/model/model.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/input_file.hpp"
 
@@ -55,7 +56,7 @@ SurveyOptions with_sites_of(OccupationRows& read, SurveyOptions options) {
     const auto is_absent = [&read](const std::string& site) {
         return std::ranges::find(read.rows, site, &SurveyRow::site) == read.rows.end();
     };
-    if (!options.base.empty() && is_absent(options.base) && options.model != "paper") {
+    if (!options.base.empty() && is_absent(options.base) && options.model != paper_model().name()) {
         read.warnings.push_back("base " + options.base +
                                 " has no occupation with a value: the first site is used instead");
         options.base.clear();

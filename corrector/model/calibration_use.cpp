@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "corrector/model/whole_day_model.hpp"
 #include "protocol/linear_algebra/symmetric_eigen.hpp"
 #include "protocol/text/aligned_text.hpp"
 
@@ -42,8 +43,7 @@ std::string name_of(const Calibration& calibration) {
                        calibration.program, to_rfc3339(calibration.valid_from));
 }
 
-void remark_test(SurveyCorrection& result, const char* part,
-                 const std::optional<Disagreement>& test) {
+void remark_test(ModelFit& result, const char* part, const std::optional<Disagreement>& test) {
     if (!test)
         result.remarks.push_back(fmt::format(
             "the calibration's {} not tested: the readings contain no information about this part",
@@ -114,9 +114,8 @@ std::optional<Disagreement> disagreement(const DayFit& fit,
     return test;
 }
 
-void report_prior_use(SurveyCorrection& result, const DayFit& fit, const DayFit& without,
-                      const std::optional<double>& without_loso_mgal) {
-    const Calibration& calibration = result.options.calibration.value();
+void report_prior_use(ModelFit& result, const Calibration& calibration, const DayFit& fit,
+                      const DayFit& without, const std::optional<double>& without_loso_mgal) {
     CalibrationUse use;
     use.is_prior = true;
     if (calibration.axis_bias) use.axis_bias = disagreement(fit, kAxisPlaces);
@@ -154,7 +153,7 @@ SurveyCorrection correct_with_calibration(const std::vector<SurveyRow>& rows,
     for (SurveyRow& row : freed)
         row.acceleration = row.acceleration - tilt_effect(row, calibration.axis_bias);
     SurveyCorrection result = correct_survey(freed, options, day);
-    if (result.model == "day") return result;
+    if (result.as<WholeDayPart>() != nullptr) return result;
 
     CalibrationUse use;
     double sum = 0.0, squares = 0.0;
@@ -186,7 +185,7 @@ SurveyCorrection correct_with_calibration(const std::vector<SurveyRow>& rows,
 std::string_view calibration_in(const SurveyCorrection& result, const ModelScore& score) {
     const std::optional<Calibration>& calibration = result.options.calibration;
     if (!helps_to_correct_day(calibration)) return "none";
-    if (score.model == "day") return "prior";
+    if (score.model == whole_day_model().name()) return "prior";
     return calibration->axis_bias ? "fixed" : "none";
 }
 

@@ -1,6 +1,17 @@
 #pragma once
 /// @file
 /// Correction of a survey with the calibration of its unit (corrector/methods.md, "Calibration").
+///
+/// For rows from records call correct_with_calibration() in place of correct_survey(), also without
+/// a calibration, and write calibration_json() to the result.  The other functions are for the
+/// whole-day model and for tables.
+///
+///     options.calibration = read_calibration("calibration.toml");
+///     const SurveyCorrection result = correct_with_calibration(rows, options, day);
+///     const auto json = calibration_json(result);
+///
+/// Serial number and validity are not compared with the survey here; check_calibration()
+/// (corrector/job) does that.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -17,11 +28,16 @@ namespace a351::corrector {
 inline constexpr double kContradictionP = 0.01;
 
 /// Returns true if the calibration has axis biases or a thermal response.  A warm-up time alone
-/// does not help to correct a day.
+/// does not help to correct a day.  If true, the whole-day model needs one row with a reference
+/// instead of six.
 [[nodiscard]] bool helps_to_correct_day(const std::optional<Calibration>& calibration);
 
 /// Returns the usual priors, combined with the calibration: axis biases with their covariance, the
 /// thermal response with kThermalErrorFactor^2 times its covariance.
+///
+/// The result is narrower than either: for a single coefficient the inverse variances add up.
+/// Without a calibration it is usual_day_priors().
+/// @throws std::invalid_argument  as DayPriors::observe().
 [[nodiscard]] DayPriors day_priors_of(const std::optional<Calibration>& calibration);
 
 /// Tests how far the day moved some lags and terms from their priors.
@@ -30,6 +46,10 @@ inline constexpr double kContradictionP = 0.01;
 /// posterior covariance V, s has the covariance D = 1 - V if the prior is true.  chi-square = s^T
 /// D^-1 s over the directions in which D is above 1e-10 (terms) or 1e-4 (lags); dof is their
 /// number.
+///
+/// If the prior is true, the p of a part is below kContradictionP on one day in a hundred.  A prior
+/// that is wrong is found also if its stated errors are much too small (calibration_use_test.cpp:
+/// axis biases wrong by 5000 mGal/g, with variances down to 0.01).
 /// @param fit     fit with these priors.
 /// @param places  places in DayPriors; their priors must be independent of those of other places.
 /// @return std::nullopt if the day contains no information about them (dof = 0).
@@ -42,20 +62,27 @@ inline constexpr double kContradictionP = 0.01;
 /// are reported too.
 inline constexpr double kHarm = 0.03;
 
-/// Sets SurveyCorrection::calibration and adds remarks on the calibration as prior of the whole-day
-/// model.
-/// @param result             survey with corrected rows and score; its options have a calibration.
+/// Sets ModelFit::calibration and adds remarks on the calibration as prior of the whole-day model.
+///
+/// There is always one remark on the use and its effect.  Others follow if a part is contradicted,
+/// if it could not be tested, or if LOSO is worse by more than kHarm.
+/// @param result             fit with corrected rows and score.
+/// @param calibration        calibration of the unit.
 /// @param fit                fit with day_priors_of().
 /// @param without            fit of the same rows with the usual priors.
 /// @param without_loso_mgal  LOSO with the usual priors; absent if there is none.
-void report_prior_use(SurveyCorrection& result, const DayFit& fit, const DayFit& without,
-                      const std::optional<double>& without_loso_mgal);
+void report_prior_use(ModelFit& result, const Calibration& calibration, const DayFit& fit,
+                      const DayFit& without, const std::optional<double>& without_loso_mgal);
 
 /// Corrects a survey with the calibration of the options, if there is one.
 ///
 /// The whole-day model takes the calibration as prior.  For all other models bx x + by y is
 /// subtracted from the readings before the fit and shown as tilt correction; the uncertainty of the
 /// biases is neglected, and the thermal response is not used.
+///
+/// The accelerations of the result are those before the subtraction, and the corrections still add
+/// up to the corrected value (calibration_use_test.cpp).  The scores of the models that were not
+/// applied are made from readings after the subtraction, also if `day` is applied.
 /// @param rows, options, day  as correct_survey().
 /// @throws InputError  as correct_survey(), and if there are axis biases and a row has no means of
 ///                     the axes.
@@ -65,10 +92,16 @@ void report_prior_use(SurveyCorrection& result, const DayFit& fit, const DayFit&
 
 /// Returns the use of the calibration in a score: "prior", "fixed" (axis bias x tilt was subtracted
 /// from the readings) or "none".
+/// @param result  result of correct_with_calibration().
+/// @param score   one of its scores.
 [[nodiscard]] std::string_view calibration_in(const SurveyCorrection& result,
                                               const ModelScore& score);
 
 /// Returns the part `calibration` of result.json; null without a calibration.
+///
+/// It has the unit, the validity, the use and test of both parts, and the effect.  Values that are
+/// not defined are null: tests of fixed biases, and the comparison without LOSO.
+/// @param result  result of correct_with_calibration().
 [[nodiscard]] nlohmann::ordered_json calibration_json(const SurveyCorrection& result);
 
 }  // namespace a351::corrector

@@ -1,6 +1,17 @@
 #pragma once
 /// @file
 /// Ordinary least squares with a constant, in centred form, and the quantities derived from a fit.
+///
+/// Use it for few columns and rows of equal weight.  For rows of different weight divide them by
+/// their standard deviation and use PivotedQr; for bad rows use robust_fit.hpp.
+///
+///     const auto fit = fit_linear(columns, y);
+///     if (!fit) return;                                // the rows do not determine the slopes
+///     const double predicted = fit->at(x);             // also for x outside the rows
+///     if (const auto s = fit->residual_scale())        // absent if nothing is left to estimate it
+///         *s * std::sqrt(fit->cofactor(1, 1));         // standard error of the first slope
+///
+/// All functions are pure, so several threads may call them.
 
 #include <Eigen/Core>
 #include <optional>
@@ -11,6 +22,9 @@ namespace a351::corrector {
 ///
 /// The fit is made on y - mean(y) and X - mean(X), so that full values near 980000 mGal keep their
 /// last digits.
+///
+/// The standard error of coefficient k is s sqrt(cofactor(k, k)).  A default-constructed fit is
+/// empty and has no meaning.
 struct LinearFit {
     Eigen::VectorXd coefficients;  ///< (p) Constant first, then one per column of X.
     Eigen::MatrixXd cofactor;      ///< (p, p) Covariance of the coefficients, divided by s^2.
@@ -27,7 +41,7 @@ struct LinearFit {
     [[nodiscard]] Eigen::Index row_count() const { return residuals.size(); }
     /// Returns p, the constant included.
     [[nodiscard]] Eigen::Index parameter_count() const { return coefficients.size(); }
-    /// Returns the degrees of freedom: n + number of priors - p.
+    /// Returns the degrees of freedom: n + number of priors - p.  It is never negative.
     [[nodiscard]] Eigen::Index dof() const { return row_count() + prior_count - parameter_count(); }
 
     /// Returns the value of the fit, mean + (x - column_means) . b, in the unit of y.
@@ -37,6 +51,9 @@ struct LinearFit {
     /// Returns 1/n + (x - column_means)^T C (x - column_means), where C is the cofactor without the
     /// constant.  For a row of the fit this is its leverage.  s^2 times it
     /// is the variance of at(x).
+    ///
+    /// It is at least 1/n.  Far from the rows it increases with the square of the distance, without
+    /// a limit.  The error of a new row y at x is s sqrt(1 + leverage_at(x)).
     /// @param x  (p - 1) values of the columns, also outside the rows of the fit.
     [[nodiscard]] double leverage_at(const Eigen::Ref<const Eigen::VectorXd>& x) const;
 
@@ -46,6 +63,9 @@ struct LinearFit {
 
 /// Prior knowledge of slopes.  Each slope with a weight above 0 adds one row to the least-squares
 /// system: weight (b - value) = 0.
+///
+/// Both vectors are empty, or both have p - 1 elements; this is not checked.  A value without a
+/// weight has no effect.
 struct SlopePriors {
     Eigen::VectorXd values;  ///< (p - 1) Means, in the unit of the slopes; empty: no priors.
     /// (p - 1) Standard deviation of a row of y, divided by that of the prior; 0: no prior.
@@ -57,6 +77,11 @@ struct SlopePriors {
 /// The coefficients are b = (Xc^T Xc + W^2)^-1 (Xc^T yc + W^2 value), with Xc and yc centred and W
 /// the diagonal matrix of the weights; they are solved by QR decomposition with column pivoting.
 /// The constant has no prior.
+///
+/// A column counts as determined if its pivot is above 1e-12 (1 + largest |X|) sqrt(n).  This |X|
+/// is the largest of all columns, so choose units in which the columns are of similar size.
+///
+/// Cost: O((n + p) p^2), with some allocations.  The same input gives the same bits.
 ///
 /// Accuracy (linear_fit_test.cpp): exact data leave residuals below 1e-12.  Adding 980000 to y
 /// changes slopes by less than 1e-9 of their value.  A residual divided by 1 - leverage is the

@@ -8,6 +8,18 @@
 ///
 /// D is in mGal, T in degC, its rate R in degC/h, the time t in h, and x, y in g.
 /// T0 and t0 only shift the constant; they keep the numbers small.
+///
+/// Use these models for one average per occupation.  For records use the whole-day model, which
+/// knows the course of the temperature between the occupations.
+///
+///     const auto choice = choose_model(rows, origin, base);
+///     const LinearModel& model = *find_linear_model(choice->model);
+///     const auto fit = fit_model(model, rows, origin);           // fit->coefficients
+///     const ModelScore score = score_linear_model(model, rows, origin);
+///
+/// The same origin must be given to all calls for one survey, because it is part of t0.  All
+/// functions are pure and deterministic.
+///
 /// Models, scores and choice: corrector/methods.md, "Linear models".
 
 #include <Eigen/Core>
@@ -24,9 +36,10 @@
 
 namespace a351::corrector {
 
-/// T0, degC.  Reason: near the oven's set point.
+/// T0, degC.  Reason: near the oven's set point.  The whole-day model has its own T0, 42.5 degC, so
+/// the constants of both differ.
 inline constexpr DegC kReferenceTemperature{42.6};
-/// t0, h after the first row.  Reason: middle of a survey day.
+/// t0, h after the origin, which is the first row of a survey.  Reason: middle of a survey day.
 inline constexpr double kReferenceTime_h = 5.0;
 
 /// A linear model: its name and its terms besides the constant.
@@ -45,6 +58,11 @@ struct LinearModel {
 };
 
 /// Models from which `auto` chooses.  The list was fixed before any data were fitted.
+///
+/// - `t`: temperature only.  Use it for few rows.
+/// - `t-rate`: and its rate, for a temperature that still changes during the occupations.
+/// - `t-drift`: and time, for a drift of the instrument.
+/// - `t-rate-drift`: all three.  `auto` takes it only as choose_model() says.
 inline constexpr std::array<LinearModel, 4> kLinearModels{{
     {"t", true, false, false},
     {"t-rate", true, true, false},
@@ -62,8 +80,8 @@ inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
     {"drift", false, false, true},
 }};
 
-/// Returns the chosen rows.
-/// @param chosen  (n) one flag per row.
+/// Returns copies of the chosen rows, in their order.
+/// @param chosen  (n) one flag per row; the number is not checked.
 [[nodiscard]] std::vector<SurveyRow> chosen_rows(const std::vector<SurveyRow>& rows,
                                                  const std::vector<bool>& chosen);
 
@@ -75,6 +93,9 @@ inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
 
 /// Returns the regressors of a model (n, p - 1): those of T - T0 (degC), R (degC/h), t - t0 (h), x
 /// (g) and y (g) that it has, in this order; one row per survey row.
+///
+/// The columns are those of fit_linear().  A coefficient times its column is an effect in mGal,
+/// which is subtracted from the reading.
 /// @param rows    (n), also without reference; n may be 0.
 /// @param origin  instant at which t = 0.
 /// @throws InputError  if the model has axes and a row has no means of them.
@@ -82,6 +103,8 @@ inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
                                             const std::vector<SurveyRow>& rows, UtcTime origin);
 
 /// Returns the names of the coefficients with their units (p): the constant, then one per column.
+///
+/// They are the names of result.json, and those of kPriorNames where a prior is possible.
 [[nodiscard]] std::vector<std::string> coefficient_names(const LinearModel& model);
 
 /// Returns the priors on the slopes of a model, in the order of its columns (p - 1).  A weight is
@@ -89,6 +112,9 @@ inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
 [[nodiscard]] SlopePriors slope_priors(const LinearModel& model, const ModelPriors& priors);
 
 /// Fits a model to D (mGal) by fit_linear().
+///
+/// LinearFit::at() then returns the effect on a reading, mGal:
+/// corrected = acceleration - tide - at(x), with x a row of model_columns().
 /// @param rows    (n), each with a reference.
 /// @param origin  instant at which t = 0.
 /// @param priors  priors on the slopes; see slope_priors().
@@ -100,11 +126,15 @@ inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
 
 /// Root mean square errors of a model, mGal.  A score is absent if it is not defined for so few
 /// rows, or for this model.
+///
+/// `rms_mgal` and `s_mgal` are in sample: the fit has seen these rows.  `loso_mgal` is the error to
+/// expect at a station of unknown gravity; compare models by it.
 struct ModelScore {
     std::string model;                ///< Name of the model.
     std::size_t row_count = 0;        ///< Number of rows n.
     std::size_t parameter_count = 0;  ///< Number of coefficients p.
-    /// Degrees of freedom of the residuals: n + rows of priors and datum - p.
+    /// Degrees of freedom of the residuals: n + rows of priors and datum - p.  `paper`, `robust`
+    /// and `day` have n - p, at least 0.
     std::size_t dof = 0;
     std::optional<double> rms_mgal;   ///< In sample, sqrt(RSS / n).
     std::optional<double> s_mgal;     ///< In sample, divisor dof instead of n.
@@ -121,6 +151,9 @@ struct ModelScore {
 ///
 /// LOO uses r / (1 - h) with residual r and leverage h, which is exact for least squares.  LOSO
 /// fits again without each station; it is absent if one of these fits is not determined.
+///
+/// s and LOO are absent if dof is 0.  AICc needs n > p + 2 and an RSS above 0.  Cost: one fit for
+/// each station.
 ///
 /// Accuracy: all scores of the eight reference regressions on the published rows agree within
 /// 0.0005 (tests/golden/tsukuba_models_test.cpp).
@@ -153,8 +186,8 @@ struct ModelScore {
 
 /// Limits of a confidence interval, in the unit of the quantity.
 struct Interval {
-    double low = 0.0;
-    double high = 0.0;
+    double low = 0.0;   ///< Lower limit.
+    double high = 0.0;  ///< Upper limit, at least `low`.
 };
 
 /// Number of bootstrap draws.  Reason: enough for the second digit of the limits.
@@ -164,6 +197,7 @@ inline constexpr int kBootstrapDraws = 1000;
 ///
 /// Each of kBootstrapDraws draws takes as many stations as there are, with replacement, and each
 /// station with all its rows.  The limits are the 2.5 % and 97.5 % percentiles of the draws.
+/// Stations and not rows are drawn, because rows of one station have an error in common.
 /// The generator is std::mt19937_64: the same seed gives the same interval on any machine.
 ///
 /// Accuracy: agrees with the normal approximation for 400 stations within 0.01, and for 100
@@ -187,6 +221,9 @@ struct ModelChoice {
 /// The limit is the least LOSO plus its standard error, LOSO / sqrt(2 (n - p)).  Among the models
 /// within the limit, the one with the fewest terms is chosen, then the one with the smaller LOSO.
 /// `t-rate-drift` takes part only with at least three occupations of the base or twelve rows.
+///
+/// The LOSO of the chosen model is too small as an error, because the model was chosen by it.  Use
+/// choice_loso_mgal() as the error to expect.
 /// @param rows    (n) rows of the fit, each with a reference.
 /// @param origin  instant at which t = 0.
 /// @param base    name of the base station.
@@ -198,6 +235,9 @@ struct ModelChoice {
 
 /// Returns the LOSO (mGal) of choosing and fitting together: the choice is repeated without each
 /// station.  Absent if one of these choices or fits is impossible.
+///
+/// It is usually larger than the LOSO of the chosen model.  Cost: choose_model() once for each
+/// station.
 /// @param rows, origin, base, priors  as choose_model().
 [[nodiscard]] std::optional<double> choice_loso_mgal(const std::vector<SurveyRow>& rows,
                                                      UtcTime origin, std::string_view base,

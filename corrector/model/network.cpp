@@ -146,8 +146,8 @@ void solve(NetworkAdjustment& network, const NetworkSystem& system) {
 }
 
 /// Returns a message that says why these unknowns are undetermined, and what would help.
-std::string refusal_of(const NetworkAdjustment& network, const NetworkReadings& readings,
-                       const std::vector<std::size_t>& open) {
+Refusal refusal_of(const NetworkAdjustment& network, const NetworkReadings& readings,
+                   const std::vector<std::size_t>& open) {
     std::vector<std::string> names;
     bool has_drift = false;
     for (const std::size_t k : open) {
@@ -155,13 +155,13 @@ std::string refusal_of(const NetworkAdjustment& network, const NetworkReadings& 
         names.push_back(is_term ? network.terms[k - network.stations.size()] : network.stations[k]);
         has_drift = has_drift || (is_term && names.back().starts_with("time"));
     }
-    return fmt::format(
-        "the readings do not determine {}: {}; allowed: further occupations{}", text::joined(names),
-        has_repeat(readings) ? "there are fewer repeated readings than coefficients to determine"
-                             : "every station is occupied only once in its loop",
-        has_drift ? " of a station at other times, more datum stations, a prior on "
-                    "time_mgal_per_h, or a smaller drift_degree"
-                  : ", more datum stations, or a prior on a coefficient");
+    return {fmt::format("the readings do not determine {}: {}", text::joined(names),
+                        has_repeat(readings)
+                            ? "there are fewer repeated readings than coefficients to determine"
+                            : "every station is occupied only once in its loop"),
+            has_drift ? "further occupations of a station at other times, more datum stations, a "
+                        "prior on time_mgal_per_h, or a smaller drift_degree"
+                      : "further occupations, more datum stations, or a prior on a coefficient"};
 }
 
 void add_remarks(NetworkAdjustment& network, const NetworkReadings& readings) {
@@ -220,22 +220,21 @@ NetworkResult adjust_network(const std::vector<SurveyRow>& rows, const std::vect
         const std::string& name = readings.stations[k];
         if (!readings.is_held[k] && std::ranges::find(datum, name) != datum.end())
             return {{},
-                    fmt::format("datum = {}: no reference gravity; allowed: stations with "
-                                "gravity_mgal",
-                                name)};
+                    {fmt::format("datum = {}: no reference gravity", name),
+                     "stations with gravity_mgal"}};
     }
-    if (readings.stations.empty()) return {{}, "no reading in use; allowed: at least one"};
+    if (readings.stations.empty()) return {{}, {"no reading in use", "at least one"}};
     if (std::ranges::count(readings.is_held, true) == 0)
         return {{},
-                fmt::format("no datum: none of the stations in use has a reference that is held, "
-                            "so the constant is undetermined; allowed: gravity_mgal of at least "
-                            "one occupied station ({})",
-                            text::joined(readings.stations))};
+                {"no datum: none of the stations in use has a reference that is held, so the "
+                 "constant is undetermined",
+                 fmt::format("gravity_mgal of at least one occupied station ({})",
+                             text::joined(readings.stations))}};
     if (const auto groups = unconnected_groups(readings); !groups.empty())
         return {{},
-                fmt::format("unconnected: no chain of stations and loops joins a datum to {}; "
-                            "allowed: a datum in every group, or its rows taken out of use",
-                            text::joined(groups, "; "))};
+                {fmt::format("unconnected: no chain of stations and loops joins a datum to {}",
+                             text::joined(groups, "; ")),
+                 "a datum in every group, or its rows taken out of use"}};
     NetworkAdjustment network;
     network.stations = readings.stations;
     set_terms(network, rows, in_use, priors, options.drift_degree);

@@ -13,6 +13,20 @@
 /// A pause of more than kLoopPause_h begins a loop with its own constant and drift.  A loop without
 /// a reading in use has neither.  The rate R takes part only if it has a prior.
 ///
+/// T0 is kReferenceTemperature; t0 is kReferenceTime_h after the first row of the loop; k is 0 to
+/// drift_degree.  Pauses are those between rows, in use or not.
+///
+/// Use it to find many unknown stations from repeated readings and a few known ones.  A station
+/// read once gets a value, but no error of its reading can be found.
+///
+///     const NetworkResult result = adjust_network(rows, in_use, {"No.0"}, priors, options);
+///     if (!result.adjustment) return result.refusal.trouble;
+///     const NetworkAdjustment& network = *result.adjustment;
+///     network.origin + MilliGal(network.unknowns(0));  // gravity of network.stations[0]
+///     std::sqrt(network.covariance(0, 0));             // its uncertainty a priori, mGal
+///
+/// All functions are pure and deterministic.
+///
 /// Methods: corrector/methods.md, "Networks".
 /// Redundancy numbers: W. Baarda, A testing procedure for use in geodetic networks, Delft 1968.
 
@@ -22,6 +36,7 @@
 #include <vector>
 
 #include "corrector/model/prior.hpp"
+#include "corrector/model/refusal.hpp"
 #include "corrector/reading/survey_row.hpp"
 
 namespace a351::corrector {
@@ -30,7 +45,8 @@ namespace a351::corrector {
 /// pause; after it the instrument was switched off and on again and has a new constant.
 inline constexpr double kLoopPause_h = 6.0;
 
-/// Significance of the two-sided global test.
+/// Significance of the two-sided global test: probability that it fails although all standard
+/// deviations are right.  Reason: the usual 5 %.
 inline constexpr double kGlobalTestAlpha = 0.05;
 
 /// Least redundancy of a controlled row.  Below it, less than a tenth of a blunder shows in the
@@ -40,14 +56,18 @@ inline constexpr double kControlledRedundancy = 0.1;
 /// Options of the adjustment.
 struct NetworkOptions {
     /// Standard deviation of a reference, mGal.  Default: typical of gravity networks, and a
-    /// hundredth of what this sensor can achieve.
+    /// hundredth of what this sensor can achieve.  It must be above 0; this is not checked.
     double datum_sd_mgal = 0.01;
     int drift_degree = 1;  ///< Degree of the drift, 0 to 2; column k is (t - t0)^k, t in h.
 };
 
 /// A row of the system: a reading, a datum or a prior.
+///
+/// The unit of a reading or a datum is mGal, that of a prior is the unit of its coefficient.
 struct NetworkRow {
-    std::string label;        ///< Name of the row in messages and tables.
+    /// Name of the row in messages and tables: `S2 (1)` for a reading (site and stay), `datum S2`,
+    /// or `prior` and the name of the term.
+    std::string label;
     double residual = 0.0;    ///< v = A x - y, in the unit of the row.
     double sd = 1.0;          ///< Standard deviation a priori, in the unit of the row.
     double redundancy = 0.0;  ///< 0: uncontrolled, 1: fully controlled.
@@ -56,23 +76,28 @@ struct NetworkRow {
 /// An adjusted network: s stations, m terms of the instrument, n survey rows.
 struct NetworkAdjustment {
     std::vector<std::string> stations;  ///< (s) Names, in order of the first reading in use.
-    std::vector<std::string> terms;     ///< (m) Terms of the instrument, with units.
-    MilliGal origin;                    ///< Gravity of a station = origin + its unknown.
-    Eigen::VectorXd unknowns;           ///< (s + m) Stations (mGal), then terms.
-    Eigen::MatrixXd covariance;         ///< (s + m, s + m) Covariance of the unknowns a priori.
-    Eigen::MatrixXd term_columns;       ///< (n, m) Regressors of the terms, rows in use or not.
-    std::vector<bool> is_tied;          ///< (n) True if the loop of the row has a reading in use.
-    std::vector<NetworkRow> rows;       ///< Readings in use in order of time; datum; priors.
-    std::size_t reading_count = 0;      ///< Number of readings in use.
-    std::size_t datum_count = 0;        ///< Number of stations held.
-    std::size_t dof = 0;                ///< Degrees of freedom: rows - unknowns.
-    double weighted_square = 0.0;       ///< v^T W v
-    double chi_square_low = 0.0;        ///< Lower limit of the global test; 0 if dof = 0.
-    double chi_square_high = 0.0;       ///< Upper limit of the global test; 0 if dof = 0.
-    std::vector<std::string> remarks;   ///< Facts that the user must know, in sentences.
+    /// (m) Terms of the instrument, with units; from the second loop on with a suffix `_loop2`.
+    std::vector<std::string> terms;
+    MilliGal origin;             ///< Gravity of a station = origin + its unknown.
+    Eigen::VectorXd unknowns;    ///< (s + m) Stations (mGal), then terms.
+    Eigen::MatrixXd covariance;  ///< (s + m, s + m) Covariance of the unknowns a priori.
+    /// (n, m) Regressors of the terms, rows in use or not; 0 in rows that are not tied.
+    Eigen::MatrixXd term_columns;
+    std::vector<bool> is_tied;         ///< (n) True if the loop of the row has a reading in use.
+    std::vector<NetworkRow> rows;      ///< Readings in use in order of time; datum; priors.
+    std::size_t reading_count = 0;     ///< Number of readings in use.
+    std::size_t datum_count = 0;       ///< Number of stations held.
+    std::size_t dof = 0;               ///< Degrees of freedom: rows - unknowns.
+    double weighted_square = 0.0;      ///< v^T W v
+    double chi_square_low = 0.0;       ///< Lower limit of the global test; 0 if dof = 0.
+    double chi_square_high = 0.0;      ///< Upper limit of the global test; 0 if dof = 0.
+    std::vector<std::string> remarks;  ///< Facts that the user must know, in sentences.
 
     /// Returns s0 = sqrt(v^T W v / dof), the ratio of the standard deviations a posteriori and a
     /// priori; absent if dof = 0.
+    ///
+    /// About 1: the standard deviations agree with the residuals.  Far above 1: they are too small,
+    /// or there is a blunder.  Far below 1: they are too large.
     [[nodiscard]] std::optional<double> s0() const;
     /// Returns true if v^T W v is within the limits of the global test; absent if dof = 0.
     [[nodiscard]] std::optional<bool> passes_global_test() const;
@@ -81,7 +106,8 @@ struct NetworkAdjustment {
     /// reading is too low.  Absent if r < 1e-9, if dof < 2, or if s_i is not positive.
     /// @param reading  number of the reading, below reading_count.
     [[nodiscard]] std::optional<double> studentised(std::size_t reading) const;
-    /// Returns the contribution of a term to the reading of a survey row, mGal.
+    /// Returns the contribution of a term to the reading of a survey row, mGal.  To correct the
+    /// reading, subtract it.
     /// @param row   number of the survey row, in use or not.
     /// @param term  number in `terms`.
     [[nodiscard]] double effect_mgal(std::size_t row, std::size_t term) const;
@@ -89,8 +115,8 @@ struct NetworkAdjustment {
 
 /// The adjustment, or the reason why there is none.
 struct NetworkResult {
-    std::optional<NetworkAdjustment> adjustment;
-    std::string refusal;  ///< `trouble; allowed: ...`; empty if there is an adjustment.
+    std::optional<NetworkAdjustment> adjustment;  ///< Absent: see `refusal`.
+    Refusal refusal;                              ///< Empty if there is an adjustment.
 };
 
 /// Adjusts a network.
@@ -98,12 +124,22 @@ struct NetworkResult {
 /// The global test compares v^T W v with the chi-square distribution of `dof` degrees of freedom,
 /// two-sided at kGlobalTestAlpha.  If the test fails, nothing is scaled.
 ///
+/// A temperature that does not vary between the rows in use, and has no prior, is left out with a
+/// remark.  Remarks also name stations that only the drift connects with a datum, and readings with
+/// a redundancy below kControlledRedundancy.
+///
+/// An unknown is undetermined if it takes part in a combination of unknowns that changes no row.
+/// The limit is 1e-9 of the largest singular value, with columns of length 1.
+///
+/// Cost: a singular value decomposition, O(r u^2) for r rows and u unknowns.
+///
 /// Accuracy (network_test.cpp): made-up readings with a quadratic drift give back gravity within
 /// 1e-9 mGal, drift terms within 1e-9 of their unit, and the temperature coefficient within
 /// 1e-8 mGal/degC.  The redundancies of all rows add up to dof.
 /// @param rows     (n) in ascending time, at least one; finite.
 /// @param in_use   (n); a row in use needs no reference.
-/// @param datum    names of the stations to hold; empty: all that have a reference.
+/// @param datum    names of the stations to hold; empty: all that have a reference.  A name without
+///                 a reading in use has no effect.
 /// @param priors   priors on the coefficients, and the standard deviation of a reading.
 /// @param options  see NetworkOptions.
 /// @return a refusal if no reading is in use, if no station is held, if a listed station has no

@@ -1,6 +1,17 @@
 #pragma once
 /// @file
 /// The linear system of a network: stations, terms of the instrument, and rows.
+///
+/// It is a part of adjust_network(), which solves the system.  The order of calls matters:
+///
+///     const NetworkReadings readings = find_stations(rows, in_use, datum);
+///     NetworkAdjustment network;
+///     network.stations = readings.stations;
+///     set_terms(network, rows, in_use, priors, drift_degree);
+///     const NetworkSystem system = build_system(network, rows, in_use, readings, priors, options);
+///
+/// Unknowns are the stations in the order of `stations`, then the terms.  All functions must get
+/// the same rows and the same `in_use`.
 
 #include <Eigen/Core>
 #include <string>
@@ -15,11 +26,16 @@ struct NetworkReadings {
     std::vector<std::string> stations;    ///< (s) Names of the stations of the network.
     std::vector<bool> is_held;            ///< (s) True for a datum.
     std::vector<std::size_t> station_of;  ///< Number of the station of each reading, by time.
-    std::vector<std::size_t> loop_of;     ///< Number of the loop of each reading.
-    std::vector<MilliGal> references;     ///< (s) Known gravity; 0 for an unknown station.
+    /// Number of the loop of each reading, from 0; loops without a reading in use are not counted.
+    std::vector<std::size_t> loop_of;
+    std::vector<MilliGal> references;  ///< (s) Known gravity; 0 for an unknown station.
 };
 
 /// Returns stations, loops and references of the readings in use.
+///
+/// Stations are in the order of their first reading in use, which also gives the reference.  A
+/// station is held if it has a reference and `datum` is empty or contains its name.  Nothing is
+/// refused here.
 /// @param rows, in_use, datum  as adjust_network().
 [[nodiscard]] NetworkReadings find_stations(const std::vector<SurveyRow>& rows,
                                             const std::vector<bool>& in_use,
@@ -30,13 +46,16 @@ struct NetworkReadings {
 /// Times count from the first row of each loop, less kReferenceTime_h, in h; temperatures from
 /// kReferenceTemperature, in degC.  A temperature that does not vary between the rows in use and
 /// has no prior is left out, with a remark.  The rate takes part only with a prior.
+///
+/// The terms are, for each loop: constant, time, time^2, up to the degree; then temperature and
+/// rate, which all loops have in common.  Rows of a loop without a reading in use have zeros.
 /// @param rows, in_use, priors  as adjust_network().
 /// @param drift_degree          0 to 2.
 void set_terms(NetworkAdjustment& network, const std::vector<SurveyRow>& rows,
                const std::vector<bool>& in_use, const ModelPriors& priors, int drift_degree);
 
 /// The unweighted system A x = y.  Labels and standard deviations of its rows:
-/// NetworkAdjustment::rows.
+/// NetworkAdjustment::rows.  A row is weighted by 1 / sd^2.
 struct NetworkSystem {
     Eigen::MatrixXd a;  ///< (rows, stations + terms)
     Eigen::VectorXd y;  ///< (rows) Right sides, in the unit of each row.
@@ -44,6 +63,9 @@ struct NetworkSystem {
 
 /// Returns the rows of readings in use, datum and priors, in this order.  Also sets `origin`,
 /// `rows` and their counts in `network`; the origin is the reference of the first station held.
+///
+/// The origin is subtracted from readings and references, so that y keeps its last digits.  The
+/// same prior on a drift applies to each loop, as a row for each.
 /// @param network   with stations and terms set; at least one station is held.
 /// @param readings  find_stations() of the same rows.
 /// @param rows, in_use, priors, options  as adjust_network().

@@ -2,6 +2,14 @@
 /// @file
 /// Two independent criteria for bad rows, a physical and a statistical one.  Both are reported;
 /// neither removes a row from the fit.  Methods: corrector/methods.md, "Bad rows".
+///
+/// The physical criterion needs no fit and no gravity.  The statistical one compares a residual
+/// with the scatter of the other rows; row_doubts.hpp applies it to a survey.
+///
+///     const auto t = studentised_residual(residual, leverage, true, fit);
+///     const bool is_doubtful = t && std::abs(*t) > studentised_limit(n, fit.dof() - 1);
+///
+/// All functions are pure.
 
 #include <optional>
 #include <string>
@@ -28,11 +36,14 @@ inline constexpr double kGreatestRange_degc = 0.05;
 ///
 /// Reasons are |rate| above kGreatestRate_degc_per_h, and, if the row has a record, a temperature
 /// that is monotone or half a wave with a range above kGreatestRange_degc.  A value equal to its
-/// limit, or NaN, is no reason.
+/// limit, or NaN, is no reason.  The text has the values, for example
+/// `rate -0.201 degC/h;monotone over 0.060 degC`.
 [[nodiscard]] std::string temperature_doubt(const SurveyRow& row);
 
 /// Returns the reasons to doubt a row without use of gravity, joined by `;`: temperature_doubt()
 /// and the notes fallback and pulse.
+///
+/// Other notes of a row are no reasons here.
 [[nodiscard]] std::string physical_doubt(const SurveyRow& row);
 
 /// Returns the external studentised residual t of a row: its residual divided by its standard
@@ -41,6 +52,10 @@ inline constexpr double kGreatestRange_degc = 0.05;
 /// A row of the fit with leverage h: t = r / sqrt(s_i^2 (1 - h)), where
 /// s_i^2 = (RSS - r^2 / (1 - h)) / (dof - 1).  Another row: t = r / sqrt(RSS / dof (1 + h)).
 /// RSS includes the priors' rows.
+///
+/// The sign is that of the residual: t is positive if the reading is too low.  If the row is good
+/// and the noise normal, t has Student's distribution: with dof - 1 degrees of freedom for a row of
+/// the fit, with dof for another.
 /// @param residual   reference - corrected, in the unit of the fit.
 /// @param leverage   h of a row of the fit; for another row LinearFit::leverage_at() of it.
 /// @param is_in_fit  true for a row of the fit.
@@ -55,7 +70,8 @@ inline constexpr double kGreatestRange_degc = 0.05;
 /// the probability kOutlierAlpha / (2 n).
 ///
 /// The test is two-sided for n rows.  Without the division by n, one clean row in twenty would be
-/// doubted.  Two values from tables agree within 0.001 (outlier_tests_test.cpp).
+/// doubted.  The limit is in standard deviations: 3.2 for ten rows and 20 degrees of freedom.
+/// Two values from tables agree within 0.001 (outlier_tests_test.cpp).
 /// @param n    number of rows, >= 1.
 /// @param dof  degrees of freedom of the variance, > 0.
 [[nodiscard]] double studentised_limit(std::size_t n, double dof);

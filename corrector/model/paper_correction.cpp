@@ -5,12 +5,70 @@
 #include <cmath>
 #include <limits>
 
-#include "corrector/model/linear_fit.hpp"
+#include "corrector/model/applied_fit.hpp"
 #include "protocol/core/units.hpp"
 
 namespace a351::corrector {
+namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+class Paper final : public Model {
+public:
+    [[nodiscard]] std::string_view name() const override { return "paper"; }
+    [[nodiscard]] bool is_always_scored() const override { return true; }
+    [[nodiscard]] std::variant<ModelFit, Refusal> fit(const SurveyProblem& problem,
+                                                      const RowChoice& choice) const override;
+    [[nodiscard]] std::optional<ModelScore> score(const SurveyProblem& problem,
+                                                  const RowChoice& choice) const override {
+        return score_paper_model(problem.rows, choice.in_use, problem.options.base);
+    }
+};
+
+std::variant<ModelFit, Refusal> Paper::fit(const SurveyProblem& problem,
+                                           const RowChoice& choice) const {
+    const std::vector<SurveyRow>& rows = problem.rows;
+    // The publication's line has no priors.
+    auto line_fit = apply_model(kLinearModels.front(), problem, choice, {});
+    if (auto* const refusal = std::get_if<Refusal>(&line_fit)) return std::move(*refusal);
+    const auto& applied = std::get<AppliedFit>(line_fit);
+    const TemperatureLine line = fit_temperature_line(rows, choice.in_use).value();
+    const std::vector<double> corrected1 = temperature_corrected_mgal(rows, line);
+    const DriftStep step =
+        find_end_point_drift(rows, choice.in_use, corrected1, problem.options.base);
+    if (!step.drift)
+        return Refusal{"the drift step is refused, " + step.refusal,
+                       "another base, or a model of auto, t, t-rate, t-drift, t-rate-drift"};
+    const std::vector<double> corrected2 = drift_corrected_mgal(rows, corrected1, *step.drift);
+    ModelFit result;
+    result.own = PaperPart{};
+    result.rows = uncorrected(problem, choice);
+    result.score = *score(problem, choice);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        CorrectedRow& out = result.rows[i];
+        const MilliGal first(corrected1[i]);
+        out.own = PaperRow{first};
+        out.corrected = MilliGal(corrected2[i]);
+        out.temperature_correction = first - (rows[i].acceleration - rows[i].tide);
+        out.drift_correction = step.drift->at(rows[i].time);
+        if (rows[i].reference) out.residual = *rows[i].reference - out.corrected;
+        set_uncertainty(out, applied, i, result.score.s_mgal);
+    }
+    std::optional<double> slope_error;
+    if (applied.s_mgal) slope_error = *applied.s_mgal * std::sqrt(applied.fit.cofactor(1, 1));
+    result.coefficients = {
+        {"temperature_mgal_per_degc", line.slope_mgal_per_degc, slope_error},
+        {"intercept_at_0_degc_mgal", line.intercept.value(), std::nullopt},
+        {"r_squared", line.r_squared, std::nullopt},
+        {"first_base_error_mgal", step.drift->first_error.value(), std::nullopt},
+        {"last_base_error_mgal", step.drift->last_error.value(), std::nullopt},
+        {"drift_mgal_per_h", step.drift->rate_mgal_per_h(), std::nullopt},
+    };
+    result.stations = average_stations(result, choice.accepted, applied, result.score.s_mgal);
+    return result;
+}
+
+}  // namespace
 
 std::vector<double> differences_mgal(const std::vector<SurveyRow>& rows) {
     std::vector<double> differences;
@@ -103,6 +161,11 @@ MilliGal rms(const std::vector<double>& errors_mgal, const std::vector<bool>& in
         ++n;
     }
     return MilliGal(n == 0 ? kUnknown : std::sqrt(sum / n));
+}
+
+const Model& paper_model() {
+    static const Paper model;
+    return model;
 }
 
 }  // namespace a351::corrector

@@ -12,6 +12,17 @@
 ///
 /// G is the reading, g the reference, T the temperature.  First and last are the first and the last
 /// row of the base station.
+///
+/// Use it to reproduce the publication; for results use another model.  Programs take
+/// paper_model().  The steps, in their order:
+///
+///     const auto line = fit_temperature_line(rows, in_use);
+///     const auto corrected1 = temperature_corrected_mgal(rows, *line);
+///     const DriftStep step = find_end_point_drift(rows, in_use, corrected1, base);
+///     const auto corrected2 = drift_corrected_mgal(rows, corrected1, *step.drift);
+///     const MilliGal error = rms(errors_mgal(rows, corrected2), in_use);
+///
+/// All functions are pure.  Lengths of vectors are not checked.
 /// Vectors hold one value per row (n), mGal.  Values that need an unknown reference are NaN.
 ///
 /// Accuracy: tests/golden/tsukuba_correction_test.cpp and tsukuba_models_test.cpp compare each step
@@ -26,19 +37,21 @@
 
 namespace a351::corrector {
 
-/// The line D = a T + b.
+/// The line D = a T + b.  It is the effect on the reading, which is subtracted.
 struct TemperatureLine {
-    double slope_mgal_per_degc = 0.0;  ///< a
+    double slope_mgal_per_degc = 0.0;  ///< a, about -29 mGal/degC for the published rows.
     /// b at 0 degC.  This is 42 degC outside the data, so it is known to a few mGal only.
     MilliGal intercept;
     double r_squared = 0.0;  ///< 1 - RSS / sum (D - mean)^2; NaN for constant D.
 };
 
-/// Returns the Difference D_i = G_i - g_i - tide_i of every row (n), mGal.
+/// Returns the Difference D_i = G_i - g_i - tide_i of every row (n), mGal; NaN without a reference.
 [[nodiscard]] std::vector<double> differences_mgal(const std::vector<SurveyRow>& rows);
 
 /// Fits D = a T + b by least squares.
-/// @param rows    (n)
+///
+/// There are no priors.  Two rows determine the line without a residual.
+/// @param rows    (n), finite.
 /// @param in_use  (n) rows of the fit; rows without a reference are left out as well.
 /// @return std::nullopt with fewer than two such rows or a constant temperature.
 [[nodiscard]] std::optional<TemperatureLine> fit_temperature_line(
@@ -49,12 +62,15 @@ struct TemperatureLine {
 [[nodiscard]] std::vector<double> temperature_corrected_mgal(const std::vector<SurveyRow>& rows,
                                                              const TemperatureLine& line);
 
-/// Returns the errors reference - corrected of every row (n), mGal.
+/// Returns the errors reference - corrected of every row (n), mGal; NaN without a reference.
 /// @param corrected_mgal  (n) corrected values.
 [[nodiscard]] std::vector<double> errors_mgal(const std::vector<SurveyRow>& rows,
                                               const std::vector<double>& corrected_mgal);
 
 /// The straight line between the errors e1 of the first and the last row of the base.
+///
+/// It is added to Corrected (1).  Both rows of the base then have the error 0, so errors there say
+/// nothing about the quality of the correction.  `last` is later than `first`.
 struct EndPointDrift {
     UtcTime first, last;               ///< Times of both rows.
     MilliGal first_error, last_error;  ///< e1 of both rows.
@@ -70,15 +86,17 @@ struct EndPointDrift {
 
 /// The drift step, or the reason why it is refused.
 struct DriftStep {
-    std::optional<EndPointDrift> drift;
-    std::string refusal;  ///< Reason; empty if there is a drift.
+    std::optional<EndPointDrift> drift;  ///< Absent: see `refusal`.
+    std::string refusal;                 ///< Reason; empty if there is a drift.
 };
 
 /// Returns the drift between the first and the last row of the base.
 ///
 /// It is refused if the base has fewer than two occupations, if it has no reference gravity, or if
 /// neither end is in use.
-/// @param rows             (n) in ascending time.
+///
+/// One end in use is enough.  Several set-ups of one stay count as one occupation.
+/// @param rows             (n) in ascending time; all rows of the base have the same reference.
 /// @param in_use           (n)
 /// @param corrected1_mgal  (n) Corrected (1).
 /// @param base             name of the base station.
@@ -87,7 +105,8 @@ struct DriftStep {
                                              const std::vector<double>& corrected1_mgal,
                                              std::string_view base);
 
-/// Returns Corrected (2) of every row (n): G2_i = G1_i + drift at t_i, mGal.
+/// Returns Corrected (2) of every row (n): G2_i = G1_i + drift at t_i, mGal.  Rows before the first
+/// and after the last row of the base are extrapolated.
 [[nodiscard]] std::vector<double> drift_corrected_mgal(const std::vector<SurveyRow>& rows,
                                                        const std::vector<double>& corrected1_mgal,
                                                        const EndPointDrift& drift);

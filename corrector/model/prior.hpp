@@ -4,6 +4,14 @@
 /// network.  Each prior adds one row to the least-squares system, in which readings have weight 1:
 ///
 ///     reading_sd / sd * b = reading_sd / sd * mean
+///
+/// Use one for a coefficient that is known from elsewhere and that the rows determine badly.  A
+/// small sd holds the coefficient.  One far above the error without a prior has hardly any effect.
+///
+///     ModelPriors priors;
+///     set_prior(priors, "--prior", "rate_mgal_per_degc_per_h", {11.2, 0.5});
+///
+/// The whole-day model has priors of its own (day_model.hpp) and refuses these.
 
 #include <array>
 #include <optional>
@@ -26,7 +34,8 @@ inline constexpr double kLeastPriorSd = 1e-6;
 /// coefficient.  Reason: all coefficients of this sensor are far smaller.
 inline constexpr double kGreatestPrior = 1e6;
 
-/// Coefficients that may have a prior, with their units.
+/// Coefficients that may have a prior, with their units.  The unit is part of the name, which is
+/// that of coefficient_names().  The constant and the axis biases have none.
 inline constexpr std::array<std::string_view, 3> kPriorNames{
     "temperature_mgal_per_degc", "rate_mgal_per_degc_per_h", "time_mgal_per_h"};
 
@@ -38,25 +47,31 @@ inline constexpr double kLeastSd_mgal = 0.001;
 inline constexpr double kGreatestSd_mgal = 1000.0;
 
 /// All priors of a survey, and the standard deviation against which they are weighted.
+///
+/// A default-constructed object has no prior.  Priors of terms that a model does not have are
+/// ignored.
 struct ModelPriors {
     /// Priors in the order of kPriorNames.
     std::array<std::optional<Prior>, kPriorNames.size()> values;
 
     /// Standard deviation of a reading, mGal; it sets the weight of readings against priors and
-    /// datum.  Default: the scatter of the published survey about its known stations.
+    /// datum.  Default: the scatter of the published survey about its known stations.  It must be
+    /// above 0; this is not checked.
     double reading_sd_mgal = 2.0;
 
     /// Returns the prior of a coefficient; null if it has none, or if there is no such coefficient.
+    /// The pointer is into this object.
     [[nodiscard]] const Prior* find(std::string_view name) const;
 };
 
-/// Sets the prior of a coefficient by name.
+/// Sets the prior of a coefficient by name.  It replaces an earlier one.
 /// @param origin  option or key that gives the prior, for messages.
 /// @throws InputError  if the name is unknown, or mean or standard deviation is out of range (or
 ///                     NaN).
 void set_prior(ModelPriors& priors, std::string_view origin, std::string_view name, Prior prior);
 
 /// Reads `name = [mean, sd]` for each of kPriorNames; absent keys leave the prior as it is.
+/// @param table  table `prior` of a survey file; may be empty.
 /// @throws InputError  if there is another key, not exactly two numbers, or a number out of range.
 void read_priors(ModelPriors& priors, text::TomlTable table);
 

@@ -1,23 +1,70 @@
 #pragma once
 /// @file
-/// Doubts about the rows of a corrected survey.
+/// Doubts about the rows of a fit.  No row is left out because of them.
+///
+/// A model calls one of the functions doubt_...() after its rows are corrected.  They set
+/// CorrectedRow::doubt_statistical, for example to `t -4.83 over 3.56`: the studentised residual
+/// and its limit.  The sign is that of reference - corrected.
+///
+/// Use doubt_in_turn() where a bad row changes the fit of all others.  Use doubt_by_prediction()
+/// where each residual comes from a fit without the row's station.
 
+#include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
-#include "corrector/model/survey_correction.hpp"
+#include "corrector/model/corrected_survey.hpp"
 
 namespace a351::corrector {
 
-/// Sets doubt_physical and doubt_statistical of every row.
+/// Residuals of a fit to some rows.
+struct StudentisedRows {
+    /// (n) Studentised residuals of all rows, in use or not; absent: undefined, never doubted.
+    std::vector<std::optional<double>> values;
+    std::size_t dof = 0;  ///< Degrees of freedom of the fit.
+};
+
+/// Fits some of the rows again; std::nullopt if they do not determine the fit.
 ///
-/// The statistical test compares the external studentised residual of the least-squares fit of the
-/// model's terms, or of the network, with studentised_limit(), row by row.  For the whole-day model
-/// it compares the studentised residual of the prediction without the row's station with this
-/// limit.  `paper` has no statistical test.
-/// @param result  from correct_survey(); changed in place.
-void set_doubts(SurveyCorrection& result);
+/// It gets all rows (n), and for each (n) whether it is in use.  It must return n values.
+using Refit = std::function<std::optional<StudentisedRows>(const std::vector<SurveyRow>& rows,
+                                                           const std::vector<bool>& in_use)>;
+
+/// Sets doubt_statistical by a search for one bad row after another.
+///
+/// As long as the largest |t| in use is above studentised_limit() with dof - 1, the row with this
+/// |t| is removed and the rest is fitted again.  Then rows that were not in use from the start are
+/// tested against the last fit, with dof.  The search ends early if a fit is undetermined or has
+/// fewer than two degrees of freedom; the doubts found until then remain.  Two bad rows of equal
+/// size may hide each other; the robust fit does not have this weakness.
+///
+/// Cost: one fit, and another for each row that is doubted.  At the limit itself there is no doubt.
+/// @param rows   rows of the fit; doubt_statistical is set, and not cleared where there is none.
+/// @param refit  called at least once, with the rows and those that are left in use.
+void doubt_in_turn(std::vector<CorrectedRow>& rows, const Refit& refit);
+
+/// Calls doubt_in_turn() with the least-squares fit of a linear model.
+///
+/// Rows without a reference are not tested.
+/// @param rows    (n), at least one, all rows of the survey: times count from the first.
+/// @param model   model of the fit.
+/// @param priors  priors on its slopes, as in the fit.
+void doubt_by_linear_fit(std::vector<CorrectedRow>& rows, const LinearModel& model,
+                         const ModelPriors& priors);
+
+/// Sets doubt_statistical where the studentised residual of the prediction without the row's
+/// station is above studentised_limit() with the degrees of freedom of the score.  Here one bad row
+/// does not hide another, so no row is removed.
+///
+/// Nothing is tested if these degrees of freedom are 0.
+/// @param result  with score and studentised residuals; its rows are changed.
+void doubt_by_prediction(ModelFit& result);
 
 /// Returns the doubtful rows with their reasons, one per line, or a line that there are none.
+///
+/// Both kinds of doubt are listed, in the order of the rows.  The text ends with a newline.
+/// @param result  with doubts set, as correct_survey() returns it.
 [[nodiscard]] std::string doubts_text(const SurveyCorrection& result);
 
 }  // namespace a351::corrector

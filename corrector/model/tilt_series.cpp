@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corrector/model/day_correction.hpp"
+#include "corrector/model/whole_day_model.hpp"
 #include "corrector/whole_day/day_model.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/units.hpp"
@@ -141,7 +141,8 @@ TiltSeries measure_axis_bias(const OccupationRows& read, const std::string& orig
     }
     double mean = 0.0;
     for (const DayBin& bin : read.day->bins)
-        mean += (bin.reading - gravity).value() / static_cast<double>(read.day->bins.size());
+        if (is_in_series(read.rows[bin.set_up]))
+            mean += (bin.reading - gravity).value() / static_cast<double>(tilts.rows());
 
     Eigen::Vector3d biases(0.0, 0.0, mean);
     constexpr int kRounds = 3;  // each round leaves about 1e-3 of the change of the round before

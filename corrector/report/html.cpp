@@ -91,6 +91,14 @@ std::string html_table(std::string_view alignment, const HtmlCells& header,
     return html + "</tbody></table></div>\n";
 }
 
+std::string html_table(const Table& table) {
+    HtmlCells headings = table.headings;
+    for (std::string& heading : headings)
+        if (const auto at = heading.find("degC"); at != std::string::npos)
+            heading.replace(at, 4, "\u00B0C");
+    return html_table(table.alignment, headings, table.rows);
+}
+
 std::string html_paragraph(std::string_view text) { return "<p>" + html_text(text) + "</p>\n"; }
 
 std::string html_list(const std::vector<std::string>& items) {

@@ -70,26 +70,23 @@ std::string links(const std::vector<JointDay>& days) {
 
 std::string stations_table(const std::vector<JointDay>& days,
                            const std::vector<SurveyCorrection>& results) {
-    std::string alignment = "nrrrrrr";
-    HtmlCells header{"Station",        "Days",         "n", "Gravity mGal", "u mGal",
-                     "Reference mGal", "Residual mGal"};
+    const std::vector<JointStation> stations = join_days(results);
+    Table table = table_of(joint_columns(), stations);
     for (const JointDay& day : days) {
         if (day.result == nullptr) continue;
-        alignment += 'r';
-        header.push_back(day.name + " - joint");
+        table.alignment += 'r';
+        table.headings.push_back(day.name + " - joint");
     }
-    std::vector<HtmlCells> rows;
-    for (const JointStation& station : join_days(results)) {
-        HtmlCells& cells = rows.emplace_back(joint_cells(station));
+    for (std::size_t i = 0; i < stations.size(); ++i) {
         for (const SurveyCorrection& result : results) {
-            const StationValue* const value = find_station(result, station.site);
-            cells.push_back(value == nullptr
-                                ? "-"
-                                : text::fixed((value->gravity - station.gravity).value(), 3) +
-                                      (value->is_flagged_only ? " *" : ""));
+            const StationValue* const value = find_station(result, stations[i].site);
+            table.rows[i].push_back(
+                value == nullptr ? "-"
+                                 : text::fixed((value->gravity - stations[i].gravity).value(), 3) +
+                                       (value->is_flagged_only ? " *" : ""));
         }
     }
-    return html_table(alignment, header, rows);
+    return html_table(table);
 }
 
 std::string scatter_sentence(const std::vector<SurveyCorrection>& results) {

@@ -1,35 +1,54 @@
 #pragma once
 /// @file
 /// joint.html: several survey days side by side.
+///
+/// The page shows whether the days agree: by the difference of each day from the joint value, and
+/// by the scatter of these differences against the uncertainties.  Use it for two days or more.
 
 #include <string>
 #include <vector>
 
-#include "corrector/model/survey_correction.hpp"
+#include "corrector/model/corrected_survey.hpp"
 
 namespace a351::corrector {
 
 /// One day of the survey: its result, or the reason why there is none.
+///
+/// The result is not owned and must live during the call of joint_html().  It has at least one row.
+/// `name` may be any text.  `folder` is a plain name; the page encodes it in the address.
 struct JointDay {
-    std::string name;
+    std::string name;                          ///< Name of the day, as in its survey file.
     std::string folder;                        ///< Folder of its result, next to the page.
     const SurveyCorrection* result = nullptr;  ///< Result; null if not corrected.
     std::string trouble = {};                  ///< Reason if not corrected.
 };
 
 /// Scatter from day to day of stations measured on several days.
+///
+/// If `rms_mgal` is well above `expected_mgal`, the days differ by more than their uncertainties
+/// explain.  It is smaller than expected if a day's fit holds the references of these stations.
 struct DayScatter {
     double rms_mgal = 0.0;  ///< RMS about the mean of each station, divisor `dof`.
     std::size_t dof = 0;    ///< Degrees of freedom: the sum over stations of days minus one.
     std::optional<double> expected_mgal;  ///< RMS of the values' u; absent if a value has no u.
 };
 
-/// Computes the scatter from day to day.
+/// Computes the scatter from day to day:
+///
+///     rms^2 = sum over stations and days of (value - mean of the station's days)^2 / dof
+///
+/// The means are not weighted.  Stations of one day have no influence.  A day of a station counts
+/// even if all its rows are flagged.
 /// @return std::nullopt if no station was measured on two days.
 [[nodiscard]] std::optional<DayScatter> scatter_of_days(const std::vector<SurveyCorrection>& days);
 
 /// Returns the page: days with their scores and links to their reports, and the joint stations with
 /// the difference of each day.  It needs no other file.
+///
+/// Days without a result are listed first, with their reasons, and are in no mean.  The links lead
+/// to FOLDER/report.html.  All texts are escaped, and the page is well-formed XML
+/// (joint_page_test.cpp).
+/// @param days  in the order of the page.
 [[nodiscard]] std::string joint_html(const std::vector<JointDay>& days);
 
 }  // namespace a351::corrector

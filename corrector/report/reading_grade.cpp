@@ -114,7 +114,7 @@ struct ReadingScatter {
 };
 
 std::optional<ReadingScatter> scatter_of(const SurveyCorrection& result) {
-    if (result.model != "day") {
+    if (result.as<WholeDayPart>() == nullptr) {
         if (!result.score.s_mgal) return std::nullopt;
         return ReadingScatter{"s", *result.score.s_mgal};
     }
@@ -153,7 +153,7 @@ void add_repeats(std::vector<ReadingGrade>& readings, const SurveyCorrection& re
 std::vector<ReadingGrade> grade_readings(const SurveyCorrection& result) {
     const bool corrects_rate = std::ranges::any_of(
         result.rows, [](const CorrectedRow& row) { return row.rate_correction != MilliGal(0.0); });
-    const bool is_day = result.model == "day";
+    const bool is_day = result.as<WholeDayPart>() != nullptr;
     std::vector<ReadingGrade> readings;
     for (const CorrectedRow& row : result.rows) {
         ReadingGrade& reading = readings.emplace_back();

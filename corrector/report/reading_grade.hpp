@@ -1,21 +1,34 @@
 #pragma once
 /// @file
 /// Grades of readings: which ones to trust, and which ones to repeat.
+///
+/// A grade advises the operator, who can still repeat a reading.  It changes no result and leaves
+/// no row out of the fit.
+///
+///     const std::vector<ReadingGrade> grades = grade_readings(result);
+///     for (std::size_t i = 0; i < grades.size(); ++i)
+///         if (grades[i].grade == Grade::repeat)
+///             show(reading_name(result.rows, i), grades[i].reasons);
 
 #include <string>
 #include <vector>
 
-#include "corrector/model/survey_correction.hpp"
+#include "corrector/model/corrected_survey.hpp"
 
 namespace a351::corrector {
 
+/// Advice on a reading, from the best to the worst.  The grade of a reading is the worst that any
+/// of its reasons gives.
+/// - `trust`: use it.
+/// - `care`: use it after a look at the reasons and at the record.
+/// - `repeat`: read the station again, first if it has no other reading to trust.
 enum class Grade {
     trust,   ///< Nothing about it is unusual.
     care,    ///< Usable, but something is unusual.
     repeat,  ///< Not reliable.
 };
 
-/// The grade of one reading.
+/// The grade of one reading.  Some reasons only inform: `trust` can have reasons too.
 struct ReadingGrade {
     Grade grade = Grade::trust;
     std::vector<std::string> reasons;  ///< Reasons in words, without the reading's name.
@@ -26,9 +39,21 @@ struct ReadingGrade {
 /// A temperature that was not steady (temperature_doubt()) means `care` if the model has a term for
 /// its rate, else `repeat`.  A reading that the operator marked means `repeat` unless it is in the
 /// fit.  The other rules are in corrector/methods.md, "Report".
+///
+/// - Residual: `care` above 2 u_corrected, `repeat` above 3.  A row without residual or u is not
+///   tested.  For `day` it is the error of the prediction without the row's station.
+/// - Two readings of a station: both get `care` if they differ by more than 2 sqrt(2) s (`day`:
+///   placement).  Readings that have `repeat` for another reason are not compared.
+/// - Trends that differ by more than 0.5 mGal, and unknown notes: `care`.  For `day` differences
+///   and flags of the trend do not count.
+///
+/// A value exactly at its limit is trusted (reading_grade_test.cpp).
+/// @param result  rows in ascending time, with coefficients, score and stations.
+/// @return (n) in the order of the rows; an empty list without rows.
 [[nodiscard]] std::vector<ReadingGrade> grade_readings(const SurveyCorrection& result);
 
 /// Returns true if a reading of this station is graded `trust`.
+/// @param grades  from grade_readings() of this result.
 [[nodiscard]] bool has_trusted_reading(const SurveyCorrection& result,
                                        const std::vector<ReadingGrade>& grades,
                                        const std::string& site);

@@ -3,12 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "corrector/figure/reading_name.hpp"
 #include "corrector/report/closure.hpp"
 #include "corrector/report/html.hpp"
+#include "corrector/result/columns.hpp"
 #include "corrector/result/table_text.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/input_file.hpp"
@@ -32,61 +32,22 @@ std::string between(UtcTime start, UtcTime end) {
                        to_rfc3339(end).substr(11, 8));
 }
 
-std::string averaged_s(const CorrectedRow& row) {
-    if (row.day) return text::fixed(row.day->averaged_s, 0);
-    if (!row.row.start || !row.row.end) return "-";
-    return text::fixed(seconds_between(*row.row.start, *row.row.end), 0);
+/// Returns the instants between which a row was averaged, and the duration in seconds of what was.
+HtmlCells averaged(const SurveyRow& row) {
+    if (!row.start || !row.end) return {"-", "-"};
+    return {between(*row.start, *row.end), text::fixed(seconds_between(*row.start, *row.end), 0)};
 }
 
-struct PageColumn {
-    std::string title;
-    char alignment = 'r';
-    std::function<std::string(const CorrectedRow&)> cell;
-};
-
-std::vector<PageColumn> columns_of(const SurveyCorrection& result) {
-    using Row = const CorrectedRow&;
-    const bool is_day = result.model == "day";
-    std::vector<PageColumn> columns;
-    const auto add = [&columns](const char* title, std::function<std::string(Row)> value,
-                                char alignment = 'r') {
-        columns.push_back({title, alignment, std::move(value)});
-    };
-    if (result.rows.front().row.start) {
-        const auto averaged = [](Row row) {
-            return row.row.start && row.row.end ? between(*row.row.start, *row.row.end) : "-";
-        };
-        add("Averaged UTC", averaged, 'n');
-        add("s", averaged_s);
-    } else {
-        add(
-            "Time UTC", [](Row row) { return to_rfc3339(row.row.time); }, 'n');
-    }
-    add(
-        "In fit", [](Row row) { return row.is_used ? "yes" : "no"; }, 'l');
-    add("Acceleration", [](Row row) { return number(row.row.acceleration); });
-    add("T °C", [](Row row) { return text::fixed(row.row.temperature.value(), 3); });
-    add("°C/h", [is_day](Row row) {
-        return text::fixed(is_day ? row.day.value().fast_rate_degc_per_h : row.row.rate_degc_per_h,
-                           3);
-    });
-    add("Tide", [](Row row) { return number(row.row.tide); });
-    add("T corr.", [](Row row) { return number(row.temperature_correction); });
-    add("Rate corr.", [](Row row) { return number(row.rate_correction); });
-    add("Drift corr.", [](Row row) { return number(row.drift_correction); });
-    if (is_day) {
-        add("Tilt corr.", [](Row row) { return cell(row.tilt_correction, 3); });
-        add("Flicker corr.", [](Row row) { return number(row.day.value().flicker_correction); });
-    }
-    add("Corrected", [](Row row) { return number(row.corrected); });
-    add("Reference", [](Row row) { return cell(row.row.reference, 3); });
-    add("Residual", [](Row row) { return cell(row.residual, 3); });
-    if (is_day) add("Left out", [](Row row) { return cell(row.day.value().left_out, 3); });
-    add("u", [](Row row) { return cell(row.u_corrected, 2); });
-    add("t", [](Row row) { return cell(row.studentised_residual, 2); });
-    add(
-        "Flags", [&result](Row row) { return flags_of(row, result.options); }, 'l');
-    return columns;
+/// Returns the columns that follow the name and the time of a reading.
+std::vector<Column<CorrectedRow>> columns_of(const SurveyCorrection& result) {
+    const bool is_day = result.as<WholeDayPart>() != nullptr;
+    return with_keys(
+        occupation_columns(result),
+        {"used", "acceleration_mgal", "temperature_degc",
+         is_day ? "fast_rate_degc_per_h" : "rate_degc_per_h", "tide_mgal",
+         "temperature_correction_mgal", "rate_correction_mgal", "drift_correction_mgal",
+         "tilt_correction_mgal", "flicker_correction_mgal", "corrected_mgal", "reference_mgal",
+         "residual_mgal", "left_out_mgal", "u_corrected_mgal", "studentised_residual", "flags"});
 }
 
 std::string explanation(const SurveyCorrection& result) {
@@ -94,9 +55,10 @@ std::string explanation(const SurveyCorrection& result) {
         "Accelerations, gravity, corrections, residuals and u in mGal. Corrected = acceleration - "
         "tide + corrections; residual = reference - corrected (in sample where the reading is in "
         "the fit). ";
-    if (result.model != "day")
-        return fmt::format("{}u is that of a {}; t is the studentised residual.", text,
-                           result.network ? "single reading, a priori" : "new station");
+    if (result.as<WholeDayPart>() == nullptr)
+        return fmt::format(
+            "{}u is that of a {}; t is the studentised residual.", text,
+            result.as<NetworkAdjustment>() != nullptr ? "single reading, a priori" : "new station");
     return text +
            "The model day averages all undisturbed samples between the two instants; column s is "
            "their duration in seconds. °C/h is the rate that its fast term uses. The residual is "
@@ -108,54 +70,46 @@ std::string explanation(const SurveyCorrection& result) {
 }  // namespace
 
 std::string stations_html(const SurveyCorrection& result) {
-    const auto& stations = result.stations;
-    const bool has_redundancy =
-        std::ranges::any_of(stations, [](const auto& s) { return s.redundancy.has_value(); });
-    std::string alignment = "nrrrrr";
-    HtmlCells header{"Station", "n", "Gravity mGal", "u mGal", "Reference mGal", "Residual mGal"};
-    if (has_redundancy) {
-        alignment += 'r';
-        header.emplace_back("Redundancy");
-    }
-    std::vector<HtmlCells> rows;
-    for (const StationValue& station : stations) {
-        HtmlCells& cells = rows.emplace_back(HtmlCells{
-            station.site + (station.is_flagged_only ? " *" : ""), std::to_string(station.row_count),
-            number(station.gravity), cell(station.u_gravity, 2), cell(station.reference, 3),
-            cell(station.residual, 3)});
-        if (has_redundancy) cells.push_back(cell(station.redundancy, 2));
-    }
-    return html_table(alignment, header, rows) +
-           html_paragraph(fmt::format("Residuals are in sample. u is a standard uncertainty, {}.{}",
-                                      result.model == "day" ? "as if the station were unknown"
-                                      : result.network      ? "a priori"
-                                                            : "from the scatter in sample",
-                                      std::ranges::any_of(stations, &StationValue::is_flagged_only)
-                                          ? " * Only readings that were left out of the fit."
-                                          : ""));
+    return html_table(stations_table(result)) +
+           html_paragraph(fmt::format(
+               "Residuals are in sample. u is a standard uncertainty, {}.{}",
+               result.as<WholeDayPart>() != nullptr        ? "as if the station were unknown"
+               : result.as<NetworkAdjustment>() != nullptr ? "a priori"
+                                                           : "from the scatter in sample",
+               std::ranges::any_of(result.stations, &StationValue::is_flagged_only)
+                   ? " Flagged only: only readings that were left out of the fit."
+                   : ""));
 }
 
 std::string occupations_html(const SurveyCorrection& result) {
-    const std::vector<PageColumn> columns = columns_of(result);
-    std::string alignment = "n";
-    HtmlCells header{"Reading"};
-    for (const PageColumn& column : columns) {
-        alignment += column.alignment;
-        header.push_back(column.title);
-    }
-    std::vector<HtmlCells> lines;
+    const std::vector<Column<CorrectedRow>> columns = columns_of(result);
+    const bool is_recorded = result.rows.front().row.start.has_value();
+    const std::size_t first = is_recorded ? 3 : 2;  // columns before those of the declaration
+    Table table = empty_table(columns);
+    const HtmlCells leading =
+        is_recorded ? HtmlCells{"Reading", "Averaged UTC", "s"} : HtmlCells{"Reading", "Time UTC"};
+    table.headings.insert(table.headings.begin(), leading.begin(), leading.end());
+    table.alignment.insert(0, is_recorded ? "nnr" : "nn");
     const auto add_row = [&](std::size_t i) {
-        HtmlCells& cells = lines.emplace_back(1, reading_name(result.rows, i));
-        for (const PageColumn& column : columns) cells.push_back(column.cell(result.rows[i]));
+        const CorrectedRow& row = result.rows[i];
+        HtmlCells cells{reading_name(result.rows, i), to_rfc3339(row.row.time)};
+        if (is_recorded) {
+            const HtmlCells times = averaged(row.row);
+            cells[1] = times[0];
+            const auto* const day = row.as<WholeDayRow>();
+            cells.push_back(day != nullptr ? text::fixed(day->averaged_s, 0) : times[1]);
+        }
+        const HtmlCells rest = shown_row(columns, row);
+        cells.insert(cells.end(), rest.begin(), rest.end());
+        table.rows.push_back(std::move(cells));
     };
     in_order_of_time(result, add_row, [&](const LeftOut& stay) {
-        HtmlCells& cells = lines.emplace_back(header.size(), "-");
+        HtmlCells& cells = table.rows.emplace_back(first + columns.size(), "-");
         cells.front() = fmt::format("{} ({})", stay.site, stay.occupation);
-        cells[1] =
-            result.rows.front().row.start ? between(stay.start, stay.end) : to_rfc3339(stay.start);
+        cells[1] = is_recorded ? between(stay.start, stay.end) : to_rfc3339(stay.start);
         cells.back() = stay.reason;
     });
-    return html_table(alignment, header, lines) + html_paragraph(explanation(result));
+    return html_table(table) + html_paragraph(explanation(result));
 }
 
 std::string closures_html(const SurveyCorrection& result) {
@@ -188,17 +142,12 @@ std::string closures_html(const SurveyCorrection& result) {
 }
 
 std::string models_html(const SurveyCorrection& result) {
-    std::vector<HtmlCells> rows;
-    for (const ScoreRow& row : score_rows(result)) {
-        rows.push_back(score_cells(row));
-        rows.back().push_back(is_selected(result, row) ? "applied" : "");
-    }
     std::string html =
-        html_table("nlrrrrrrrrl",
-                   {"Model", "Rows", "n", "p", "dof", "RMS mGal (in sample)", "s mGal (in sample)",
-                    "RMS mGal (cross-validated, leave-one-out)",
-                    "RMS mGal (cross-validated, leave-one-station-out)", "AICc", ""},
-                   rows);
+        html_table(models_table(result)) +
+        html_paragraph(
+            "LOO: RMS error of a reading predicted without it (leave-one-out). LOSO: "
+            "RMS error of the readings of a station predicted without them "
+            "(leave-one-station-out).");
     if (result.choice) {
         html += html_paragraph(fmt::format(
             "Chosen: among the models within one standard error of the least "

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "corrector/figure/reading_name.hpp"
+#include "corrector/model/model.hpp"
 #include "corrector/report/html.hpp"
 #include "protocol/text/aligned_text.hpp"
 
@@ -18,10 +19,10 @@ constexpr std::array<const char*, 3> kGradeTexts{"trust", "with care", "repeat"}
 
 /// Returns the error of the value to which u belongs.  For the model day this is the value without
 /// the reading's station.
-std::optional<double> error_of(const CorrectedRow& row, bool is_day) {
+std::optional<double> error_of(const CorrectedRow& row) {
     if (!row.residual) return std::nullopt;
-    if (is_day && row.day && row.day->left_out)
-        return (*row.row.reference - *row.day->left_out).value();
+    const auto* const day = row.as<WholeDayRow>();
+    if (day != nullptr && day->left_out) return (*row.row.reference - *day->left_out).value();
     return row.residual->value();
 }
 
@@ -40,14 +41,14 @@ std::vector<std::pair<std::string, std::vector<std::string>>> left_out_by_reason
 
 /// Returns the table of readings with reasons, the doubtful ones first.
 std::string reading_table(const SurveyCorrection& result, const std::vector<ReadingGrade>& grades) {
-    const bool is_day = result.model == "day";
+    const bool is_day = result.as<WholeDayPart>() != nullptr;
     std::vector<HtmlCells> rows;
     for (const Grade grade : {Grade::repeat, Grade::care, Grade::trust}) {
         for (std::size_t i = 0; i < grades.size(); ++i) {
             if (grades[i].grade != grade || grades[i].reasons.empty()) continue;
             rows.push_back({reading_name(result.rows, i),
                             kGradeTexts.at(static_cast<std::size_t>(grade)),
-                            text::fixed_or(error_of(result.rows[i], is_day), 2, "-"),
+                            text::fixed_or(error_of(result.rows[i]), 2, "-"),
                             text::fixed_or(result.rows[i].u_corrected, 2, "-"),
                             text::joined(grades[i].reasons, "; ")});
         }
@@ -83,20 +84,21 @@ std::string counted(std::size_t count, const std::string& what) {
 }
 
 std::string headline(const SurveyCorrection& result) {
-    const char* const chosen = result.options.model != "auto" ? ""
-                               : result.model == "day"
+    const char* const chosen = result.options.model != kAutomatic ? ""
+                               : result.as<WholeDayPart>() != nullptr
                                    ? " (chosen because the whole day was recorded)"
                                    : " (chosen by the error of stations left out)";
-    const auto& network = result.network;
+    const auto* const network = result.as<NetworkAdjustment>();
     return fmt::format(
         "{} to {}: {} of {}, base {}. Model {}{}; {} in the fit, {}{}, {} degrees of freedom.",
         to_rfc3339(result.rows.front().row.time), to_rfc3339(result.rows.back().row.time),
         counted(result.rows.size(), "reading"), counted(result.stations.size(), "station"),
         result.options.base, result.model, chosen, counted(result.score.row_count, "reading"),
-        counted(result.score.parameter_count, network ? "unknown" : "coefficient"),
-        network ? fmt::format(", of which {} ({} held)",
-                              counted(network->stations.size(), "station"), network->datum_count)
-                : "",
+        counted(result.score.parameter_count, network != nullptr ? "unknown" : "coefficient"),
+        network != nullptr
+            ? fmt::format(", of which {} ({} held)", counted(network->stations.size(), "station"),
+                          network->datum_count)
+            : "",
         result.score.dof);
 }
 

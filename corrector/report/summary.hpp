@@ -1,33 +1,55 @@
 #pragma once
 /// @file
 /// The first page of a report: what to do next.
+///
+/// It is for the operator who is still in the field, and for a reader who wants one number for the
+/// accuracy.  Every root mean square is marked as in sample or cross-validated (summary_test.cpp).
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "corrector/model/survey_correction.hpp"
+#include "corrector/model/corrected_survey.hpp"
 #include "corrector/report/reading_grade.hpp"
 
 namespace a351::corrector {
 
 /// Returns the actions for the readings, the most urgent first; readings to trust are last.
+///
+/// Order: occupations without a value, by reason; readings to repeat at stations without a reading
+/// to trust; other readings to repeat; those to use with care; those to trust.  An action without
+/// readings is left out.  If nothing is to be repeated, the first sentence says so.
+/// @param grades  from grade_readings() of this result.
+/// @return sentences in plain text; they name each reading once.
 [[nodiscard]] std::vector<std::string> actions(const SurveyCorrection& result,
                                                const std::vector<ReadingGrade>& grades);
 
 /// Returns the limits of the survey as a whole: too few readings of the base, stations that nothing
 /// checks.
+///
+/// The base needs three readings in the fit, because two cannot separate drift from a bad reading.
+/// Stations with one reading and no reference are listed by name.
+/// @return sentences in plain text; empty if there is no limit.
 [[nodiscard]] std::vector<std::string> limits_of(const SurveyCorrection& result);
 
 /// Returns the standard error of an RMS, RMS / sqrt(2 dof), in mGal; std::nullopt without a degree
-/// of freedom.
+/// of freedom or without an RMS.
+///
+/// dof includes priors and datum; for a network it is that of the adjustment.  A smaller difference
+/// between the RMS of two models is not significant.
 [[nodiscard]] std::optional<double> standard_error_of_rms(const ModelScore& score);
 
-/// Returns a sentence on the uncertainty of the scatter.
+/// Returns a sentence on the uncertainty of the scatter, and the error to quote for a new station:
+/// the leave-one-station-out error, if the model has one.
 [[nodiscard]] std::string scatter_sentence(const ModelScore& score);
 
-/// Returns the HTML of the page.
-/// @param missing  lines on missing figures.
+/// Returns the HTML of the page: headline, actions, readings with reasons, accuracy, limits.
+///
+/// The readings are graded here.  A reading without a reason is not in the table.  For `day` the
+/// table has the error of the prediction without the reading's station, else the residual.
+/// @param result    at least one row.
+/// @param warnings  about the input; only their number is shown, with a hint to the last section.
+/// @param missing   lines on missing figures.
 [[nodiscard]] std::string summary_html(const SurveyCorrection& result,
                                        const std::vector<std::string>& warnings,
                                        const std::vector<std::string>& missing);

@@ -1,7 +1,23 @@
 #pragma once
 /// @file
-/// Columns of a table, declared once and written as CSV and as JSON.
+/// Columns of a table, declared once and written as CSV, as JSON and as a table for people.
+///
+/// A column has a key, a function from a row to a cell, and its appearance for people.  A list of
+/// columns describes a whole table, so that all three forms agree:
+///
+///     const std::vector<Column<Station>> columns{
+///         {"site", [](const Station& s) { return s.site; }, {"Station", 0, 'n'}},
+///         {"gravity_mgal", [](const Station& s) { return cell(s.gravity); }, {"Gravity mGal"}},
+///     };
+///     const std::string csv = csv_table(columns, stations);
+///     const std::string text = aligned_text(table_of(columns, stations));
+///
+/// The order of the columns is that of the list in every form.  Texts are not escaped here.  In CSV
+/// they must contain neither comma nor line end; html_table() of html.hpp escapes them for a page.
+///
+/// No function reads a clock, a locale or a file.
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -17,9 +33,15 @@
 namespace a351::corrector {
 
 /// Value of a cell; std::monostate if the row has none.
-using Cell = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
+///
+/// A double should be finite.  NaN is not an empty cell: it is "nan" or "-nan" in CSV and in tables
+/// for people.  In JSON it becomes null when the JSON is written.
+using Cell = std::variant<std::monostate, bool, std::int64_t, double, std::string, UtcTime>;
 
 /// Returns the value as a cell; without a value an empty cell.
+///
+/// Gravity and acceleration become numbers in mGal.  std::string, bool and std::int64_t need no
+/// function: they convert to a cell by themselves.
 [[nodiscard]] inline Cell cell(double value) { return value; }
 [[nodiscard]] inline Cell cell(const std::optional<double>& value) {
     return value ? Cell(*value) : Cell();
@@ -28,31 +50,62 @@ using Cell = std::variant<std::monostate, bool, std::int64_t, double, std::strin
 [[nodiscard]] inline Cell cell(const std::optional<MilliGal>& value) {
     return value ? Cell(value->value()) : Cell();
 }
+/// Returns a number of things as a cell, which is written without decimals.
 [[nodiscard]] inline Cell cell_of_count(std::size_t count) {
     return static_cast<std::int64_t>(count);
 }
 
-/// Returns the instant in RFC 3339, to the millisecond.
-[[nodiscard]] inline Cell cell(UtcTime time) { return to_rfc3339(time, 3); }
+[[nodiscard]] inline Cell cell(UtcTime time) { return time; }
 [[nodiscard]] inline Cell cell(const std::optional<UtcTime>& time) {
-    return time ? Cell(to_rfc3339(*time, 3)) : Cell();
+    return time ? Cell(*time) : Cell();
 }
 
-/// One column of a table.
-template <class Row>
-struct Column {
-    std::string_view key;  ///< Name in every format, with the unit.
-    std::function<Cell(const Row&)> value;
+/// How people see a column.  A default-constructed one hides it from them.
+struct Shown {
+    std::string_view heading;  ///< Empty: the column is in CSV and JSON only.
+    int decimals = 3;          ///< Decimals of a number.
+    char alignment = 'r';      ///< l left, n left without line breaks, r right (numbers).
 };
 
-/// Returns a cell as CSV: numbers with six decimals, true and false as 1 and 0, empty without a
-/// value.
+/// One column of a table.
+///
+/// Invariants of a list of columns: keys are different, and `value` is not empty.  `key` and the
+/// heading are views, so the texts must outlive the column; literals do.
+/// @tparam Row  type of a row; `value` is called once or twice per row and form.
+template <class Row>
+struct Column {
+    std::string_view key;  ///< Name in CSV and JSON, with the unit.
+    /// Function that returns the cell of a row.
+    std::function<Cell(const Row&)> value;
+    /// Heading and format for people; by default the column is in CSV and JSON only.
+    Shown shown = {};
+};
+
+/// A table for people, with texts that are ready to be shown.
+///
+/// Invariant: `alignment`, `headings` and every row have the same length.  Whoever adds a column by
+/// hand must extend all three.
+struct Table {
+    std::string alignment;                       ///< One letter per column, as in Shown.
+    std::vector<std::string> headings;           ///< One per column.
+    std::vector<std::vector<std::string>> rows;  ///< One text per column each.
+};
+
+/// Returns a cell as CSV: numbers with six decimals, true and false as 1 and 0, instants in RFC
+/// 3339 to the millisecond, empty without a value.
+///
+/// A number never has an exponent, and zero has no sign.  An instant is truncated to the past.
 [[nodiscard]] std::string csv_text(const Cell& cell);
 
-/// Returns a cell as JSON: numbers in full, null without a value.
+/// Returns a cell for people: yes or no, instants to the second, "-" without a value.
+/// @param decimals  0 to 80, digits after the point of a double; other cells do not use it.
+[[nodiscard]] std::string shown_text(const Cell& cell, int decimals);
+
+/// Returns a cell as JSON: numbers in full, instants as in CSV, null without a value.  A bool is
+/// true or false, and a count is a whole number.
 [[nodiscard]] nlohmann::ordered_json json_value(const Cell& cell);
 
-/// Returns the header line of a CSV file.
+/// Returns the header line of a CSV file: the keys, with a line end.
 template <class Row>
 [[nodiscard]] std::string csv_header(const std::vector<Column<Row>>& columns) {
     std::string line;
@@ -60,7 +113,8 @@ template <class Row>
     return line + '\n';
 }
 
-/// Returns a line of a CSV file.
+/// Returns a line of a CSV file, with its line end.
+/// @param columns  at least one.
 template <class Row>
 [[nodiscard]] std::string csv_line(const std::vector<Column<Row>>& columns, const Row& row) {
     std::string line;
@@ -69,7 +123,8 @@ template <class Row>
     return line;
 }
 
-/// Returns a CSV file.
+/// Returns a CSV file: the header, then a line per row.  Without rows it is the header alone.
+/// @param columns  at least one.
 template <class Row>
 [[nodiscard]] std::string csv_table(const std::vector<Column<Row>>& columns,
                                     const std::vector<Row>& rows) {
@@ -78,7 +133,64 @@ template <class Row>
     return csv;
 }
 
-/// Returns an object with a member for each column.
+/// Returns the columns with these keys, in the order of the keys.  Keys that the table lacks are
+/// passed over, so that one list of keys serves tables with optional columns.  A key that is given
+/// twice gives its column twice.
+template <class Row>
+[[nodiscard]] std::vector<Column<Row>> with_keys(const std::vector<Column<Row>>& columns,
+                                                 const std::vector<std::string_view>& keys) {
+    std::vector<Column<Row>> chosen;
+    for (const std::string_view key : keys) {
+        const auto found = std::ranges::find(columns, key, &Column<Row>::key);
+        if (found != columns.end()) chosen.push_back(*found);
+    }
+    return chosen;
+}
+
+/// Returns a row of a table for people: a text for each column, also for those without a heading.
+template <class Row>
+[[nodiscard]] std::vector<std::string> shown_row(const std::vector<Column<Row>>& columns,
+                                                 const Row& row) {
+    std::vector<std::string> texts;
+    for (const Column<Row>& column : columns)
+        texts.push_back(shown_text(column.value(row), column.shown.decimals));
+    return texts;
+}
+
+/// Returns a table for people, without rows.  It has all columns, also those without a heading or a
+/// value.  Use it with shown_row() where some rows are made by hand.
+template <class Row>
+[[nodiscard]] Table empty_table(const std::vector<Column<Row>>& columns) {
+    Table table;
+    for (const Column<Row>& column : columns) {
+        table.alignment += column.shown.alignment;
+        table.headings.emplace_back(column.shown.heading);
+    }
+    return table;
+}
+
+/// Returns a table for people, of the columns with a heading and at least one value.  Without rows
+/// it therefore has no columns.
+template <class Row>
+[[nodiscard]] Table table_of(std::vector<Column<Row>> columns, const std::vector<Row>& rows) {
+    std::erase_if(columns, [&rows](const Column<Row>& column) {
+        return column.shown.heading.empty() || std::ranges::all_of(rows, [&](const Row& row) {
+                   return std::holds_alternative<std::monostate>(column.value(row));
+               });
+    });
+    Table table = empty_table(columns);
+    for (const Row& row : rows) table.rows.push_back(shown_row(columns, row));
+    return table;
+}
+
+/// Returns a table as lines of text, the headings first.
+///
+/// The first column is aligned left and the others right.  `alignment` has no effect here; it is
+/// for HTML.  Letters outside ASCII shift the columns after them (text::aligned()).
+[[nodiscard]] std::string aligned_text(const Table& table);
+
+/// Returns an object with a member for each column, also for cells without a value.  The members
+/// keep the order of the columns.
 template <class Row>
 [[nodiscard]] nlohmann::ordered_json json_object(const std::vector<Column<Row>>& columns,
                                                  const Row& row) {
@@ -88,7 +200,7 @@ template <class Row>
     return object;
 }
 
-/// Returns an array with json_object() of each row.
+/// Returns an array with json_object() of each row; an empty array without rows.
 template <class Row>
 [[nodiscard]] nlohmann::ordered_json json_array(const std::vector<Column<Row>>& columns,
                                                 const std::vector<Row>& rows) {

@@ -22,8 +22,8 @@ Column<CorrectedRow> of_shape(std::string_view key, TemperatureShape shape) {
             }};
 }
 
-Column<CorrectedRow> of_day(std::string_view key, Cell (*value)(const WholeDayPart&)) {
-    return {key, [value](const CorrectedRow& row) { return value(row.day.value()); }};
+Column<CorrectedRow> of_day(std::string_view key, Cell (*value)(const WholeDayRow&), Shown shown) {
+    return {key, [value](const CorrectedRow& row) { return value(*row.as<WholeDayRow>()); }, shown};
 }
 
 Columns columns_of_records() {
@@ -57,16 +57,35 @@ Columns columns_of_records() {
 
 Column<CorrectedRow> tilt_column() {
     return {"tilt_correction_mgal",
-            [](const CorrectedRow& row) { return cell(row.tilt_correction); }};
+            [](const CorrectedRow& row) { return cell(row.tilt_correction); },
+            {"Tilt corr."}};
 }
 
 Columns columns_of_day() {
-    using D = const WholeDayPart&;
-    return {of_day("averaged_s", [](D day) { return cell(day.averaged_s); }),
-            of_day("fast_rate_degc_per_h", [](D day) { return cell(day.fast_rate_degc_per_h); }),
+    using D = const WholeDayRow&;
+    return {of_day("averaged_s", [](D day) { return cell(day.averaged_s); }, {"s", 0}),
+            of_day("fast_rate_degc_per_h", [](D day) { return cell(day.fast_rate_degc_per_h); },
+                   {"degC/h"}),
             tilt_column(),
-            of_day("flicker_correction_mgal", [](D day) { return cell(day.flicker_correction); }),
-            of_day("left_out_mgal", [](D day) { return cell(day.left_out); })};
+            of_day("flicker_correction_mgal", [](D day) { return cell(day.flicker_correction); },
+                   {"Flicker corr."}),
+            of_day("left_out_mgal", [](D day) { return cell(day.left_out); }, {"Left out"})};
+}
+
+Cell corrected1(const CorrectedRow& row) {
+    const auto* const own = row.as<PaperRow>();
+    return own != nullptr ? cell(own->corrected1) : Cell();
+}
+
+Cell residual1(const CorrectedRow& row) {
+    const auto* const own = row.as<PaperRow>();
+    return own != nullptr && row.row.reference ? cell(*row.row.reference - own->corrected1)
+                                               : Cell();
+}
+
+Cell weight(const CorrectedRow& row) {
+    const auto* const own = row.as<RobustRow>();
+    return own != nullptr ? cell(own->weight) : Cell();
 }
 
 }  // namespace
@@ -74,37 +93,44 @@ Columns columns_of_day() {
 std::vector<Column<CorrectedRow>> occupation_columns(const SurveyCorrection& result) {
     using Row = const CorrectedRow&;
     Columns columns{
-        {"site", [](Row row) { return row.row.site; }},
-        {"occupation", [](Row row) { return static_cast<std::int64_t>(row.row.occupation); }},
-        {"time_utc", [](Row row) { return cell(row.row.time); }},
+        {"site", [](Row row) { return row.row.site; }, {"Site", 0, 'n'}},
+        {"occupation",
+         [](Row row) { return static_cast<std::int64_t>(row.row.occupation); },
+         {"Occ."}},
+        {"time_utc", [](Row row) { return cell(row.row.time); }, {"Time UTC", 0, 'n'}},
         {"start_utc", [](Row row) { return cell(row.row.start); }},
         {"end_utc", [](Row row) { return cell(row.row.end); }},
-        {"used", [](Row row) { return row.is_used; }},
-        {"flags", [&result](Row row) { return flags_of(row, result.options); }},
-        {"acceleration_mgal", [](Row row) { return cell(row.row.acceleration); }},
-        {"temperature_degc", [](Row row) { return row.row.temperature.value(); }},
-        {"rate_degc_per_h", [](Row row) { return row.row.rate_degc_per_h; }},
-        {"tide_mgal", [](Row row) { return cell(row.row.tide); }},
-        {"difference_mgal", [](Row row) { return cell(row.difference); }},
-        {"temperature_correction_mgal", [](Row row) { return cell(row.temperature_correction); }},
-        {"rate_correction_mgal", [](Row row) { return cell(row.rate_correction); }},
-        {"drift_correction_mgal", [](Row row) { return cell(row.drift_correction); }},
-        {"corrected_mgal", [](Row row) { return cell(row.corrected); }},
-        {"reference_mgal", [](Row row) { return cell(row.row.reference); }},
-        {"residual_mgal", [](Row row) { return cell(row.residual); }},
+        {"used", [](Row row) { return row.is_used; }, {"In fit", 0, 'l'}},
+        {"flags", [&result](Row row) { return flags_of(row, result.options); }, {"Flags", 0, 'l'}},
+        {"acceleration_mgal", [](Row row) { return cell(row.row.acceleration); }, {"Acceleration"}},
+        {"temperature_degc", [](Row row) { return row.row.temperature.value(); }, {"T degC"}},
+        {"rate_degc_per_h", [](Row row) { return row.row.rate_degc_per_h; }, {"degC/h"}},
+        {"tide_mgal", [](Row row) { return cell(row.row.tide); }, {"Tide"}},
+        {"difference_mgal", [](Row row) { return cell(row.difference); }, {"Difference"}},
+        {"temperature_correction_mgal",
+         [](Row row) { return cell(row.temperature_correction); },
+         {"T corr."}},
+        {"rate_correction_mgal", [](Row row) { return cell(row.rate_correction); }, {"Rate corr."}},
+        {"drift_correction_mgal",
+         [](Row row) { return cell(row.drift_correction); },
+         {"Drift corr."}},
+        {"corrected_mgal", [](Row row) { return cell(row.corrected); }, {"Corrected"}},
+        {"reference_mgal", [](Row row) { return cell(row.row.reference); }, {"Reference"}},
+        {"residual_mgal", [](Row row) { return cell(row.residual); }, {"Residual"}},
         {"leverage", [](Row row) { return cell(row.leverage); }},
-        {"u_corrected_mgal", [](Row row) { return cell(row.u_corrected); }},
-        {"studentised_residual", [](Row row) { return cell(row.studentised_residual); }},
-        {"corrected1_mgal", [](Row row) { return cell(row.corrected1); }},
-        {"residual1_mgal", [](Row row) { return cell(row.residual1()); }},
+        {"u_corrected_mgal", [](Row row) { return cell(row.u_corrected); }, {"u", 2}},
+        {"studentised_residual", [](Row row) { return cell(row.studentised_residual); }, {"t", 2}},
+        {"corrected1_mgal", [](Row row) { return corrected1(row); }},
+        // The publication's Error (1) (Table 2); residual_mgal is its Error (2).
+        {"residual1_mgal", [](Row row) { return residual1(row); }},
     };
     const CorrectedRow& first = result.rows.front();
     if (first.row.record) append(columns, columns_of_records());
-    if (first.day)
+    if (first.as<WholeDayRow>() != nullptr)
         append(columns, columns_of_day());
     else if (first.tilt_correction)
         columns.push_back(tilt_column());
-    append(columns, {{"weight", [](Row row) { return cell(row.weight); }},
+    append(columns, {{"weight", [](Row row) { return weight(row); }},
                      {"doubt_physical", [](Row row) { return row.doubt_physical; }},
                      {"doubt_statistical", [](Row row) { return row.doubt_statistical; }}});
     return columns;
@@ -113,14 +139,20 @@ std::vector<Column<CorrectedRow>> occupation_columns(const SurveyCorrection& res
 std::vector<Column<StationValue>> station_columns() {
     using Station = const StationValue&;
     return {
-        {"site", [](Station station) { return station.site; }},
-        {"n", [](Station station) { return cell_of_count(station.row_count); }},
-        {"gravity_mgal", [](Station station) { return cell(station.gravity); }},
-        {"u_gravity_mgal", [](Station station) { return cell(station.u_gravity); }},
-        {"reference_mgal", [](Station station) { return cell(station.reference); }},
-        {"residual_mgal", [](Station station) { return cell(station.residual); }},
-        {"redundancy", [](Station station) { return cell(station.redundancy); }},
-        {"flagged_only", [](Station station) { return station.is_flagged_only; }},
+        {"site", [](Station station) { return station.site; }, {"Station", 0, 'n'}},
+        {"n", [](Station station) { return cell_of_count(station.row_count); }, {"n"}},
+        {"gravity_mgal", [](Station station) { return cell(station.gravity); }, {"Gravity mGal"}},
+        {"u_gravity_mgal", [](Station station) { return cell(station.u_gravity); }, {"u mGal", 2}},
+        {"reference_mgal",
+         [](Station station) { return cell(station.reference); },
+         {"Reference mGal"}},
+        {"residual_mgal",
+         [](Station station) { return cell(station.residual); },
+         {"Residual mGal"}},
+        {"redundancy", [](Station station) { return cell(station.redundancy); }, {"Redundancy", 2}},
+        {"flagged_only",
+         [](Station station) { return station.is_flagged_only; },
+         {"Flagged only", 0, 'l'}},
         {"u_a_posteriori_mgal", [](Station station) { return cell(station.u_a_posteriori); }},
     };
 }
@@ -128,18 +160,22 @@ std::vector<Column<StationValue>> station_columns() {
 std::vector<Column<ScoreRow>> score_columns(const SurveyCorrection& result) {
     using Row = const ScoreRow&;
     return {
-        {"model", [](Row row) { return row.score->model; }},
-        {"rows", [](Row row) { return row.set->rows; }},
-        {"n", [](Row row) { return cell_of_count(row.score->row_count); }},
-        {"p", [](Row row) { return cell_of_count(row.score->parameter_count); }},
-        {"rms_mgal", [](Row row) { return cell(row.score->rms_mgal); }},
-        {"s_mgal", [](Row row) { return cell(row.score->s_mgal); }},
-        {"loo_mgal", [](Row row) { return cell(row.score->loo_mgal); }},
-        {"loso_mgal", [](Row row) { return cell(row.score->loso_mgal); }},
-        {"aicc", [](Row row) { return cell(row.score->aicc); }},
-        {"selected", [&result](Row row) { return is_selected(result, row); }},
+        {"model", [](Row row) { return row.score->model; }, {"Model", 0, 'n'}},
+        {"rows", [](Row row) { return row.set->rows; }, {"Rows", 0, 'l'}},
+        {"n", [](Row row) { return cell_of_count(row.score->row_count); }, {"n"}},
+        {"p", [](Row row) { return cell_of_count(row.score->parameter_count); }, {"p"}},
+        {"rms_mgal", [](Row row) { return cell(row.score->rms_mgal); }, {"RMS mGal (in sample)"}},
+        {"s_mgal", [](Row row) { return cell(row.score->s_mgal); }, {"s mGal (in sample)"}},
+        {"loo_mgal",
+         [](Row row) { return cell(row.score->loo_mgal); },
+         {"LOO mGal (cross-validated)"}},
+        {"loso_mgal",
+         [](Row row) { return cell(row.score->loso_mgal); },
+         {"LOSO mGal (cross-validated)"}},
+        {"aicc", [](Row row) { return cell(row.score->aicc); }, {"AICc", 2}},
+        {"selected", [&result](Row row) { return is_selected(result, row); }, {"Applied", 0, 'l'}},
         {"rms_before_drift_mgal", [](Row row) { return cell(row.score->rms_before_drift_mgal); }},
-        {"dof", [](Row row) { return cell_of_count(row.score->dof); }},
+        {"dof", [](Row row) { return cell_of_count(row.score->dof); }, {"dof"}},
         {"calibration",
          [&result](Row row) { return std::string(calibration_in(result, *row.score)); }},
     };

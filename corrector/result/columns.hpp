@@ -2,10 +2,17 @@
 /// @file
 /// The columns of occupations.csv, stations.csv and models.csv, in their order.  result.json has
 /// the same rows with the same keys.  table-format.md explains each column.
+///
+///     const auto columns = occupation_columns(result);
+///     const std::string csv = csv_table(columns, result.rows);  // without result.left_out
+///     const auto few = with_keys(columns, {"site", "corrected_mgal"});
+///
+/// Keys end with their unit: _mgal, _degc, _degc_per_h, _g, _s.  Refer to a column by its key: the
+/// order may change, and further columns may be added.
 
 #include <vector>
 
-#include "corrector/model/survey_correction.hpp"
+#include "corrector/model/corrected_survey.hpp"
 #include "corrector/result/column.hpp"
 #include "corrector/result/table_text.hpp"
 
@@ -14,13 +21,18 @@ namespace a351::corrector {
 /// Returns the columns of occupations.csv.  An occupation without a value has only the first seven,
 /// from the site to the flags.  Rows from records and rows of the whole-day model have more
 /// columns.
+///
+/// The first row of the result decides which columns there are (columns_test.cpp).  All rows must
+/// therefore be of one kind, as correct_survey() gives them.  Cells of other models are empty.
 /// @param result  must outlive the columns and have at least one row.
 [[nodiscard]] std::vector<Column<CorrectedRow>> occupation_columns(const SurveyCorrection& result);
 
-/// Returns the columns of stations.csv.
+/// Returns the columns of stations.csv.  They are the same for every model; cells that a model does
+/// not give are empty.
 [[nodiscard]] std::vector<Column<StationValue>> station_columns();
 
-/// Returns the columns of models.csv.
+/// Returns the columns of models.csv, for the rows of score_rows().  The pointers in a row must not
+/// be null.
 /// @param result  must outlive the columns.
 [[nodiscard]] std::vector<Column<ScoreRow>> score_columns(const SurveyCorrection& result);
 

@@ -4,9 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "corrector/result/column.hpp"
-#include "protocol/text/aligned_text.hpp"
-
 namespace a351::corrector {
 namespace {
 
@@ -51,35 +48,22 @@ std::vector<JointStation> join_days(const std::vector<SurveyCorrection>& days) {
     return joint;
 }
 
-std::vector<std::string> joint_cells(const JointStation& station) {
-    return {station.site,
-            std::to_string(station.day_count),
-            std::to_string(station.row_count),
-            text::fixed(station.gravity.value(), 3),
-            text::fixed_or(station.u_gravity, 2, "-"),
-            text::fixed_or(station.reference, 3, "-"),
-            text::fixed_or(station.residual, 3, "-")};
-}
-
-std::string joint_csv(const std::vector<JointStation>& stations) {
+const std::vector<Column<JointStation>>& joint_columns() {
     using Station = const JointStation&;
-    const std::vector<Column<JointStation>> columns{
-        {"site", [](Station station) { return station.site; }},
-        {"days", [](Station station) { return cell_of_count(station.day_count); }},
-        {"n", [](Station station) { return cell_of_count(station.row_count); }},
-        {"gravity_mgal", [](Station station) { return cell(station.gravity); }},
-        {"u_gravity_mgal", [](Station station) { return cell(station.u_gravity); }},
-        {"reference_mgal", [](Station station) { return cell(station.reference); }},
-        {"residual_mgal", [](Station station) { return cell(station.residual); }},
+    static const std::vector<Column<JointStation>> columns{
+        {"site", [](Station station) { return station.site; }, {"Station", 0, 'n'}},
+        {"days", [](Station station) { return cell_of_count(station.day_count); }, {"Days"}},
+        {"n", [](Station station) { return cell_of_count(station.row_count); }, {"n"}},
+        {"gravity_mgal", [](Station station) { return cell(station.gravity); }, {"Gravity mGal"}},
+        {"u_gravity_mgal", [](Station station) { return cell(station.u_gravity); }, {"u mGal", 2}},
+        {"reference_mgal",
+         [](Station station) { return cell(station.reference); },
+         {"Reference mGal"}},
+        {"residual_mgal",
+         [](Station station) { return cell(station.residual); },
+         {"Residual mGal"}},
     };
-    return csv_table(columns, stations);
-}
-
-std::string joint_text(const std::vector<JointStation>& stations) {
-    std::vector<std::vector<std::string>> rows{
-        {"station", "days", "n", "gravity mGal", "u", "reference", "residual"}};
-    for (const JointStation& station : stations) rows.push_back(joint_cells(station));
-    return text::aligned(rows);
+    return columns;
 }
 
 }  // namespace a351::corrector

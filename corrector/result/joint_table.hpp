@@ -1,20 +1,31 @@
 #pragma once
 /// @file
 /// Stations of several survey days.
+///
+///     const std::vector<JointStation> joint = join_days(days);
+///     const std::string csv = csv_table(joint_columns(), joint);
+///
+/// The days are corrected one by one before, and nothing is fitted here.  Days that share
+/// references or a unit are not independent, so u_gravity is then too small.
 
 #include <string>
 #include <vector>
 
-#include "corrector/model/survey_correction.hpp"
+#include "corrector/model/corrected_survey.hpp"
+#include "corrector/result/column.hpp"
 
 namespace a351::corrector {
 
-/// A station over several survey days.
+/// A station over several survey days.  `day_count` is the number of days that have a value of it,
+/// `row_count` the number of rows in these values.
+///
+/// `reference` is that of the last day that has one; `residual` is reference - gravity.
 struct JointStation {
     std::string site;
     std::size_t day_count = 0;
     std::size_t row_count = 0;
-    /// Mean of the days, each weighted by 1/u^2; not weighted if a day has no u.
+    /// Mean of the days, each weighted by 1/u^2; not weighted if a day has no u.  A u of 0 counts
+    /// as none.
     MilliGal gravity;
     std::optional<MilliGal> u_gravity;  ///< 1 / sqrt(sum 1/u^2), which assumes independent days.
     std::optional<MilliGal> reference;
@@ -22,14 +33,14 @@ struct JointStation {
 };
 
 /// Returns the stations in the order of their first appearance.
+///
+/// Every station of a day takes part, also one with flagged rows only.  A day without u makes the
+/// mean of its stations a plain one, and their u_gravity absent (joint_table_test.cpp).  Values
+/// near 980 000 mGal keep their last digits, because the sum is of differences from the first day.
+/// @param days  in any order; no days give no stations.
 [[nodiscard]] std::vector<JointStation> join_days(const std::vector<SurveyCorrection>& days);
 
-/// Returns site, days, rows, gravity, u, reference and residual of a station as text.
-[[nodiscard]] std::vector<std::string> joint_cells(const JointStation& station);
-
-/// Returns the stations as joint.csv.
-[[nodiscard]] std::string joint_csv(const std::vector<JointStation>& stations);
-/// Returns the stations as an aligned table.
-[[nodiscard]] std::string joint_text(const std::vector<JointStation>& stations);
+/// Returns the columns of joint.csv.  The list is made once and lives as long as the program.
+[[nodiscard]] const std::vector<Column<JointStation>>& joint_columns();
 
 }  // namespace a351::corrector

@@ -19,11 +19,11 @@ struct ReferenceCheck {
     double rms_mgal = 0.0;
 };
 
-ReferenceCheck check_references(const SurveyCorrection& result) {
+ReferenceCheck check_references(const SurveyCorrection& result, const NetworkAdjustment& network) {
     ReferenceCheck check;
     double squares = 0.0;
     for (const StationValue& station : result.stations) {
-        const bool is_held = std::ranges::any_of(result.network->rows, [&](const NetworkRow& row) {
+        const bool is_held = std::ranges::any_of(network.rows, [&](const NetworkRow& row) {
             return row.label == "datum " + station.site;
         });
         if (is_held || station.is_flagged_only || !station.residual) continue;
@@ -39,8 +39,9 @@ ReferenceCheck check_references(const SurveyCorrection& result) {
 }  // namespace
 
 std::string network_text(const SurveyCorrection& result) {
-    if (!result.network) return {};
-    const NetworkAdjustment& network = *result.network;
+    const auto* const adjusted = result.as<NetworkAdjustment>();
+    if (adjusted == nullptr) return {};
+    const NetworkAdjustment& network = *adjusted;
     std::string text = fmt::format(
         "network: {} rows ({} readings, {} datum of sd {} mGal), {} unknowns, dof = {}\n",
         network.rows.size(), network.reading_count, network.datum_count,
@@ -64,7 +65,7 @@ std::string network_text(const SurveyCorrection& result) {
         "u of the stations: a priori (readings of sd {} mGal); times s0, a posteriori: "
         "stations.csv\n",
         sd);
-    const ReferenceCheck check = check_references(result);
+    const ReferenceCheck check = check_references(result, network);
     if (check.station_count > 0) {
         text += fmt::format(
             "stations whose reference is known but not held: {}, off by {} mGal rms (not in "
@@ -75,11 +76,12 @@ std::string network_text(const SurveyCorrection& result) {
 }
 
 Json network_json(const SurveyCorrection& result) {
-    if (!result.network) return nullptr;
-    const NetworkAdjustment& network = *result.network;
+    const auto* const adjusted = result.as<NetworkAdjustment>();
+    if (adjusted == nullptr) return nullptr;
+    const NetworkAdjustment& network = *adjusted;
     const auto passes = network.passes_global_test();
     const auto s0 = network.s0();
-    const ReferenceCheck check = check_references(result);
+    const ReferenceCheck check = check_references(result, network);
     Json json;
     json["datum_sd_mgal"] = result.options.network.datum_sd_mgal;
     json["drift_degree"] = result.options.network.drift_degree;

@@ -1,18 +1,33 @@
 #pragma once
 /// @file
-/// Results of a network adjustment.
+/// Results of a network adjustment: size, global test, and the comparison with known stations that
+/// the network does not hold.
+///
+/// That comparison is independent of the adjustment, so it is marked "not in sample".  It includes
+/// stations with a reference that are not among the datum and have an unflagged row.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "corrector/model/survey_correction.hpp"
+#include "corrector/model/corrected_survey.hpp"
 
 namespace a351::corrector {
 
 /// Returns the network's size, degrees of freedom and global test as text; empty for another model.
+///
+/// Each line ends with LF.  Without a degree of freedom there is no line on the test.  If the test
+/// fails, the text has the reading_sd_mgal that agrees with the scatter.  Do not take it over at
+/// once: a failed test usually means a fault in a reading.
 [[nodiscard]] std::string network_text(const SurveyCorrection& result);
 
 /// Returns the same with the redundancy of each row as JSON; null for another model.
+///
+/// - Keys: datum_sd_mgal, drift_degree, unknowns, dof, weighted_square, global_test (alpha, low,
+///   high, passed), s0, u_gravity, references_not_held (stations, rms_mgal), rows (row, residual,
+///   sd, redundancy).
+/// - `passed` and `s0` are null without a degree of freedom.
+/// - Residual and sd have the unit of their row: mGal for readings and datum, that of the
+///   coefficient for priors.
 [[nodiscard]] nlohmann::ordered_json network_json(const SurveyCorrection& result);
 
 }  // namespace a351::corrector

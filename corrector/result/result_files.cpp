@@ -69,12 +69,12 @@ std::string result_json(const SurveyCorrection& result, const Json& settings,
     }
     json["model"] = result.model;
     json["base"] = result.options.base;
-    if (result.model != "day") {
+    if (result.as<WholeDayPart>() == nullptr) {
         json["reference_temperature_degc"] = kReferenceTemperature.value();
         json["reference_time_h_after_first_row"] = kReferenceTime_h;
     }
     json["priors"] = priors_json(result);
-    if (result.model == "robust") json["robust_terms"] = result.options.robust_terms;
+    if (const auto* const robust = result.as<RobustPart>()) json["robust_terms"] = robust->terms;
     json["coefficients"] = Json::array();
     for (const Coefficient& c : result.coefficients) {
         json["coefficients"].push_back(
@@ -87,7 +87,7 @@ std::string result_json(const SurveyCorrection& result, const Json& settings,
     json["cross_validated"] = {{"loo_mgal", json_of(result.score.loo_mgal)},
                                {"loso_mgal", json_of(result.score.loso_mgal)},
                                {"choice_loso_mgal", json_of(result.choice_loso_mgal)},
-                               {"loo_interval_95_mgal", interval_json(result.loo_interval_mgal)},
+                               {"loo_interval_95_mgal", interval_json(loo_interval_mgal(result))},
                                {"bootstrap_draws", kBootstrapDraws},
                                {"bootstrap_seed", result.options.seed}};
     json["choice_limit_mgal"] = result.choice ? Json(result.choice->limit_mgal) : Json(nullptr);

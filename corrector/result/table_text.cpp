@@ -4,14 +4,14 @@
 
 #include <algorithm>
 
+#include "corrector/model/model.hpp"
 #include "corrector/model/row_doubts.hpp"
+#include "corrector/result/columns.hpp"
 #include "corrector/result/network_report.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
 namespace {
-
-using Cells = std::vector<std::string>;
 
 template <class Value>
 std::string cell(const std::optional<Value>& value, int decimals) {
@@ -19,49 +19,22 @@ std::string cell(const std::optional<Value>& value, int decimals) {
 }
 
 std::string occupations_text(const SurveyCorrection& result) {
-    std::vector<Cells> rows{{"site", "occ", "time UTC", "fit", "accel. mGal", "T degC", "degC/h",
-                             "tide", "diff.", "corrected", "reference", "residual", "u", "flags"}};
-    const auto add_row = [&](std::size_t i) {
-        const CorrectedRow& row = result.rows[i];
-        rows.push_back(
-            {row.row.site, std::to_string(row.row.occupation), to_rfc3339(row.row.time),
-             row.is_used ? "yes" : "no", text::fixed(row.row.acceleration.value(), 3),
-             text::fixed(row.row.temperature.value(), 3), text::fixed(row.row.rate_degc_per_h, 3),
-             text::fixed(row.row.tide.value(), 3), cell(row.difference, 3),
-             text::fixed(row.corrected.value(), 3), cell(row.row.reference, 3),
-             cell(row.residual, 3), cell(row.u_corrected, 2), flags_of(row, result.options)});
-    };
-    in_order_of_time(result, add_row, [&rows](const LeftOut& stay) {
-        Cells& cells = rows.emplace_back(rows.front().size(), "-");
-        cells[0] = stay.site;
-        cells[1] = std::to_string(stay.occupation);
-        cells[2] = to_rfc3339(stay.start);
-        cells.back() = flag_of(stay);
-    });
-    return text::aligned(rows);
-}
-
-std::string stations_text(const SurveyCorrection& result) {
-    std::vector<Cells> rows{
-        {"station", "n", "gravity mGal", "u", "reference", "residual", "redundancy", ""}};
-    for (const StationValue& station : result.stations) {
-        rows.push_back({station.site, std::to_string(station.row_count),
-                        text::fixed(station.gravity.value(), 3), cell(station.u_gravity, 2),
-                        cell(station.reference, 3), cell(station.residual, 3),
-                        cell(station.redundancy, 2),
-                        station.is_flagged_only ? "flagged only" : ""});
-    }
-    return text::aligned(rows);
-}
-
-std::string models_text(const SurveyCorrection& result) {
-    std::vector<Cells> rows{{"model", "rows", "n", "p", "dof", "RMS (in sample)", "s (in sample)",
-                             "RMS (leave-one-out)", "RMS (leave-one-station-out)", "AICc", ""}};
-    for (const ScoreRow& row : score_rows(result)) {
-        rows.push_back(score_cells(row));
-        rows.back().push_back(is_selected(result, row) ? "<" : "");
-    }
-    return text::aligned(rows);
+    const auto columns = with_keys(
+        occupation_columns(result),
+        {"site", "occupation", "time_utc", "used", "acceleration_mgal", "temperature_degc",
+         "rate_degc_per_h", "tide_mgal", "difference_mgal", "corrected_mgal", "reference_mgal",
+         "residual_mgal", "u_corrected_mgal", "flags"});
+    Table table = empty_table(columns);
+    in_order_of_time(
+        result, [&](std::size_t i) { table.rows.push_back(shown_row(columns, result.rows[i])); },
+        [&](const LeftOut& stay) {
+            std::vector<std::string>& cells = table.rows.emplace_back(columns.size(), "-");
+            cells[0] = stay.site;
+            cells[1] = std::to_string(stay.occupation);
+            cells[2] = to_rfc3339(stay.start);
+            cells.back() = flag_of(stay);
+        });
+    return aligned_text(table);
 }
 
 std::string coefficients_text(const SurveyCorrection& result) {
@@ -70,7 +43,7 @@ std::string coefficients_text(const SurveyCorrection& result) {
         text += fmt::format("  {} = {}", c.name, text::fixed(c.value, 4));
         if (c.standard_error) text += " +- " + text::fixed(*c.standard_error, 4);
         if (const Prior* const prior = result.options.priors.find(c.name);
-            prior != nullptr && result.model != "paper") {
+            prior != nullptr && result.as<PaperPart>() == nullptr) {
             text += fmt::format(" (prior {} +- {})", text::fixed(prior->mean, 4),
                                 text::fixed(prior->sd, 4));
         }
@@ -82,9 +55,10 @@ std::string coefficients_text(const SurveyCorrection& result) {
 std::string summary_text(const SurveyCorrection& result) {
     const ModelScore& score = result.score;
     std::string text = "model " + result.model;
-    if (result.options.model == "auto") {
-        text += result.model == "day" ? " (chosen because the whole day was recorded)"
-                                      : " (chosen by leave-one-station-out error)";
+    if (result.options.model == kAutomatic) {
+        text += result.as<WholeDayPart>() != nullptr
+                    ? " (chosen because the whole day was recorded)"
+                    : " (chosen by leave-one-station-out error)";
     }
     text +=
         fmt::format(": RMS {} mGal (in sample, n = {})", cell(score.rms_mgal, 3), score.row_count);
@@ -95,7 +69,7 @@ std::string summary_text(const SurveyCorrection& result) {
     add(", ", score.loo_mgal, "(leave-one-out)");
     add(", ", score.loso_mgal, "(leave-one-station-out)");
     text += '\n';
-    if (const auto& interval = result.loo_interval_mgal) {
+    if (const auto interval = loo_interval_mgal(result)) {
         text += fmt::format("leave-one-out, 95 % interval by resampling stations: {} to {} mGal\n",
                             text::fixed(interval->low, 2), text::fixed(interval->high, 2));
     }
@@ -108,15 +82,15 @@ std::string summary_text(const SurveyCorrection& result) {
 }
 
 std::string weights_text(const SurveyCorrection& result) {
-    std::string text;
-    for (const CorrectedRow& row : result.rows) {
-        if (!row.weight) continue;
-        text += text.empty() ? "weights of the robust fit of " + result.options.robust_terms + ": "
-                             : ", ";
-        text += fmt::format("{} ({}) {}", row.row.site, row.row.occupation,
-                            text::fixed(*row.weight, 2));
-    }
-    return text.empty() ? text : text + '\n';
+    const auto* const robust = result.as<RobustPart>();
+    if (robust == nullptr) return {};
+    std::vector<std::string> weights;
+    for (const CorrectedRow& row : result.rows)
+        if (const auto* const own = row.as<RobustRow>())
+            weights.push_back(fmt::format("{} ({}) {}", row.row.site, row.row.occupation,
+                                          text::fixed(own->weight, 2)));
+    return fmt::format("weights of the robust fit of {}: {}\n", robust->terms,
+                       text::joined(weights));
 }
 
 }  // namespace
@@ -161,23 +135,25 @@ bool is_selected(const SurveyCorrection& result, const ScoreRow& row) {
            row.set->rows == (result.options.use_flags ? "used" : "all");
 }
 
-std::vector<std::string> score_cells(const ScoreRow& row) {
-    const ModelScore& score = *row.score;
-    return {score.model,
-            row.set->rows,
-            std::to_string(score.row_count),
-            std::to_string(score.parameter_count),
-            std::to_string(score.dof),
-            cell(score.rms_mgal, 3),
-            cell(score.s_mgal, 3),
-            cell(score.loo_mgal, 3),
-            cell(score.loso_mgal, 3),
-            cell(score.aicc, 2)};
+Table stations_table(const SurveyCorrection& result) {
+    std::vector<std::string_view> keys{
+        "site",          "n",         "gravity_mgal", "u_gravity_mgal", "reference_mgal",
+        "residual_mgal", "redundancy"};
+    if (std::ranges::any_of(result.stations, &StationValue::is_flagged_only))
+        keys.emplace_back("flagged_only");
+    return table_of(with_keys(station_columns(), keys), result.stations);
+}
+
+Table models_table(const SurveyCorrection& result) {
+    return table_of(
+        with_keys(score_columns(result), {"model", "rows", "n", "p", "dof", "rms_mgal", "s_mgal",
+                                          "loo_mgal", "loso_mgal", "aicc", "selected"}),
+        score_rows(result));
 }
 
 std::string survey_text(const SurveyCorrection& result) {
-    std::string text = occupations_text(result) + '\n' + stations_text(result) + '\n' +
-                       models_text(result) + '\n' + summary_text(result) +
+    std::string text = occupations_text(result) + '\n' + aligned_text(stations_table(result)) +
+                       '\n' + aligned_text(models_table(result)) + '\n' + summary_text(result) +
                        coefficients_text(result) + network_text(result) + weights_text(result) +
                        doubts_text(result);
     for (const std::string& remark : result.remarks) text += remark + '\n';

@@ -3,6 +3,7 @@
 #include "tests/support/catch.hpp"
 
 #include "corrector/figure/survey_figures.hpp"
+#include "corrector/model/survey_correction.hpp"
 #include "tests/golden/tsukuba_table.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 
@@ -131,14 +132,14 @@ TEST_CASE("a row of the whole-day model gets the record of which it averages mor
     const std::vector<RepresentativeValue> values{
         record_at(made_up::kMorning), record_at(made_up::kMorning + std::chrono::hours(1))};
     SurveyCorrection result;
-    result.model = "day";
+    result.own = WholeDayPart{};
     result.rows.resize(1);
     SurveyRow& row = result.rows[0].row;
     row = row_behind(values[1], "B");
     row.start = made_up::kMorning + std::chrono::hours(1);
     row.end = *row.start + std::chrono::minutes(5);
     row.acceleration = MilliGal(981702.125);
-    result.rows[0].day.emplace().averaged_s = 280.0;
+    result.rows[0].own.emplace<WholeDayRow>().averaged_s = 280.0;
     const auto records = find_records(result, values);
     REQUIRE(records.size() == 1);
     CHECK(records.front().value == &values[1]);

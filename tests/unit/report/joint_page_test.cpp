@@ -4,6 +4,7 @@
 #include <pugixml.hpp>
 #include "tests/support/catch.hpp"
 
+#include "corrector/model/survey_correction.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 
 using namespace a351;

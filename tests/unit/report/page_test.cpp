@@ -3,6 +3,7 @@
 #include <set>
 #include "tests/support/catch.hpp"
 
+#include "corrector/model/survey_correction.hpp"
 #include "corrector/report/html.hpp"
 #include "corrector/report/report.hpp"
 #include "tests/unit/model/survey_rows.hpp"

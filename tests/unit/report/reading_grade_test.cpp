@@ -77,7 +77,7 @@ TEST_CASE("a temperature that moves one way is graded repeat above the limit of 
 TEST_CASE("the whole-day model is graded by its prediction without the station",
           "[report][grade]") {
     SurveyCorrection result = quiet(1);
-    result.model = "day";
+    result.own = WholeDayPart{};
     result.rows[0].residual = MilliGal(-9.0);
     result.rows[0].studentised_residual = 1.9;
     CHECK(first_grade(result) == Grade::trust);
@@ -91,7 +91,7 @@ TEST_CASE("the whole-day model is graded by its prediction without the station",
 TEST_CASE("set-ups of one station are compared by the placement scatter of the whole-day model",
           "[report][grade]") {
     SurveyCorrection result = quiet(2);
-    result.model = "day";
+    result.own = WholeDayPart{};
     result.score.s_mgal.reset();
     result.coefficients = {{"flicker_mgal", 9.0, {}}, {"placement_mgal", 1.5, {}}};
     result.rows[1].row.site = "A";
@@ -110,7 +110,7 @@ TEST_CASE("problems of the trend do not lower the grade of the whole-day model",
     result.rows[0].row.notes = {"fallback", "disturbed_end"};
     result.rows[0].row.record.emplace().smoother_mean = MilliGal(3.0);
     CHECK(first_grade(result) == Grade::care);
-    result.model = "day";
+    result.own = WholeDayPart{};
     CHECK(first_grade(result) == Grade::trust);
     CHECK(first_reasons(result).empty());
     result.rows[0].row.notes = {"pulse"};

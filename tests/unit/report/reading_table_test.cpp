@@ -4,6 +4,7 @@
 #include <pugixml.hpp>
 #include "tests/support/catch.hpp"
 
+#include "corrector/model/survey_correction.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 #include "tests/unit/whole_day/made_up_day.hpp"
 

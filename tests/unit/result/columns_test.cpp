@@ -24,7 +24,7 @@ SurveyCorrection one_row() {
     CorrectedRow& row = result.rows.emplace_back();
     row.row.site = "No.0";
     row.is_used = true;
-    row.corrected1 = MilliGal(979859.533);
+    row.own = PaperRow{MilliGal(979859.533)};
     return result;
 }
 
@@ -42,7 +42,7 @@ TEST_CASE("the table of occupations has columns only for what is known", "[resul
     CHECK(header(result) == kHead + "tilt_correction_mgal," + kTail);
     row.row.record.emplace();
     CHECK(header(result) == kHead + kOfRecords + "tilt_correction_mgal," + kTail);
-    row.day.emplace();
+    row.own = WholeDayRow{};
     CHECK(header(result) == kHead + kOfRecords +
                                 "averaged_s,fast_rate_degc_per_h,tilt_correction_mgal,"
                                 "flicker_correction_mgal,left_out_mgal," +
@@ -71,4 +71,30 @@ TEST_CASE("the publication's Error (1) is given only with a reference", "[result
     CHECK(error1().is_null());
     result.rows.front().row.reference = MilliGal(979860.210);
     CHECK(error1().get<double>() == Approx(0.677).margin(1e-9));
+}
+
+TEST_CASE("a table for people has headings, decimals, and only columns with a value",
+          "[result][columns]") {
+    struct Row {
+        const char* name;
+        double mgal;
+        bool is_used;
+    };
+    const std::vector<Column<Row>> columns{
+        {"name", [](const Row& row) { return std::string(row.name); }, {"Name", 0, 'n'}},
+        {"mgal", [](const Row& row) { return cell(row.mgal); }, {"mGal", 2}},
+        {"used", [](const Row& row) { return row.is_used; }, {"In fit", 0, 'l'}},
+        {"hidden", [](const Row&) { return Cell(1.0); }},
+        {"empty", [](const Row&) { return Cell(); }, {"Empty"}},
+    };
+    const Table table = table_of(columns, std::vector<Row>{{"A", 1.006, true}, {"B", 2.0, false}});
+    CHECK(table.headings == std::vector<std::string>{"Name", "mGal", "In fit"});
+    CHECK(table.alignment == "nrl");
+    CHECK(table.rows[0] == std::vector<std::string>{"A", "1.01", "yes"});
+    CHECK(table.rows[1] == std::vector<std::string>{"B", "2.00", "no"});
+    CHECK(shown_text(Cell(), 3) == "-");
+    CHECK(shown_text(cell(UtcTime{}), 0) == "1970-01-01T00:00:00Z");
+    const auto chosen = with_keys(columns, {"used", "unknown", "name"});
+    REQUIRE(chosen.size() == 2);
+    CHECK(chosen.front().key == "used");
 }

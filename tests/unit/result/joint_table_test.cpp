@@ -36,7 +36,7 @@ TEST_CASE("if a day has no uncertainty the plain mean of the days is used", "[su
     const auto joint = join_days({day_with(979901.0, 1.0), day_with(979904.0, std::nullopt)});
     CHECK(joint[0].gravity.value() == Approx(979902.5).epsilon(1e-12));
     CHECK_FALSE(joint[0].u_gravity.has_value());
-    CHECK(joint_csv(joint) ==
+    CHECK(csv_table(joint_columns(), joint) ==
           "site,days,n,gravity_mgal,u_gravity_mgal,reference_mgal,residual_mgal\n"
           "A,2,4,979902.500000,,979900.000000,-2.500000\n");
 }

@@ -4,6 +4,7 @@
 #include <system_error>
 #include "tests/support/catch.hpp"
 
+#include "corrector/model/survey_correction.hpp"
 #include "corrector/result/table_text.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"

@@ -1,11 +1,10 @@
-#include "corrector/model/network_correction.hpp"
-
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "protocol/core/input_error.hpp"
+#include "corrector/model/model.hpp"
+#include "corrector/model/row_doubts.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector {
@@ -41,9 +40,8 @@ double effect_variance(const NetworkAdjustment& network, const Eigen::RowVectorX
     return (line * network.covariance.bottomRightCorner(k, k)).dot(line);
 }
 
-void set_rows(SurveyCorrection& result, const NetworkAdjustment& network,
-              const std::vector<bool>& in_use) {
-    const double sd = result.options.priors.reading_sd_mgal;
+void set_rows(ModelFit& result, const NetworkAdjustment& network, const std::vector<bool>& in_use,
+              double sd) {
     std::size_t reading = 0;
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         CorrectedRow& out = result.rows[i];
@@ -73,7 +71,7 @@ void set_rows(SurveyCorrection& result, const NetworkAdjustment& network,
     }
 }
 
-StationValue adjusted_station(const SurveyCorrection& result, const NetworkAdjustment& network,
+StationValue adjusted_station(const ModelFit& result, const NetworkAdjustment& network,
                               std::size_t k) {
     const auto at = static_cast<Eigen::Index>(k);
     StationValue station;
@@ -96,7 +94,7 @@ StationValue adjusted_station(const SurveyCorrection& result, const NetworkAdjus
 }
 
 /// Returns the value of a station that occurs in flagged rows only.
-StationValue flagged_station(const SurveyCorrection& result, const NetworkAdjustment& network,
+StationValue flagged_station(const ModelFit& result, const NetworkAdjustment& network, double sd,
                              const std::string& site) {
     StationValue station;
     station.site = site;
@@ -105,21 +103,20 @@ StationValue flagged_station(const SurveyCorrection& result, const NetworkAdjust
     Eigen::RowVectorXd line = Eigen::RowVectorXd::Zero(network.term_columns.cols());
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         const CorrectedRow& row = result.rows[i];
-        if (row.row.site != site) continue;
+        if (row.row.site != site || !network.is_tied[i]) continue;
         station.reference = row.row.reference;
         ++station.row_count;
         sum += (row.corrected - network.origin).value();
         line += network.term_columns.row(static_cast<Eigen::Index>(i));
     }
     const auto n = static_cast<double>(station.row_count);
-    const double sd = result.options.priors.reading_sd_mgal;
     station.gravity = network.origin + MilliGal(sum / n);
     station.u_gravity = MilliGal(std::sqrt(sd * sd / n + effect_variance(network, line / n)));
     return station;
 }
 
 /// Moves rows whose loop has no constant to left_out, with a remark.
-void leave_out_untied(SurveyCorrection& result, const NetworkAdjustment& network) {
+void leave_out_untied(ModelFit& result, const NetworkAdjustment& network) {
     std::vector<CorrectedRow> rows;
     std::vector<std::string> names;
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
@@ -140,15 +137,16 @@ void leave_out_untied(SurveyCorrection& result, const NetworkAdjustment& network
                     std::lround(kLoopPause_h), text::joined(names)));
 }
 
-void set_stations(SurveyCorrection& result, const NetworkAdjustment& network) {
-    for (const CorrectedRow& row : result.rows) {
-        const std::string& site = row.row.site;
-        if (std::ranges::find(result.stations, site, &StationValue::site) != result.stations.end())
+void set_stations(ModelFit& result, const NetworkAdjustment& network, double sd) {
+    for (std::size_t i = 0; i < result.rows.size(); ++i) {
+        const std::string& site = result.rows[i].row.site;
+        if (!network.is_tied[i] ||
+            std::ranges::find(result.stations, site, &StationValue::site) != result.stations.end())
             continue;
         const auto at = std::ranges::find(network.stations, site);
         result.stations.push_back(
             at == network.stations.end()
-                ? flagged_station(result, network, site)
+                ? flagged_station(result, network, sd, site)
                 : adjusted_station(result, network,
                                    static_cast<std::size_t>(at - network.stations.begin())));
         StationValue& station = result.stations.back();
@@ -156,37 +154,71 @@ void set_stations(SurveyCorrection& result, const NetworkAdjustment& network) {
     }
 }
 
-}  // namespace
+NetworkResult adjust(const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use,
+                     const SurveyOptions& options) {
+    return adjust_network(rows, in_use, options.datum, options.priors, options.network);
+}
 
-void correct_network(SurveyCorrection& result, const std::vector<SurveyRow>& rows,
-                     const std::vector<bool>& not_flagged) {
-    const SurveyOptions& options = result.options;
-    const auto adjust = [&](const std::vector<bool>& in_use) {
-        return adjust_network(rows, in_use, options.datum, options.priors, options.network);
-    };
-    NetworkResult adjusted = adjust(not_flagged);
-    if (!adjusted.adjustment) throw InputError("model = network: " + adjusted.refusal);
-    result.model = "network";
-    const NetworkAdjustment& network = result.network.emplace(std::move(*adjusted.adjustment));
-    result.score = score_of(network, options.priors.reading_sd_mgal);
-    for (ScoredRowSet& set : result.row_sets) {
-        std::vector<bool> in_use;
-        for (const SurveyRow& row : rows)
-            in_use.push_back(!row.is_excluded && (set.rows == "all" || !row.is_flagged));
-        const NetworkResult other = adjust(in_use);
-        set.scores.emplace_back().model = "network";
-        if (other.adjustment)
-            set.scores.back() = score_of(*other.adjustment, options.priors.reading_sd_mgal);
-    }
+class Network final : public Model {
+public:
+    [[nodiscard]] std::string_view name() const override { return "network"; }
+    [[nodiscard]] std::variant<ModelFit, Refusal> fit(const SurveyProblem& problem,
+                                                      const RowChoice& choice) const override;
+    [[nodiscard]] std::optional<ModelScore> score(const SurveyProblem& problem,
+                                                  const RowChoice& choice) const override;
+};
+
+std::variant<ModelFit, Refusal> Network::fit(const SurveyProblem& problem,
+                                             const RowChoice& choice) const {
+    const SurveyOptions& options = problem.options;
+    const double sd = options.priors.reading_sd_mgal;
+    NetworkResult adjusted = adjust(problem.rows, choice.accepted, options);
+    if (!adjusted.adjustment) return std::move(adjusted.refusal);
+    const NetworkAdjustment& network = *adjusted.adjustment;
+    ModelFit result;
+    result.rows = uncorrected(problem, choice);
+    result.score = score_of(network, sd);
     for (std::size_t k = 0; k < network.terms.size(); ++k) {
         const auto at = static_cast<Eigen::Index>(network.stations.size() + k);
         result.coefficients.push_back(
             {network.terms[k], network.unknowns(at), std::sqrt(network.covariance(at, at))});
     }
-    set_rows(result, network, not_flagged);
+    set_rows(result, network, choice.accepted, sd);
+    set_stations(result, network, sd);
     leave_out_untied(result, network);
-    set_stations(result, network);
     result.remarks.insert(result.remarks.end(), network.remarks.begin(), network.remarks.end());
+    doubt_in_turn(result.rows,
+                  [&](const std::vector<SurveyRow>& rows,
+                      const std::vector<bool>& in_use) -> std::optional<StudentisedRows> {
+                      const NetworkResult other = adjust(rows, in_use, options);
+                      if (!other.adjustment) return std::nullopt;
+                      StudentisedRows studentised{{}, other.adjustment->dof};
+                      studentised.values.resize(rows.size());
+                      std::size_t reading = 0;
+                      for (std::size_t i = 0; i < rows.size(); ++i)
+                          if (in_use[i])
+                              studentised.values[i] = other.adjustment->studentised(reading++);
+                      return studentised;
+                  });
+    result.own = std::move(*adjusted.adjustment);
+    return result;
+}
+
+std::optional<ModelScore> Network::score(const SurveyProblem& problem,
+                                         const RowChoice& choice) const {
+    const NetworkResult adjusted = adjust(problem.rows, choice.accepted, problem.options);
+    if (adjusted.adjustment)
+        return score_of(*adjusted.adjustment, problem.options.priors.reading_sd_mgal);
+    ModelScore none;
+    none.model = name();
+    return none;
+}
+
+}  // namespace
+
+const Model& network_model() {
+    static const Network model;
+    return model;
 }
 
 }  // namespace a351::corrector

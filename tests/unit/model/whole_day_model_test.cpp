@@ -1,7 +1,8 @@
-#include "corrector/model/day_correction.hpp"
+#include "corrector/model/whole_day_model.hpp"
 
 #include "tests/support/catch.hpp"
 
+#include "corrector/model/survey_correction.hpp"
 #include "tests/unit/whole_day/made_up_day.hpp"
 
 using namespace a351;
@@ -54,7 +55,8 @@ TEST_CASE("corrections of the whole-day model add up to the corrected value of e
         double sum = (row.row.acceleration - row.row.tide + row.temperature_correction +
                       row.rate_correction + row.drift_correction)
                          .value();
-        sum += row.tilt_correction.value().value() + row.day.value().flicker_correction.value();
+        sum +=
+            row.tilt_correction.value().value() + row.as<WholeDayRow>()->flicker_correction.value();
         CHECK(sum == Approx(row.corrected.value()).epsilon(1e-12));
     }
 }
@@ -72,7 +74,7 @@ TEST_CASE("the value predicted without a station is the value found when its ref
         for (std::size_t i = 0; i < rows.size(); ++i) {
             if (rows[i].site != site) continue;
             CHECK(result.rows[i].corrected.value() ==
-                  Approx(all.rows[i].day.value().left_out.value().value()).margin(0.01));
+                  Approx(all.rows[i].as<WholeDayRow>()->left_out.value().value()).margin(0.01));
             CHECK(result.rows[i].u_corrected->value() ==
                   Approx(all.rows[i].u_corrected->value()).epsilon(0.01));
             CHECK_FALSE(result.rows[i].residual);

@@ -1,4 +1,4 @@
-#include "corrector/model/day_correction.hpp"
+#include "corrector/model/whole_day_model.hpp"
 
 #include <fmt/core.h>
 
@@ -8,6 +8,7 @@
 #include <set>
 
 #include "corrector/model/calibration_use.hpp"
+#include "corrector/model/row_doubts.hpp"
 #include "corrector/reading/on_all_cores.hpp"
 #include "corrector/whole_day/day_model.hpp"
 
@@ -22,21 +23,10 @@ std::size_t count_of(const std::vector<bool>& rows) {
     return static_cast<std::size_t>(std::ranges::count(rows, true));
 }
 
-/// The rows of a fit.
-struct RowSet {
-    const std::vector<bool>& in_use;
-    bool use_flags;  ///< True: flagged rows are not in use.
-
-    /// Returns true for a row that must not influence others: it gets its own unknown.
-    [[nodiscard]] bool has_own_unknown(const SurveyRow& row) const {
-        return row.is_excluded || (use_flags && row.is_flagged);
-    }
-};
-
 /// Returns the stations of a fit.  Held is the reference of rows in use, except those of
 /// `left_out`.  Unknown is one value for each other station, and one for each row that stands
 /// alone.
-std::vector<DayStation> stations_of(const std::vector<CorrectedRow>& rows, const RowSet& set,
+std::vector<DayStation> stations_of(const std::vector<SurveyRow>& rows, const RowChoice& choice,
                                     const std::string& left_out) {
     std::vector<DayStation> stations;
     std::map<std::string, std::size_t> unknowns;
@@ -44,11 +34,11 @@ std::vector<DayStation> stations_of(const std::vector<CorrectedRow>& rows, const
         return unknowns.emplace(name, unknowns.size()).first->second;
     };
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const SurveyRow& row = rows[i].row;
+        const SurveyRow& row = rows[i];
         DayStation station{row.tide, std::nullopt, 0};
-        if (set.in_use[i] && row.site != left_out)
+        if (choice.in_use[i] && row.site != left_out)
             station.gravity = row.reference;
-        else if (set.has_own_unknown(row))
+        else if (!choice.accepted[i])
             station.unknown = number_of(fmt::format("row {}", i));
         else
             station.unknown = number_of("station " + row.site);
@@ -81,19 +71,21 @@ struct DayFits {
     }
 };
 
-DayFits fit_with_and_without(const std::vector<CorrectedRow>& rows, const RowSet& set,
-                             const DayRecord& day, const DayPriors& priors) {
+DayFits fit_with_and_without(const SurveyProblem& problem, const RowChoice& choice,
+                             const DayPriors& priors) {
+    const std::vector<SurveyRow>& rows = problem.rows;
+    const DayRecord& day = *problem.day;
     DayFits fits;
-    fits.all.stations = stations_of(rows, set, "");
+    fits.all.stations = stations_of(rows, choice, "");
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const std::string& site = rows[i].row.site;
-        if (set.in_use[i] && std::ranges::find(fits.left_out, site) == fits.left_out.end())
+        const std::string& site = rows[i].site;
+        if (choice.in_use[i] && std::ranges::find(fits.left_out, site) == fits.left_out.end())
             fits.left_out.push_back(site);
     }
     if (fits.left_out.size() < 2)
         fits.left_out.clear();  // without the only one, no station would be held
     for (const std::string& site : fits.left_out)
-        fits.others.push_back({stations_of(rows, set, site), {}});
+        fits.others.push_back({stations_of(rows, choice, site), {}});
     fits.all.fit = fit_day(day, fits.all.stations, nullptr, priors).value();
     on_all_cores(fits.others.size(), [&](std::size_t k) {
         Fitted& other = fits.others[k];
@@ -102,7 +94,7 @@ DayFits fit_with_and_without(const std::vector<CorrectedRow>& rows, const RowSet
     return fits;
 }
 
-ModelScore score_of(const std::vector<CorrectedRow>& rows, const std::vector<bool>& in_use,
+ModelScore score_of(const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use,
                     const DayFits& fits) {
     ModelScore score;
     score.model = "day";
@@ -111,9 +103,9 @@ ModelScore score_of(const std::vector<CorrectedRow>& rows, const std::vector<boo
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (!in_use[i]) continue;
         ++score.row_count;
-        const double reference = rows[i].row.reference->value();
+        const double reference = rows[i].reference->value();
         in_sample += std::pow(reference - fits.all.fit.set_ups[i].corrected.value(), 2);
-        if (const Fitted* const other = fits.without(rows[i].row.site))
+        if (const Fitted* const other = fits.without(rows[i].site))
             left_out += std::pow(reference - other->fit.set_ups[i].corrected.value(), 2);
     }
     score.dof = score.row_count - std::min(score.row_count, score.parameter_count);
@@ -172,10 +164,11 @@ void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits,
     out.drift_correction = -(effect(DayTerm::drift) + effect(DayTerm::warm_up));
     out.tilt_correction = -(effect(DayTerm::x) + effect(DayTerm::y));
     out.corrected = set_up.corrected;
-    out.day = WholeDayPart{.averaged_s = duration_s(averaged),
-                           .fast_rate_degc_per_h = set_up.rate_degc_per_h,
-                           .flicker_correction = -set_up.flicker,
-                           .left_out = std::nullopt};
+    auto& own =
+        out.own.emplace<WholeDayRow>(WholeDayRow{.averaged_s = duration_s(averaged),
+                                                 .fast_rate_degc_per_h = set_up.rate_degc_per_h,
+                                                 .flicker_correction = -set_up.flicker,
+                                                 .left_out = std::nullopt});
     if (out.row.reference) {
         out.difference = out.row.acceleration - *out.row.reference - out.row.tide;
         out.residual = *out.row.reference - out.corrected;
@@ -186,9 +179,9 @@ void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits,
     if (other == nullptr) return;
     out.u_corrected = row_uncertainty(*other, i);
     if (!out.row.reference) return;
-    out.day->left_out = other->fit.set_ups[i].corrected;
+    own.left_out = other->fit.set_ups[i].corrected;
     out.studentised_residual =
-        (*out.row.reference - *out.day->left_out).value() / out.u_corrected->value();
+        (*out.row.reference - *own.left_out).value() / out.u_corrected->value();
 }
 
 /// Returns the uncertainty of a station's value: that of its unknown, or of the mean of several.
@@ -207,7 +200,7 @@ std::optional<MilliGal> station_uncertainty(const DayFits& fits,
 }
 
 std::vector<StationValue> station_values(const std::vector<CorrectedRow>& rows, const DayFits& fits,
-                                         const RowSet& set) {
+                                         const RowChoice& choice) {
     std::vector<StationValue> stations;
     std::set<std::string> done;
     for (const CorrectedRow& first : rows) {
@@ -219,7 +212,7 @@ std::vector<StationValue> station_values(const std::vector<CorrectedRow>& rows, 
         for (std::size_t i = 0; i < rows.size(); ++i) {
             if (rows[i].row.site != station.site) continue;
             own.push_back(i);
-            if (!set.has_own_unknown(rows[i].row)) members.push_back(i);
+            if (choice.accepted[i]) members.push_back(i);
         }
         station.is_flagged_only = members.empty();
         if (members.empty()) members = own;
@@ -232,6 +225,58 @@ std::vector<StationValue> station_values(const std::vector<CorrectedRow>& rows, 
         stations.push_back(std::move(station));
     }
     return stations;
+}
+
+class WholeDay final : public Model {
+public:
+    [[nodiscard]] std::string_view name() const override { return "day"; }
+    [[nodiscard]] std::variant<ModelFit, Refusal> fit(const SurveyProblem& problem,
+                                                      const RowChoice& choice) const override;
+    [[nodiscard]] std::optional<ModelScore> score(const SurveyProblem& problem,
+                                                  const RowChoice& choice) const override {
+        if (count_of(choice.in_use) < kFewestRows) return std::nullopt;
+        return score_of(
+            problem.rows, choice.in_use,
+            fit_with_and_without(problem, choice, day_priors_of(problem.options.calibration)));
+    }
+};
+
+std::variant<ModelFit, Refusal> WholeDay::fit(const SurveyProblem& problem,
+                                              const RowChoice& choice) const {
+    const std::vector<SurveyRow>& rows = problem.rows;
+    const SurveyOptions& options = problem.options;
+    auto refusal =
+        day_refusal(rows, choice.in_use, problem.day, helps_to_correct_day(options.calibration));
+    if (!refusal && std::ranges::any_of(options.priors.values,
+                                        [](const auto& prior) { return prior.has_value(); }))
+        refusal = "uses its own priors, `prior` would be ignored";
+    if (refusal) return Refusal{*refusal, "another model"};
+
+    const DayRecord& day = *problem.day;
+    const DayFits fits = fit_with_and_without(problem, choice, day_priors_of(options.calibration));
+    ModelFit result;
+    result.own = WholeDayPart{};
+    result.rows = uncorrected(problem, choice);
+    result.score = score_of(rows, choice.in_use, fits);
+    std::vector<std::vector<UtcTime>> averaged(rows.size());  // times of the samples in the bins
+    for (const DayBin& bin : day.bins)
+        averaged[bin.set_up].insert(averaged[bin.set_up].end(), bin.times.begin(), bin.times.end());
+    for (std::size_t i = 0; i < rows.size(); ++i) correct_row(result.rows[i], i, fits, averaged[i]);
+    result.coefficients = coefficients_of(fits.all.fit);
+    result.stations = station_values(result.rows, fits, choice);
+    if (options.calibration) {
+        const DayFits usual = fit_with_and_without(problem, choice, usual_day_priors());
+        report_prior_use(result, *options.calibration, fits.all.fit, usual.all.fit,
+                         score_of(rows, choice.in_use, usual).loso_mgal);
+    }
+    const double lead_s = seconds_between(day.temperature.series.start(), day.bins.front().time);
+    if (lead_s < kWantedLead_s)
+        result.remarks.push_back(
+            fmt::format("the temperature record begins {} min before the first occupation; its "
+                        "slow effect needs two hours",
+                        std::lround(lead_s / 60.0)));
+    doubt_by_prediction(result);
+    return result;
 }
 
 }  // namespace
@@ -257,41 +302,9 @@ std::optional<std::string> day_refusal(const std::vector<SurveyRow>& rows,
     return std::nullopt;
 }
 
-void correct_by_day(SurveyCorrection& result, const DayRowSets& sets, const DayRecord& day) {
-    result.model = "day";
-    const std::vector<CorrectedRow> rows = result.rows;
-    const bool use_flags = result.options.use_flags;
-    const std::vector<bool>& in_use = use_flags ? sets.used : sets.all;
-    const DayPriors priors = day_priors_of(result.options.calibration);
-    const DayFits fits = fit_with_and_without(rows, {in_use, use_flags}, day, priors);
-    result.score = score_of(rows, in_use, fits);
-    for (ScoredRowSet& set : result.row_sets) {
-        const bool is_used = set.rows == "used";
-        const std::vector<bool>& others = is_used ? sets.used : sets.all;
-        if (others == in_use)
-            set.scores.push_back(result.score);
-        else if (count_of(others) >= kFewestRows)
-            set.scores.push_back(
-                score_of(rows, others, fit_with_and_without(rows, {others, is_used}, day, priors)));
-    }
-    std::vector<std::vector<UtcTime>> averaged(rows.size());  // times of the samples in the bins
-    for (const DayBin& bin : day.bins)
-        averaged[bin.set_up].insert(averaged[bin.set_up].end(), bin.times.begin(), bin.times.end());
-    for (std::size_t i = 0; i < rows.size(); ++i) correct_row(result.rows[i], i, fits, averaged[i]);
-    result.coefficients = coefficients_of(fits.all.fit);
-    result.stations = station_values(result.rows, fits, {in_use, use_flags});
-    if (result.options.calibration) {
-        const DayFits usual =
-            fit_with_and_without(rows, {in_use, use_flags}, day, usual_day_priors());
-        report_prior_use(result, fits.all.fit, usual.all.fit,
-                         score_of(rows, in_use, usual).loso_mgal);
-    }
-    const double lead_s = seconds_between(day.temperature.series.start(), day.bins.front().time);
-    if (lead_s < kWantedLead_s)
-        result.remarks.push_back(
-            fmt::format("the temperature record begins {} min before the first occupation; its "
-                        "slow effect needs two hours",
-                        std::lround(lead_s / 60.0)));
+const Model& whole_day_model() {
+    static const WholeDay model;
+    return model;
 }
 
 }  // namespace a351::corrector

@@ -1,13 +1,15 @@
 #pragma once
 /// @file
 /// The whole-day model (corrector/whole_day) as a model of a survey.
+///
+/// Use it for surveys with records; `auto` takes it whenever it can.  With averages only, use a
+/// linear model.  The formula is in day_model.hpp, where t, t0 and T0 are explained.
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "corrector/model/survey_correction.hpp"
-#include "corrector/reading/day_record.hpp"
+#include "corrector/model/model.hpp"
 
 namespace a351::corrector {
 
@@ -16,22 +18,19 @@ namespace a351::corrector {
 ///
 /// It needs a record of the day, at least six rows in use (one if `is_calibrated`), no gap of the
 /// temperature longer than 30 min, and a bin in every set-up.
+///
+/// The bin is required of flagged and excluded rows too.  If several things are missing, the first
+/// of this list is given.  whole_day_model() refuses priors in addition.
 /// @param rows           (n), one per set-up, in the order of the record.
 /// @param in_use         (n) rows of the fit, each with a reference.
 /// @param day            record of these rows; null: there is none.
-/// @param is_calibrated  helps_to_correct_day(): terms that few rows cannot determine are calibrated.
+/// @param is_calibrated  helps_to_correct_day(): terms that few rows cannot determine are
+///                       calibrated.
 [[nodiscard]] std::optional<std::string> day_refusal(const std::vector<SurveyRow>& rows,
                                                      const std::vector<bool>& in_use,
                                                      const DayRecord* day, bool is_calibrated);
 
-/// Rows with a reference that may enter a fit; one flag per row.
-struct DayRowSets {
-    std::vector<bool> all;   ///< All such rows, flagged or not.
-    std::vector<bool> used;  ///< Rows that are not flagged.
-};
-
-/// Corrects a survey by the whole-day model: fills rows, coefficients, stations, scores and
-/// remarks.
+/// The whole-day model:
 ///
 /// - Acceleration and temperature of a row become means over its bins; start and end become the
 ///   times of their first and last sample.  Its time does not change, because its tide belongs to
@@ -41,15 +40,25 @@ struct DayRowSets {
 ///   prediction divided by u_corrected.
 /// - A row that is excluded, or flagged and not used, gets its own unknown station, so that it has
 ///   a value and no influence.
+/// - If only one station is held, its rows have no such prediction: neither u_corrected nor a
+///   studentised residual.  There is no LOSO then.
+/// - A station without an accepted row has the mean of its rows.  Its uncertainty neglects that the
+///   errors of these rows are correlated.
+/// - The slow term needs two hours of temperature before the first bin.  There is a remark if the
+///   record begins later.
 /// - With a calibration the fit is repeated with the usual priors, and the use of the calibration
 ///   is reported (calibration_use.hpp).
 ///
 /// The prediction without a station agrees within 0.01 mGal with hiding its reference, and
-/// u_corrected within 1 % (day_correction_test.cpp).
-/// @param result  survey with options, rows, row sets and model; day_refusal() returned
-///                std::nullopt.
-/// @param sets    rows for the scores; `used` or `all` is the fit, as the options say.
-/// @param day     record of these rows.
-void correct_by_day(SurveyCorrection& result, const DayRowSets& sets, const DayRecord& day);
+/// u_corrected within 1 % (whole_day_model_test.cpp).
+///
+/// It refuses as day_refusal(), and if the options have priors, which it would ignore.
+///
+/// score() does not check the record: call it only for a day that day_refusal() accepts.  It is
+/// nullopt for fewer than six rows in use, also with a calibration.
+///
+/// Cost: one search for the most likely noise and lags for each held station, on all cores, and one
+/// for all rows; twice as much with a calibration.
+[[nodiscard]] const Model& whole_day_model();
 
 }  // namespace a351::corrector

@@ -1,0 +1,107 @@
+#include "corrector/model/applied_fit.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "corrector/model/outlier_tests.hpp"
+
+namespace a351::corrector {
+
+std::variant<AppliedFit, Refusal> apply_model(const LinearModel& model,
+                                              const SurveyProblem& problem, const RowChoice& choice,
+                                              const ModelPriors& priors) {
+    const std::vector<SurveyRow> used = chosen_rows(problem.rows, choice.in_use);
+    auto fit = fit_model(model, used, problem.origin(), priors);
+    if (!fit)
+        return Refusal{fmt::format("{} rows with a reference do not determine it", used.size()),
+                       fmt::format("at least {} rows between which temperature, rate and time vary "
+                                   "independently",
+                                   model.parameter_count())};
+    const auto s_mgal = fit->residual_scale();
+    return AppliedFit{std::move(*fit), model_columns(model, problem.rows, problem.origin()),
+                      s_mgal};
+}
+
+void set_uncertainty(CorrectedRow& out, const AppliedFit& applied, std::size_t row,
+                     std::optional<double> s_mgal) {
+    const double leverage = applied.fit.leverage_at(applied.at(row));
+    out.leverage = leverage;
+    // u = s sqrt(1 + h)
+    if (s_mgal) out.u_corrected = MilliGal(*s_mgal * std::sqrt(1.0 + leverage));
+}
+
+void correct_rows(ModelFit& result, const LinearModel& model, const AppliedFit& applied) {
+    const LinearFit& fit = applied.fit;
+    for (std::size_t i = 0; i < result.rows.size(); ++i) {
+        CorrectedRow& out = result.rows[i];
+        const Eigen::VectorXd x = applied.at(i);
+        const auto effect = [&](Eigen::Index k) {
+            return MilliGal(fit.coefficients(k + 1) * x(k));
+        };
+        Eigen::Index k = 0;
+        out.temperature_correction = -MilliGal(fit.coefficients(0));
+        if (model.has_temperature)
+            out.temperature_correction = -(MilliGal(fit.coefficients(0)) + effect(k++));
+        if (model.has_rate) out.rate_correction = -effect(k++);
+        if (model.has_time) out.drift_correction = -effect(k++);
+        if (model.has_axes) out.tilt_correction = -(effect(k) + effect(k + 1));
+        out.corrected = out.row.acceleration - out.row.tide - MilliGal(fit.at(x));
+        if (out.row.reference) out.residual = *out.row.reference - out.corrected;
+        set_uncertainty(out, applied, i, applied.s_mgal);
+        if (out.residual)
+            out.studentised_residual =
+                studentised_residual(out.residual->value(), out.leverage.value(), out.is_used, fit);
+    }
+    const std::vector<std::string> names = coefficient_names(model);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        const auto at = static_cast<Eigen::Index>(k);
+        result.coefficients.push_back({names[k], fit.coefficients(at), std::nullopt});
+        if (applied.s_mgal)
+            result.coefficients.back().standard_error =
+                *applied.s_mgal * std::sqrt(fit.cofactor(at, at));
+    }
+}
+
+std::vector<StationValue> average_stations(const ModelFit& result,
+                                           const std::vector<bool>& accepted,
+                                           const AppliedFit& applied,
+                                           std::optional<double> s_mgal) {
+    const std::vector<CorrectedRow>& rows = result.rows;
+    std::vector<StationValue> stations;
+    for (const CorrectedRow& first : rows) {
+        const std::string& site = first.row.site;
+        if (std::ranges::find(stations, site, &StationValue::site) != stations.end()) continue;
+        StationValue station;
+        station.site = site;
+        station.reference = first.row.reference;
+        station.is_flagged_only = true;
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            if (rows[i].row.site == site && accepted[i]) station.is_flagged_only = false;
+        double sum = 0.0;
+        Eigen::VectorXd x = Eigen::VectorXd::Zero(applied.columns.cols());
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (rows[i].row.site != site) continue;
+            if (rows[i].is_used)
+                station.redundancy =
+                    station.redundancy.value_or(0.0) + 1.0 - rows[i].leverage.value();
+            if (!station.is_flagged_only && !accepted[i]) continue;
+            ++station.row_count;
+            sum += rows[i].corrected.value();
+            x += applied.at(i);
+        }
+        const auto n = static_cast<double>(station.row_count);
+        station.gravity = MilliGal(sum / n);
+        // u = s sqrt(1/n + h of the mean of its rows)
+        if (s_mgal)
+            station.u_gravity =
+                MilliGal(*s_mgal * std::sqrt(1.0 / n + applied.fit.leverage_at(x / n)));
+        if (station.reference) station.residual = *station.reference - station.gravity;
+        stations.push_back(std::move(station));
+    }
+    return stations;
+}
+
+}  // namespace a351::corrector

@@ -1,0 +1,233 @@
+#pragma once
+/// @file
+/// A survey after the fit of one model: values that every model gives, and values of one model
+/// only.
+///
+///     corrected = acceleration - tide + temperature_correction + rate_correction
+///                 + drift_correction (+ tilt_correction + flicker_correction, if present)
+///     residual  = reference - corrected
+///
+/// The tide is the effect on gravity and is subtracted; every correction is added.  If the
+/// temperature makes a reading 1 mGal too large, its temperature_correction is -1 mGal.
+///
+/// Values that only one model gives are in a variant, which as() reads:
+///
+///     if (const auto* const day = row.as<WholeDayRow>()) day->flicker_correction;
+///     if (const auto* const network = fit.as<NetworkAdjustment>()) network->s0();
+///
+/// An absent value means that it is not defined for this row or model; it never means 0.  All types
+/// own their content and have no references to the input.
+/// Methods and sources: corrector/methods.md.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "corrector/model/model_fit.hpp"
+#include "corrector/model/network.hpp"
+#include "corrector/reading/survey_row.hpp"
+#include "protocol/unit/calibration.hpp"
+
+namespace a351::corrector {
+
+/// Options of a correction.
+///
+/// correct_survey() checks `model`, `base` and `datum`.  The other members are not checked.
+struct SurveyOptions {
+    std::string model = "auto";  ///< One of model_names().
+    std::string base;            ///< Station of the drift step; empty: that of the first row.
+    /// Stations whose reference is held; empty: all that have one.
+    std::vector<std::string> datum;
+    /// True: flagged rows are not in the fit.  Excluded rows never are.
+    bool use_flags = true;
+    NetworkOptions network;  ///< Options of `network`.
+    /// Linear model that `robust` fits.  The name must be one of find_linear_model(); not checked.
+    std::string robust_terms = "t-rate";
+    std::uint64_t seed = 1;  ///< Seed of the bootstrap over stations.
+    /// Priors of the linear models, `robust` and the network; `paper` uses none, and `day` refuses
+    /// them.
+    ModelPriors priors;
+    /// Calibration of the unit.  correct_survey() uses it only as prior of `day`; for other models
+    /// call correct_with_calibration().
+    std::optional<Calibration> calibration;
+};
+
+/// Values of a row that only `paper` gives: in every row.
+struct PaperRow {
+    MilliGal corrected1;  ///< Corrected (1), before the drift step.
+};
+
+/// Values of a row that only `robust` gives: in the rows in use.
+struct RobustRow {
+    double weight = 0.0;  ///< 1 counts fully, 0 not at all.
+};
+
+/// Values of a row that only `day` gives: in every row.
+struct WholeDayRow {
+    double averaged_s = 0.0;            ///< Sum of the durations of the undisturbed samples.
+    double fast_rate_degc_per_h = 0.0;  ///< Rate of the temperature in the fast term.
+    MilliGal flicker_correction;        ///< Minus the estimated flicker of the row.
+    /// Value with the reference of the station hidden.  Absent without a reference, and for rows of
+    /// a station that alone is held.  For a row outside the fit it is equal to `corrected`.
+    std::optional<MilliGal> left_out;
+};
+
+/// A row with its corrections.  The constant of the model belongs to the temperature correction.
+///
+/// The constant contains the bias of the sensor, up to thousands of mGal.  Only differences of the
+/// temperature correction between rows show the effect of the temperature.
+struct CorrectedRow {
+    SurveyRow row;                       ///< Reading; for `day` with means over its bins.
+    bool is_used = false;                ///< True for a row in the fit.
+    std::optional<MilliGal> difference;  ///< acceleration - reference - tide.
+    MilliGal temperature_correction;
+    MilliGal rate_correction;
+    MilliGal drift_correction;
+    /// Present in every row or in none: `day`, `t-rate-drift-axes`, or with a calibration.
+    std::optional<MilliGal> tilt_correction;
+    MilliGal corrected;                ///< acceleration - tide + all corrections.
+    std::optional<MilliGal> residual;  ///< reference - corrected.
+    /// Leverage; for a row outside the fit, LinearFit::leverage_at() of it.  Absent for `day`.
+    /// It is at most 1 for a row in the fit, and has no limit for another row.
+    std::optional<double> leverage;
+    /// Uncertainty as if the station were unknown: s sqrt(1 + leverage).  `network` and `day`: see
+    /// network_model() and whole_day_model().  Absent for the other models if dof is 0.
+    std::optional<MilliGal> u_corrected;
+    /// Studentised residual: external, except `robust` (scale of the robust fit); absent for
+    /// `paper`.
+    std::optional<double> studentised_residual;
+    /// Reasons from outlier_tests.hpp; empty if there are none.  No row is left out because of
+    /// them.
+    std::string doubt_physical;
+    std::string doubt_statistical;
+    /// Values of one model only.
+    std::variant<std::monostate, PaperRow, RobustRow, WholeDayRow> own;
+
+    /// Returns the values of one model; null if another model was fitted.  The pointer is into this
+    /// object.
+    /// @tparam Part  PaperRow, RobustRow or WholeDayRow.
+    template <class Part>
+    [[nodiscard]] const Part* as() const {
+        return std::get_if<Part>(&own);
+    }
+
+    /// Returns the tilt correction, 0 if there is none.
+    [[nodiscard]] MilliGal tilt_correction_or_zero() const {
+        return tilt_correction.value_or(MilliGal(0.0));
+    }
+};
+
+/// The value of a station.
+///
+/// For a station with a reference in the fit, `gravity` is in sample: the fit has seen the
+/// reference.  The error to expect at an unknown station is ModelScore::loso_mgal.
+struct StationValue {
+    std::string site;              ///< Name of the station.
+    std::size_t row_count = 0;     ///< Number of rows averaged; `network`: readings adjusted.
+    bool is_flagged_only = false;  ///< True: no row is unflagged; the flagged are averaged.
+    MilliGal gravity;              ///< Mean of its corrected values; `network`: adjusted value.
+    /// Uncertainty s sqrt(1/n + leverage of the mean row); `network`: a priori; `day`: as if the
+    /// reference of the station were unknown.
+    std::optional<MilliGal> u_gravity;
+    std::optional<MilliGal> u_a_posteriori;  ///< `network` only: s0 times u_gravity.
+    std::optional<MilliGal> reference;       ///< Known gravity.
+    std::optional<MilliGal> residual;        ///< reference - gravity.
+    /// Sum of 1 - leverage over its rows in the fit; `network`: and the redundancy of its datum.
+    /// Absent without a row in the fit, and for `day`.
+    std::optional<double> redundancy;
+};
+
+/// A coefficient of the model.
+struct Coefficient {
+    std::string name;  ///< Name with its unit.
+    double value = 0.0;
+    std::optional<double> standard_error;  ///< Absent if not estimated, or if dof is 0.
+};
+
+/// Test of the difference between the readings' estimates and the calibration.
+struct Disagreement {
+    /// s' D^-1 s of the shift s from prior to posterior, D = prior - posterior covariance.
+    ///
+    /// If the calibration is true, it has the chi-square distribution with `dof`.
+    double chi_square = 0.0;
+    std::size_t dof = 0;  ///< Number of directions about which the readings contain information.
+    double p = 1.0;       ///< Probability of at least this difference by chance.
+};
+
+/// Use and effect of the calibration.
+struct CalibrationUse {
+    /// True: prior of the whole-day model.  False: axis biases were fixed, the thermal part not
+    /// used.
+    bool is_prior = false;
+    std::optional<Disagreement> axis_bias, thermal;  ///< Tests; present for priors only.
+    /// Change of the corrected values, rms; with fixed biases the scatter of the tilt correction.
+    double effect_rms_mgal = 0.0;
+    /// Leave-one-station-out error without the calibration; present for priors, and only if the day
+    /// has a LOSO.
+    std::optional<double> loso_without_mgal;
+};
+
+/// Values that only the linear models give.
+struct LinearPart {
+    std::optional<Interval> loo_interval_mgal;  ///< 95 % limits of LOO.
+};
+/// Values that only `robust` gives.
+struct RobustPart {
+    std::string terms;  ///< Linear model that was fitted.
+};
+/// Marks a fit of `paper`, whose own values are in the rows.
+struct PaperPart {};
+/// Marks a fit of `day`, whose own values are in the rows.
+struct WholeDayPart {};
+
+/// A model fitted to a survey.
+struct ModelFit {
+    /// All rows in order of time, in use or not, except those in `left_out`.
+    std::vector<CorrectedRow> rows;
+    /// Occupations that have no row, or that cannot be corrected.
+    std::vector<LeftOut> left_out;
+    std::vector<StationValue> stations;     ///< In order of their first row.
+    std::vector<Coefficient> coefficients;  ///< In the order of the model.
+    ModelScore score;                       ///< Score on the rows of the fit.
+    std::vector<std::string> remarks;       ///< Further facts for the user, in sentences.
+    /// Present if the options have a calibration and the model is `day`, or the fit is that of
+    /// correct_with_calibration().
+    std::optional<CalibrationUse> calibration;
+    /// Values that only one model gives.
+    std::variant<LinearPart, PaperPart, RobustPart, NetworkAdjustment, WholeDayPart> own;
+
+    /// Returns the values of one model; null if another model was fitted.  The pointer is into this
+    /// object.
+    template <class Part>
+    [[nodiscard]] const Part* as() const {
+        return std::get_if<Part>(&own);
+    }
+};
+
+/// Returns the 95 % limits of LOO; absent unless a linear model was fitted.
+[[nodiscard]] inline std::optional<Interval> loo_interval_mgal(const ModelFit& result) {
+    const auto* const linear = result.as<LinearPart>();
+    return linear != nullptr ? linear->loo_interval_mgal : std::nullopt;
+}
+
+/// Scores of models on one set of rows.
+struct ScoredRowSet {
+    std::string rows;  ///< "used": rows that are not flagged; "all": flagged rows too.
+    /// Scores in the order of models().  The applied model is last, unless it is always scored.
+    std::vector<ModelScore> scores;
+};
+
+/// Result of correct_survey(): a fit, and how its model was chosen.
+///
+/// Compare models within one row set only: scores of different rows are not comparable.
+struct SurveyCorrection : ModelFit {
+    SurveyOptions options;                   ///< Options as applied; `base` is filled in.
+    std::string model;                       ///< Name of the model; with `auto` the chosen one.
+    std::vector<ScoredRowSet> row_sets;      ///< Two sets: used, all.
+    std::optional<ModelChoice> choice;       ///< `auto` only, if not the whole-day model.
+    std::optional<double> choice_loso_mgal;  ///< `auto` only: LOSO of choosing and fitting.
+};
+
+}  // namespace a351::corrector

@@ -1,0 +1,42 @@
+#include "corrector/model/model.hpp"
+
+#include <algorithm>
+
+#include "corrector/model/whole_day_model.hpp"
+
+namespace a351::corrector {
+
+const std::vector<const Model*>& models() {
+    static const std::vector<const Model*> all = [] {
+        std::vector<const Model*> list{&paper_model(), &whole_day_model()};
+        list.insert(list.end(), linear_models().begin(), linear_models().end());
+        list.insert(list.end(), {&network_model(), &robust_model()});
+        return list;
+    }();
+    return all;
+}
+
+const Model* find_model(std::string_view name) {
+    const auto found = std::ranges::find(models(), name, &Model::name);
+    return found == models().end() ? nullptr : *found;
+}
+
+std::vector<std::string> model_names() {
+    std::vector<std::string> names{std::string(kAutomatic)};
+    for (const Model* const model : models()) names.emplace_back(model->name());
+    return names;
+}
+
+std::vector<CorrectedRow> uncorrected(const SurveyProblem& problem, const RowChoice& choice) {
+    std::vector<CorrectedRow> rows;
+    for (std::size_t i = 0; i < problem.rows.size(); ++i) {
+        CorrectedRow& out = rows.emplace_back();
+        out.row = problem.rows[i];
+        out.is_used = choice.in_use[i];
+        if (out.row.reference)
+            out.difference = out.row.acceleration - *out.row.reference - out.row.tide;
+    }
+    return rows;
+}
+
+}  // namespace a351::corrector

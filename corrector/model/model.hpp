@@ -1,0 +1,155 @@
+#pragma once
+/// @file
+/// The interface of all models of the instrument, and their list.
+///
+/// A new model is a class in a file of its own, with a function in this header and a line in
+/// models().  Values that it alone gives are a new type of CorrectedRow::own or ModelFit::own.
+///
+/// Programs call correct_survey(), which chooses the rows, fits and scores.  Use this interface to
+/// treat all models alike:
+///
+///     const SurveyProblem problem{rows, options, day};
+///     const auto fit = find_model("t-rate")->fit(problem, choice);
+///     if (const auto* const refusal = std::get_if<Refusal>(&fit)) return refusal->trouble;
+///
+/// Models have no state.  They exist as long as the program, and any number of threads may call
+/// them.  Equal arguments give equal results.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "corrector/model/corrected_survey.hpp"
+#include "corrector/model/refusal.hpp"
+#include "corrector/reading/day_record.hpp"
+
+namespace a351::corrector {
+
+/// A survey to be corrected.
+///
+/// The members refer to objects of the caller, which must exist as long as this one.
+struct SurveyProblem {
+    const std::vector<SurveyRow>& rows;  ///< (n) At least one, in strictly ascending time.
+    const SurveyOptions& options;        ///< `base` is filled in.
+    const DayRecord* day;                ///< Record of the rows; null: there are only averages.
+
+    /// Returns the instant at which t = 0.
+    ///
+    /// It is that of the first row, in use or not.  The same rows in use therefore have the same
+    /// coefficients, whichever rows are flagged.
+    [[nodiscard]] UtcTime origin() const { return rows.front().time; }
+};
+
+/// The rows of one fit.
+///
+/// `network` adjusts the accepted rows; all other models fit those in use.
+struct RowChoice {
+    std::vector<bool> accepted;  ///< (n) True: not excluded and, with use_flags, not flagged.
+    std::vector<bool> in_use;    ///< (n) True: accepted, with a reference of the datum.
+
+    [[nodiscard]] bool operator==(const RowChoice&) const = default;
+};
+
+/// A model of the instrument.
+class Model {
+public:
+    Model() = default;
+    Model(const Model&) = delete;
+    Model& operator=(const Model&) = delete;
+    virtual ~Model() = default;
+
+    /// Returns the name in options and tables.
+    ///
+    /// It is unique in models() and refers to a constant.
+    [[nodiscard]] virtual std::string_view name() const = 0;
+
+    /// Returns true if every survey is scored with this model, whichever is applied.
+    [[nodiscard]] virtual bool is_always_scored() const { return false; }
+
+    /// Fits the model and corrects all rows.  The studentised residuals are tested row by row
+    /// (row_doubts.hpp); physical doubts are not set.
+    ///
+    /// The score is that of score() for the same rows.  ModelFit::calibration is set by `day` only.
+    /// @return the fit, or why these rows do not allow one.
+    /// @throws InputError  the model needs the means of the axes and a row has none.
+    [[nodiscard]] virtual std::variant<ModelFit, Refusal> fit(const SurveyProblem& problem,
+                                                              const RowChoice& choice) const = 0;
+
+    /// Returns the score; nullopt if such rows are not scored.
+    ///
+    /// A score without rms_mgal means that the rows do not determine the model, or that it refuses
+    /// them.  The cost is up to one fit without each station and one without each row.
+    /// @throws InputError  as fit().
+    [[nodiscard]] virtual std::optional<ModelScore> score(const SurveyProblem& problem,
+                                                          const RowChoice& choice) const = 0;
+};
+
+/// Returns all models, in the order of model_names().  The pointers are never null.
+[[nodiscard]] const std::vector<const Model*>& models();
+
+/// Returns the model of this name; null if there is none.  kAutomatic is no model.
+[[nodiscard]] const Model* find_model(std::string_view name);
+
+/// Name of the choice between the whole-day model and kLinearModels.
+inline constexpr std::string_view kAutomatic = "auto";
+
+/// Returns the names that SurveyOptions::model may have: kAutomatic and the names of models().
+[[nodiscard]] std::vector<std::string> model_names();
+
+/// Returns the rows before the fit (n): is_used and difference are set, the corrections are 0.
+///
+/// Every model begins with them and sets the other values.  Rows without a reference have no
+/// difference.
+[[nodiscard]] std::vector<CorrectedRow> uncorrected(const SurveyProblem& problem,
+                                                    const RowChoice& choice);
+
+/// The publication's correction (paper_correction.hpp).
+///
+/// The leverage and uncertainty of a row are those of the line.  It refuses rows that do not
+/// determine the line, and if find_end_point_drift() does.
+///
+/// Use it to reproduce the publication.  Its drift depends on two readings only, which makes the
+/// result of the published rows worse.  No row has a studentised residual or a statistical doubt.
+[[nodiscard]] const Model& paper_model();
+
+/// The models of kLinearModels and kModelsOnRequest (model_fit.hpp), in this order.
+///
+/// Those of kLinearModels are always scored.  They refuse rows that do not determine the
+/// coefficients.  Priors count: with a prior on a slope, fewer rows are enough.
+[[nodiscard]] const std::vector<const Model*>& linear_models();
+
+/// The MM estimate (robust_fit.hpp) of the linear model SurveyOptions::robust_terms.
+///
+/// A row's studentised residual is the residual divided by s sqrt(1 - h), or by s sqrt(1 + h)
+/// outside the fit, with the robust s.  A row with h >= 1 has none.  It refuses rows that do not
+/// determine the coefficients.
+///
+/// The statistical doubts come from least squares of the same terms, doubt_by_linear_fit().  The
+/// weights of the robust fit are in RobustRow; a weight near 0 marks a bad row as well.
+[[nodiscard]] const Model& robust_model();
+
+/// The network adjustment (network.hpp).
+///
+/// Use it where most stations are unknown and some are occupied repeatedly, or for several days
+/// with a constant of their own.
+///
+/// - A row's residual is reference - corrected, held or not.  Its leverage is 1 - redundancy;
+///   outside the network it is the variance of its corrections divided by reading_sd^2.
+/// - A row's u_corrected is sqrt(reading_sd^2 + variance of its corrections), a priori.
+/// - Accepted rows are in the network, with or without reference.
+/// - Stations in the network have their adjusted value with the uncertainty a priori.  A station
+///   that occurs in flagged rows only has the mean of their corrected values.
+/// - LOSO predicts every datum with its own reference hidden, v / r of its row; it needs two datum
+///   stations.  It agrees with hiding each reference in turn within 1e-5 of its value
+///   (network_test.cpp).
+/// - Rows of a loop without a reading in the network cannot be corrected: they are in left_out,
+///   with a remark.
+/// - NetworkAdjustment::term_columns and is_tied count all rows of the problem, also those in
+///   left_out, which ModelFit::rows does not have.
+///
+/// It refuses as adjust_network().
+[[nodiscard]] const Model& network_model();
+
+}  // namespace a351::corrector

@@ -1,0 +1,73 @@
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "corrector/model/applied_fit.hpp"
+#include "corrector/model/robust_fit.hpp"
+#include "corrector/model/row_doubts.hpp"
+
+namespace a351::corrector {
+namespace {
+
+class Robust final : public Model {
+public:
+    [[nodiscard]] std::string_view name() const override { return "robust"; }
+    [[nodiscard]] std::variant<ModelFit, Refusal> fit(const SurveyProblem& problem,
+                                                      const RowChoice& choice) const override;
+    [[nodiscard]] std::optional<ModelScore> score(const SurveyProblem& problem,
+                                                  const RowChoice& choice) const override {
+        return score_robust_model(terms_of(problem), chosen_rows(problem.rows, choice.in_use),
+                                  problem.origin(), problem.options.priors);
+    }
+
+private:
+    static const LinearModel& terms_of(const SurveyProblem& problem) {
+        return *find_linear_model(problem.options.robust_terms);
+    }
+};
+
+std::variant<ModelFit, Refusal> Robust::fit(const SurveyProblem& problem,
+                                            const RowChoice& choice) const {
+    const LinearModel& terms = terms_of(problem);
+    const ModelPriors& priors = problem.options.priors;
+    auto applied = apply_model(terms, problem, choice, priors);
+    if (auto* const refusal = std::get_if<Refusal>(&applied)) return std::move(*refusal);
+    const std::vector<SurveyRow> used = chosen_rows(problem.rows, choice.in_use);
+    const auto robust = fit_robust_model(terms, used, problem.origin(), priors);
+    if (!robust)
+        return Refusal{fmt::format("{} rows with a reference are too few for {}, or too many of "
+                                   "them are equal",
+                                   used.size(), terms.name),
+                       "more rows"};
+    auto& fit = std::get<AppliedFit>(applied);
+    fit.fit = robust->fit;
+    fit.s_mgal = robust->s;
+    ModelFit result;
+    result.own = RobustPart{std::string(terms.name)};
+    result.rows = uncorrected(problem, choice);
+    result.score = *score(problem, choice);
+    correct_rows(result, terms, fit);
+    Eigen::Index at = 0;
+    for (CorrectedRow& row : result.rows) {
+        // The robust scale hardly depends on a single row, so it is used as it is.
+        row.studentised_residual.reset();
+        if (row.residual && row.leverage.value() < 1.0) {
+            const double share =
+                row.is_used ? 1.0 - row.leverage.value() : 1.0 + row.leverage.value();
+            row.studentised_residual = row.residual->value() / (robust->s * std::sqrt(share));
+        }
+        if (row.is_used) row.own = RobustRow{robust->weights(at++)};
+    }
+    result.stations = average_stations(result, choice.accepted, fit, result.score.s_mgal);
+    doubt_by_linear_fit(result.rows, terms, priors);
+    return result;
+}
+
+}  // namespace
+
+const Model& robust_model() {
+    static const Robust model;
+    return model;
+}
+
+}  // namespace a351::corrector

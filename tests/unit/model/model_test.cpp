@@ -1,0 +1,85 @@
+#include "corrector/model/model.hpp"
+
+#include <set>
+#include "tests/support/catch.hpp"
+
+#include "tests/unit/model/survey_rows.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+RowChoice all_of(const std::vector<SurveyRow>& rows) {
+    const std::vector<bool> all(rows.size(), true);
+    return {all, all};
+}
+
+SurveyOptions options_for(const std::vector<SurveyRow>& rows) {
+    SurveyOptions options;
+    options.base = rows.front().site;
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("every model has a name of its own, by which it is found", "[survey][model]") {
+    std::set<std::string_view> names{kAutomatic};
+    for (const Model* const model : models()) {
+        CHECK(names.insert(model->name()).second);
+        CHECK(find_model(model->name()) == model);
+    }
+    CHECK(names.size() == model_names().size());
+    CHECK(find_model("kriging") == nullptr);
+    CHECK(find_model(kAutomatic) == nullptr);
+}
+
+TEST_CASE("every model of averages corrects every row, with the score that it has alone",
+          "[survey][model]") {
+    auto rows = made_up::day();
+    rows[2].acceleration = rows[2].acceleration + MilliGal(1.5);
+    const SurveyOptions options = options_for(rows);
+    const SurveyProblem problem{rows, options, nullptr};
+    for (const std::string name :
+         {"paper", "t", "t-rate", "t-drift", "t-rate-drift", "drift", "network", "robust"}) {
+        CAPTURE(name);
+        const Model& model = *find_model(name);
+        const auto fit = std::get<ModelFit>(model.fit(problem, all_of(rows)));
+        REQUIRE(fit.rows.size() == rows.size());
+        CHECK(fit.score.model == name);
+        CHECK(fit.score.rms_mgal == model.score(problem, all_of(rows))->rms_mgal);
+        CHECK((fit.rows.front().as<PaperRow>() != nullptr) == (name == "paper"));
+        CHECK((fit.rows.front().as<RobustRow>() != nullptr) == (name == "robust"));
+        CHECK((fit.as<NetworkAdjustment>() != nullptr) == (name == "network"));
+    }
+}
+
+TEST_CASE("every model refuses a single row, and says what would help", "[survey][model]") {
+    auto rows = made_up::day();
+    rows.resize(1);
+    rows.front().reference.reset();
+    const SurveyOptions options = options_for(rows);
+    const RowChoice none{{true}, {false}};
+    for (const Model* const model : models()) {
+        CAPTURE(model->name());
+        if (model->name() == "t-rate-drift-axes") continue;  // needs the means of the axes
+        const auto fit = model->fit({rows, options, nullptr}, none);
+        const Refusal& refusal = std::get<Refusal>(fit);
+        CHECK_FALSE(refusal.trouble.empty());
+        CHECK_FALSE(refusal.allowed.empty());
+    }
+}
+
+TEST_CASE("the whole-day model refuses priors that it would ignore", "[survey][model]") {
+    const auto rows = made_up::day();
+    SurveyOptions options = options_for(rows);
+    set_prior(options.priors, "test", "time_mgal_per_h", {0.0, 0.1});
+    DayRecord day{{{rows.front().time, Hertz(0.5), {42.5}}, 0.0}, {}};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        DayBin bin;
+        bin.set_up = i;
+        day.bins.push_back(bin);
+    }
+    const auto fit = find_model("day")->fit({rows, options, &day}, all_of(rows));
+    CHECK_THAT(std::get<Refusal>(fit).trouble, ContainsSubstring("`prior` would be ignored"));
+}
