@@ -9,7 +9,6 @@
 
 #include "corrector/correlation/fourier.hpp"
 #include "corrector/correlation/regression.hpp"
-#include "corrector/whole_day/day_columns.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -23,21 +22,8 @@ constexpr std::size_t kHalfWindow = 7;
 constexpr double kShortestPeriod_s = 39.0;  // two steps, with a margin for the sensor's clock
 constexpr double kLeastRatioToError = 2.0;  // least ratio of a part to its error to be applied
 
-/// Parameters of the response that are applied.
-struct Response {
-    double level = 0.0, slow = 0.0, rate = 0.0;  ///< rA, rS, rF; 0: not applied.
-    double fast_lag_s = 0.0, slow_lag_s = 0.0;
-
-    /// Returns the complex response at a period, mGal/degC:
-    /// H = rA + rS / (1 + i w tS) + rF i w / (1 + i w tF), with w = 2 pi / period.
-    [[nodiscard]] std::complex<double> at(double period_s) const {
-        const std::complex<double> turn(0.0, 2.0 * M_PI / period_s);
-        return level + slow / (1.0 + turn * slow_lag_s) +
-               rate * kSecondsPerHour * turn / (1.0 + turn * fast_lag_s);
-    }
-};
-
-Response response_of(const ThermalResponse& thermal, std::vector<std::string>& remarks) {
+/// Returns the response with the parameters that are applied; the others are 0.
+ThermalEffect effect_of(const ThermalResponse& thermal, std::vector<std::string>& remarks) {
     using Vector = Eigen::Matrix<double, 5, 1>;
     using Matrix = Eigen::Matrix<double, 5, 5>;
     // Calibration and priors: inverse covariances and weighted values are added.
@@ -45,14 +31,14 @@ Response response_of(const ThermalResponse& thermal, std::vector<std::string>& r
     Matrix together = information;
     Vector weighted = information * thermal.values;
     for (Eigen::Index k = 0; k < 5; ++k) {
-        const TwoPathPrior prior = two_path_prior(kThermalTerms.at(static_cast<std::size_t>(k)));
+        const ThermalPrior prior = record_prior(static_cast<ThermalTerm>(k));
         together(k, k) += 1.0 / (prior.deviation * prior.deviation);
         weighted(k) += prior.mean / (prior.deviation * prior.deviation);
     }
     const Matrix covariance = Cholesky(together).inverse();
     const Vector values = covariance * weighted;
 
-    Response response;
+    ThermalEffect response;
     response.fast_lag_s = std::exp(values(3));
     response.slow_lag_s = std::exp(values(4));
     const double slope = values(0) + values(1);
@@ -72,7 +58,7 @@ Response response_of(const ThermalResponse& thermal, std::vector<std::string>& r
         left_out("static slope", slope, slope_error, "mGal/degC");
     }
     if (std::abs(values(2)) >= kLeastRatioToError * rate_error)
-        response.rate = values(2);
+        response.fast = values(2);
     else
         left_out("fast path", values(2), rate_error, "mGal/(degC/h)");
     return response;
@@ -99,18 +85,13 @@ std::vector<double> smoothed(const std::vector<double>& values) {
     return result;
 }
 
-std::vector<double> by_two_paths(const RecordSegment& segment, const Response& response,
+std::vector<double> by_two_paths(const RecordSegment& segment, const ThermalEffect& response,
                                  double step_s) {
     const std::vector<double> temperature = smoothed(segment.temperature_degc);
     const TimeSeries<DegC> series({}, Hertz(1.0 / step_s), temperature);
-    const std::vector<double> fast = lagged(series, response.fast_lag_s),
-                              slow = lagged(series, response.slow_lag_s);
-    const double mean = mean_of(temperature);
+    const std::vector<double> effect = response.of(series, mean_of(temperature));
     std::vector<double> corrected = segment.acceleration_mgal;
-    for (std::size_t i = 0; i < corrected.size(); ++i)
-        corrected[i] -=
-            response.level * (temperature[i] - mean) + response.slow * (slow[i] - mean) +
-            response.rate * kSecondsPerHour * (temperature[i] - fast[i]) / response.fast_lag_s;
+    for (std::size_t i = 0; i < corrected.size(); ++i) corrected[i] -= effect[i];
     return corrected;
 }
 
@@ -119,7 +100,7 @@ bool is_short(const Component& mode, double step_s, double averaged_below_s) {
 }
 
 std::vector<double> mode_by_mode(const RecordSegment& segment, const RecordAnalysis& analysis,
-                                 const Response& response, double averaged_below_s) {
+                                 const ThermalEffect& response, double averaged_below_s) {
     const double step_s = analysis.step_s;
     std::vector<double> corrected = segment.acceleration_mgal;
     for (const Component& mode : analysis.acceleration.modes) {
@@ -185,7 +166,7 @@ double allan_deviation(const std::vector<double>& values, std::size_t samples) {
 AppliedCalibration apply_calibration(const ThermalResponse& thermal, const RecordSegment& segment,
                                      const RecordAnalysis& analysis, double averaged_below_s) {
     AppliedCalibration applied;
-    const Response response = response_of(thermal, applied.remarks);
+    const ThermalEffect response = effect_of(thermal, applied.remarks);
     applied.averaged_below_s = averaged_below_s;
     applied.parametric_mgal = by_two_paths(segment, response, analysis.step_s);
     applied.by_modes_mgal = mode_by_mode(segment, analysis, response, averaged_below_s);

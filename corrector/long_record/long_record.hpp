@@ -1,6 +1,15 @@
 #pragma once
 /// @file
 /// A record of hours to weeks at one point, at the rate at which it is analysed.
+///
+/// The way of a record through this folder:
+///
+///     LongRecord record = joined_record(read_records(files, window));
+///     RecordSegments parts = divide_record(record);
+///     RecordAnalysis analysis = analyse_record(parts.segments[k], record.step_s, options);
+///
+/// A record has stretches: samples on one clock, with missing ones among them.  A segment is a part
+/// of a stretch without a break, in which missing samples are bridged.
 
 #include <cstddef>
 #include <filesystem>
@@ -15,18 +24,23 @@ namespace a351::corrector {
 
 /// Time between samples, s.  Source: the publication's record, decimated from 50 Hz.
 inline constexpr double kRecordStep_s = 20.0;
-/// Factor of a decimation stage.
+/// Factor of a decimation stage, dimensionless.
 inline constexpr int kRecordFactor = 10;
 /// Number of stages from 50 Hz to kRecordStep_s.
 inline constexpr int kMostRecordStages = 3;
 
-/// Longest gap within a stretch, s; a longer one begins a new stretch.
+/// Longest gap within a stretch, s; a longer one begins a new stretch.  Within a stretch, gaps of
+/// more than kLongestBridge samples still divide segments (record_segments.hpp).
 inline constexpr double kLongestGap_s = 3600.0;
-/// Value of a missing sample.
+/// Value of a missing sample.  Find one with std::isnan(): NaN is not equal to itself.
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Samples on one clock; missing samples are NaN.  All vectors have the same length n; `raw` and
 /// `axes_mgal` may be empty.
+///
+/// Invariants of a stretch that was read: n >= 1, times ascend, and neighbours are about one step
+/// apart.  A sample may be missing in one series and exist in another.  A default-constructed
+/// stretch is empty.
 struct RecordStretch {
     /// Smallest and largest raw value from the time of a decimated sample to just before the next
     /// one; NaN if all raw values are missing.
@@ -51,6 +65,9 @@ struct RecordStretch {
 };
 
 /// A record, as read.
+///
+/// `raw_rate_hz` and `step_s` belong to the first stretch.  Further stretches have the same step
+/// within 0.1 %.
 struct LongRecord {
     std::filesystem::path source;          ///< File or data root; empty for a joined record.
     std::vector<RecordStretch> stretches;  ///< In order of time; each has at least one sample.

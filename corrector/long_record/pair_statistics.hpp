@@ -1,6 +1,14 @@
 #pragma once
 /// @file
 /// The publication's statistics of temperature and acceleration in the band of the oven's cycle.
+///
+///     const PairStatistics pair = pair_statistics(t, a, 20.0, 900.0, 280.0);
+///     if (pair.period_s > 0.0) std::cout << causal_reading(pair) << '\n';
+///
+/// In a narrow band two peaks of the correlation describe one response.  A negative peak that is
+/// late and a positive peak that is early are therefore no contradiction: phase_of_peaks_deg()
+/// combines both.  The statistics mean nothing if the band shows no response; response.hpp tests
+/// that.
 
 #include <span>
 #include <string>
@@ -9,7 +17,8 @@
 
 namespace a351::corrector {
 
-/// Statistics of two series in a narrow band, or of two modes.
+/// Statistics of two series in a narrow band, or of two modes.  A swing is 2 sqrt(2) standard
+/// deviations.
 struct PairStatistics {
     /// Mean time between rising zero crossings of the temperature; 0 with fewer than two.
     double period_s = 0.0;
@@ -24,13 +33,15 @@ struct PairStatistics {
 /// Computes the statistics of a pair of series.
 ///
 /// Peaks of the correlation are searched within half a cycle on either side of 0.  The standard
-/// error of the slope is for residuals that are correlated over four cycles.
-/// @param temperature_degc   (n) about zero; n > 4 cycles.
-/// @param acceleration_mgal  (n) about zero.
+/// error of the slope is for residuals that are correlated over four cycles.  Cost: O(n cycle_s /
+/// step_s).
+/// @param temperature_degc   (n) about zero; n > 4 cycles.  Finite and not constant.
+/// @param acceleration_mgal  (n) about zero.  Finite and not constant.
 /// @param step_s             time between samples, s.
 /// @param cycle_s            cycle of the oven, s.
 /// @param shift_s            time by which the acceleration is moved earlier, s, >= 0; the
-///                           publication takes 280 s.
+///                           publication takes 280 s.  It is rounded to whole samples, and leaves
+///                           three samples at least.
 [[nodiscard]] PairStatistics pair_statistics(std::span<const double> temperature_degc,
                                              std::span<const double> acceleration_mgal,
                                              double step_s, double cycle_s, double shift_s);
@@ -45,7 +56,8 @@ struct PairStatistics {
 /// @param pair  with a period > 0.
 [[nodiscard]] double phase_of_peaks_deg(const PairStatistics& pair);
 
-/// Returns the rate coefficient that explains the part in quadrature, mGal per degC/h:
+/// Returns the rate coefficient that explains the part in quadrature, mGal per degC/h; positive if
+/// the acceleration grows while the temperature rises:
 /// gain sin(phase) / (2 pi / P), where gain is |negative peak| times the ratio of the swings.
 ///
 /// Accuracy: 9.9 +- 0.1 mGal per degC/h for a sine with a known response (indoor_record_test.cpp).
@@ -54,6 +66,10 @@ struct PairStatistics {
 
 /// Returns the meaning of the two peaks in sentences: delays, sizes, phase, and response to the
 /// temperature or to its rate of change.
+///
+/// If both peaks are below 0.3 in size, the text says that the band shows no response.  If they
+/// differ by more than a factor of 1.25, it says that the band is not narrow.  A phase within 45
+/// degrees of +-90 is called a response to the rate of change.
 /// @param pair  with a period > 0.
 [[nodiscard]] std::string causal_reading(const PairStatistics& pair);
 

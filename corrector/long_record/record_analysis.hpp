@@ -2,6 +2,15 @@
 /// @file
 /// Analysis of one segment of a long record: the publication's statistics, response by period, two
 /// paths.
+///
+///     RecordAnalysisOptions options;
+///     options.threads = 4;
+///     if (segment.size() >= least_record_length(options.cycle_s, step_s))
+///         show(analyse_record(segment, step_s, options).reading);
+///
+/// Read `reading` and `remarks` first: they say which numbers have a meaning.  The publication's
+/// statistics compare a record with the published night.  Use by_spectrum, by_modes and two_paths
+/// for conclusions about the unit, because these have confidence limits.
 
 #include <functional>
 #include <optional>
@@ -16,19 +25,26 @@
 
 namespace a351::corrector {
 
-/// Options of analyse_record().
+/// Options of analyse_record().  Cycle, shift and ensemble are those of the publication.
+///
+/// Range: cycle_s more than 3 steps, shift_s >= 0 and shorter than the segment, ensemble_size and
+/// threads >= 1.  The command accepts cycles of 200 to 7200 s and shifts up to a cycle.
 struct RecordAnalysisOptions {
     double cycle_s = 900.0;   ///< Cycle of the oven; default: 15 minutes as in the publication.
     double shift_s = 280.0;   ///< Time by which the acceleration is moved, as in the publication.
     int ensemble_size = 160;  ///< Members of the EEMD, as in the publication's record indoors.
     std::uint64_t seed = 1;   ///< Seed of the EEMD.
     int threads = 1;          ///< Number of threads; the result does not depend on it.
-    /// Called with the members done and in all, of both decompositions together.
+    /// Called with the members done and in all, of both decompositions together; in the caller's
+    /// thread.  Empty: no reports.
     std::function<void(std::size_t done, std::size_t total)> progress;
 };
 
 /// The mode of the oven's cycle: its mean period is nearest to the cycle by ratio, and within an
 /// octave.
+///
+/// A neighbour_share above 0.2 means that the oscillation may be split between two modes; a remark
+/// says so then.
 struct ChosenMode {
     std::size_t number = 0;  ///< Number of the mode; 1 is the fastest.
     double period_s = 0.0;
@@ -37,6 +53,13 @@ struct ChosenMode {
 };
 
 /// Results for one segment.
+///
+/// - `raw`, `trend`: mGal per degC.  The errors of `raw` are for residuals correlated over four
+///   cycles, those of `trend` for residuals correlated over a quarter of the segment.
+/// - `temperature`, `acceleration`: EEMD of each series, n values per component.  That of the
+///   acceleration is of the series minus its first value.
+/// - `by_spectrum`, `by_modes`: fastest first; refused points are among them.
+/// - `two_paths`: mGal, degC, s; see fit_two_paths().
 struct RecordAnalysis {
     double step_s = 0.0;  ///< Time between samples.
     LineFit raw;          ///< Acceleration over temperature, all samples.
@@ -59,6 +82,12 @@ struct RecordAnalysis {
 ///
 /// The means of the publication's statistics over ten simulated nights are in their published
 /// ranges (indoor_record_test.cpp).
+///
+/// The decompositions take most of the time, in proportion to ensemble_size; threads share the
+/// members.  The result depends on the seed, but not on the number of threads.
+///
+/// A record without a cycle is analysed too; `reading` then refuses to interpret it
+/// (indoor_record_test.cpp).  In one night warm-up, drift and slow temperature cannot be separated.
 /// @param segment  from divide_record(), finite.
 /// @param step_s   time between samples, s.
 /// @param options  see RecordAnalysisOptions.
@@ -66,7 +95,8 @@ struct RecordAnalysis {
 [[nodiscard]] RecordAnalysis analyse_record(const RecordSegment& segment, double step_s,
                                             const RecordAnalysisOptions& options);
 
-/// Returns the least number of samples for analyse_record(): eight cycles.
+/// Returns the least number of samples for analyse_record(): eight cycles, 360 for 900 s at 20 s.
+/// The two-path fit needs 540 samples; divide_record() gives no shorter segment by default.
 [[nodiscard]] std::size_t least_record_length(double cycle_s, double step_s);
 
 /// Returns the shortest period of the band about a cycle, s: cycle / 1.5, 600 for 900.

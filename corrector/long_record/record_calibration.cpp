@@ -16,7 +16,6 @@ namespace {
 
 using Index = Eigen::Index;
 constexpr int kCount = static_cast<int>(kThermalNames.size());
-static_assert(kThermalTerms.size() == kThermalNames.size());
 using Vector = Eigen::Matrix<double, kCount, 1>;
 using Matrix = Eigen::Matrix<double, kCount, kCount>;
 
@@ -32,13 +31,13 @@ struct Information {
     Vector vector = Vector::Zero();  ///< matrix x estimate
 };
 
-TwoPathTerm term_of(Index k) { return kThermalTerms.at(static_cast<std::size_t>(k)); }
+TwoPathTerm term_of(Index k) { return kThermalOfTwoPath.at(static_cast<std::size_t>(k)); }
 
 /// Means and deviations of the priors.
 std::pair<Vector, Vector> thermal_priors() {
     Vector means, deviations;
     for (Index k = 0; k < kCount; ++k) {
-        const TwoPathPrior prior = two_path_prior(term_of(k));
+        const ThermalPrior prior = record_prior(static_cast<ThermalTerm>(k));
         means(k) = prior.mean;
         deviations(k) = prior.deviation;
     }

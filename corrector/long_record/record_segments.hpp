@@ -1,6 +1,13 @@
 #pragma once
 /// @file
 /// The segments of a long record that can be analysed, and the reasons why other parts cannot.
+///
+///     const RecordSegments parts = divide_record(record);
+///     for (const RefusedPart& part : parts.refused) show(part.start, part.reason);
+///     for (const RecordSegment& segment : parts.segments) analyse(segment);
+///
+/// Spectra and decompositions need series without gaps.  They also need one state of the unit:
+/// after a step the box has moved, and after a restart the unit warms up again.
 
 #include <string>
 #include <vector>
@@ -19,6 +26,9 @@ struct SegmentOptions {
 };
 
 /// A run of n samples without a break; missing samples are bridged by straight lines.
+///
+/// Both series are finite and have the length n.  Sample i is at start + i x LongRecord::step_s,
+/// within half a step.  The first and the last sample are measured ones.
 struct RecordSegment {
     UtcTime start;              ///< Time of the first sample.
     UtcTime end;                ///< Time of the last sample.
@@ -34,13 +44,14 @@ struct RecordSegment {
     [[nodiscard]] std::size_t size() const noexcept { return acceleration_mgal.size(); }
 };
 
-/// A part that is not analysed.
+/// A part that is not analysed, from its first to its last sample.  Parts may overlap if several
+/// channels are stuck at once.  `reason` is a text for people, with the value or length found.
 struct RefusedPart {
     UtcTime start, end;
     std::string reason;
 };
 
-/// The parts of a record.
+/// The parts of a record.  Missing samples between them are in neither list.
 struct RecordSegments {
     std::vector<RecordSegment> segments;  ///< In order of time.
     std::vector<RefusedPart> refused;     ///< In order of their start.
@@ -48,6 +59,16 @@ struct RecordSegments {
 
 /// Divides a record at gaps, at steps of the acceleration and at restarts.  Stuck samples are
 /// refused and count as missing.  Rules: corrector/long_record/long_record.md, "Segments".
+///
+/// - Gaps of up to kLongestBridge samples, and knocks, are bridged.
+/// - `begins_with` has the break before a segment.  A change of sensor, scale or rate has priority
+///   over the gap.
+/// - A power cycle that leaves no longer gap and no change of temperature is not found.
+///
+/// A record without valid samples has no segments (record_segments_test.cpp).  Deterministic; the
+/// record is not changed, and its samples are copied.
+/// @param record   stretches in order of time.
+/// @param options  see SegmentOptions; the length of a segment includes bridged samples.
 [[nodiscard]] RecordSegments divide_record(const LongRecord& record,
                                            const SegmentOptions& options = {});
 

@@ -1,6 +1,13 @@
 #pragma once
 /// @file
 /// The tables of a long record as cells, for the terminal and the page.
+///
+///     std::cout << text::aligned(segments_table(result));
+///     const TextTable table = response_table(result);
+///     page += html_table("lrrrrrr", table.front(), {table.begin() + 1, table.end()});
+///
+/// Cells are plain text with rounded numbers.  Programs read response.csv and result.json.  All
+/// functions need a complete RecordResult, and are deterministic.
 
 #include <string>
 #include <vector>
@@ -9,26 +16,32 @@
 
 namespace a351::corrector {
 
-/// Cells by row; the first row is the header.
+/// Cells by row; the first row is the header.  All rows have the same length.
 using TextTable = std::vector<std::vector<std::string>>;
 
-/// Returns the segments; the analysed one has a star.
+/// Returns the segments; the analysed one has a star.  Columns: number from 1, start, length in h,
+/// samples from straight lines, knocks among them, reason of the start.
 [[nodiscard]] TextTable segments_table(const RecordResult& result);
-/// Returns the statistics and the published values.
+/// Returns the statistics and the published values.  A dash means that nothing is published.
 [[nodiscard]] TextTable statistics_table(const RecordResult& result);
-/// Returns the response by period in both ways, without refused points.
+/// Returns the response by period in both ways, without refused points.  If all points are refused,
+/// it is the header alone; refused_bands() has the reasons.
 [[nodiscard]] TextTable response_table(const RecordResult& result);
 /// Returns the parameters of the two paths; for undetermined ones with the record that is needed.
+/// The value of an undetermined parameter is mostly that of its prior.
 [[nodiscard]] TextTable two_paths_table(const RecordResult& result);
 
-/// Returns one line per part of the record that is not analysed.
+/// Returns one line per part of the record that is not analysed: start, end and reason; no lines if
+/// nothing was refused.
 [[nodiscard]] std::vector<std::string> refused_parts(const RecordResult& result);
-/// Returns one line per run of bands or modes that are refused for the same reason.
+/// Returns one line per run of bands or modes that are refused for the same reason.  It has the
+/// periods, the reason, and the record that is needed.
 [[nodiscard]] std::vector<std::string> refused_bands(const RecordResult& result);
 /// Returns a line with the modes of the cycle; empty if they were not found in both series.
 [[nodiscard]] std::string chosen_modes(const RecordResult& result);
 /// Returns a sentence on the static slope, on the residual of the fit, and on the bands in which
-/// the residual still follows the temperature.
+/// the residual still follows the temperature.  If there are such bands, the fit must not be
+/// extrapolated, and the sentence says so.
 [[nodiscard]] std::string two_paths_reading(const RecordResult& result);
 
 }  // namespace a351::corrector

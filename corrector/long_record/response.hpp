@@ -5,6 +5,14 @@
 /// H(period) = gain exp(i phase); phase > 0: the acceleration leads.  Limits are those of 95 %
 /// confidence.  Methods: corrector/long_record/long_record.md, "Response by period".
 ///
+/// A gain alone says nothing: noise has a gain too.  Use a point only if `refusal` is empty:
+///
+///     for (const ResponsePoint& point : response_by_spectrum(t, a, 20.0))
+///         if (point.refusal.empty()) draw(point.period_s, point.gain, point.phase_deg);
+///
+/// Both ways use the same record, so their agreement does not make an error smaller.  All functions
+/// are deterministic and may be called from several threads.
+///
 /// Accuracy of both ways (response_test.cpp): at least 85 % of the claimed points contain gain and
 /// phase of the simulated plant within their limits.
 
@@ -14,12 +22,15 @@
 
 namespace a351::corrector {
 
-/// A value with its confidence limits.
+/// A value with its confidence limits: low <= value <= high.
 struct Limits {
     double value = 0.0, low = 0.0, high = 0.0;
 };
 
 /// The response in one band, or of one mode.
+///
+/// Of a refused point only the period, its limits and the rms of the temperature should be used.
+/// `refusal` and `needed` are both empty or both not (response_test.cpp).
 struct ResponsePoint {
     double period_s = 0.0;  ///< Period of the mean frequency of the temperature's power.
     /// Limits of the band; for a mode the octave about its period.
@@ -35,7 +46,7 @@ struct ResponsePoint {
 
 /// Shortest period of a response, s.  Reason: below, three filters attenuate.
 inline constexpr double kShortestResponse_s = 120.0;
-/// 1 - confidence of the limits.
+/// 1 - confidence of the limits, dimensionless.  Reason: 95 % limits are usual.
 inline constexpr double kSignificance = 0.05;
 
 /// Options of response_by_spectrum().
@@ -63,7 +74,8 @@ struct ResponseOptions {
 /// @param acceleration_mgal  (n) finite.
 /// @param step_s             time between samples, s.
 /// @param options            see ResponseOptions.
-/// @return one point per band, the fastest first.
+/// @return one point per band, the fastest first; refused ones too.  The middle of the first band
+///         is above kShortestResponse_s.
 /// Source: J. S. Bendat and A. G. Piersol, Random Data, 4th ed., Wiley 2010, section 9.2 (after N.
 /// R. Goodman, 1957).  Tapers: K. S. Riedel and A. Sidorenko, IEEE Trans. Signal Process. 43,
 /// 188-195, 1995.
@@ -73,6 +85,9 @@ struct ResponseOptions {
 
 /// Power spectrum of the temperature, and the noise of the thermometer.  White noise of variance v
 /// has the expected power v at every frequency.
+///
+/// `noise` is 0 if no frequency is between 70 and 110 s, because the steps are too long or the
+/// record is too short.
 struct ThermometerSpectrum {
     std::vector<double> power;  ///< degC^2 at the frequencies k / (n step); seven sine tapers.
     double noise = 0.0;         ///< degC^2: mean power of the first taper, periods 70-110 s.
@@ -96,10 +111,11 @@ struct ThermometerSpectrum {
 ///
 /// A point is refused with fewer than 13 cycles, if half or twice the gain is within the limits, or
 /// if a series is constant.  Modes with a period below kShortestResponse_s are skipped.
-/// @param modes              modes of the temperature (n each), fastest first.
+/// @param modes              modes of the temperature (n each), fastest first; without the residue.
 /// @param temperature_degc   (n) finite.
 /// @param acceleration_mgal  (n) finite.
 /// @param step_s             time between samples, s.
+/// @return one point per mode that is not skipped, in the order of the modes; refused ones too.
 [[nodiscard]] std::vector<ResponsePoint> response_by_modes(
     const std::vector<std::vector<double>>& modes, std::span<const double> temperature_degc,
     std::span<const double> acceleration_mgal, double step_s);

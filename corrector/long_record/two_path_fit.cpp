@@ -7,7 +7,6 @@
 
 #include "corrector/correlation/fourier.hpp"
 #include "corrector/correlation/regression.hpp"
-#include "corrector/whole_day/day_columns.hpp"
 #include "corrector/whole_day/search_grid.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"
@@ -22,9 +21,16 @@ using Lags = std::array<double, 3>;
 
 constexpr double kShortest_s = 240.0;  // at shorter periods the thermometer's noise dominates
 constexpr Index kLinear = 5;           // number of linear terms: drift ... slow
-constexpr std::array<double, kLinear> kPriorDeviation{1.0, 60.0, 60.0, 30.0, 60.0};
-constexpr Lags kLagMedian_s{43.0, 2700.0, 9000.0};
-constexpr Lags kLagFactor{2.0, 2.0, 1.5};
+constexpr double kDriftDeviation_mgal_per_h = 1.0;
+constexpr double kWarmUpDeviation_mgal = 60.0;  // more than the warm-up of the typical unit
+constexpr double kWarmUpTimeFactor = 1.5;
+/// Priors of the linear terms; their means are 0.
+constexpr std::array<double, kLinear> kPriorDeviation{
+    kDriftDeviation_mgal_per_h, kWarmUpDeviation_mgal, kRecordSlopeDeviation_mgal_per_degc,
+    kRecordFastDeviation_mgal_per_degc_per_h, kRecordSlopeDeviation_mgal_per_degc};
+constexpr Lags kLagMedian_s{kTypicalUnit.fast_lag_s, kTypicalUnit.slow_lag_s,
+                            kTypicalUnit.warm_up_h* kSecondsPerHour};
+constexpr Lags kLagFactor{kRecordLagFactor, kRecordLagFactor, kWarmUpTimeFactor};
 
 /// Returns lag k at the point u, s: median x factor^u.
 double lag_s(const Lags& u, std::size_t k) {
@@ -60,14 +66,13 @@ public:
                                                            const Lags& u) const {
         const std::vector<double>& t = temperature.values();
         std::vector<std::vector<double>> all(kLinear, std::vector<double>(t.size()));
-        all[3] = lagged(temperature, lag_s(u, 0));
+        all[3] = fast_rate_degc_per_h(temperature, lag_s(u, 0));
         all[4] = lagged(temperature, lag_s(u, 1));
         for (std::size_t i = 0; i < t.size(); ++i) {
             const double time_h = static_cast<double>(i) * step_s_ / kSecondsPerHour;
             all[0][i] = time_h;
             all[1][i] = std::exp(-time_h * kSecondsPerHour / lag_s(u, 2));
             all[2][i] = t[i] - mean_degc_;
-            all[3][i] = (t[i] - all[3][i]) / lag_s(u, 0) * kSecondsPerHour;
             all[4][i] -= mean_degc_;
         }
         return all;
@@ -251,13 +256,6 @@ constexpr std::array<Named, kTwoPathTerms> kNamed{{
 
 }  // namespace
 
-TwoPathPrior two_path_prior(TwoPathTerm term) {
-    const auto place = static_cast<std::size_t>(term);
-    if (place < kPriorDeviation.size()) return {0.0, kPriorDeviation.at(place)};
-    const std::size_t lag = place - kPriorDeviation.size();
-    return {std::log(kLagMedian_s.at(lag)), std::log(kLagFactor.at(lag))};
-}
-
 TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
                          const std::vector<double>& acceleration_mgal, double step_s,
                          double cycle_s) {
@@ -278,7 +276,7 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
         const auto place = static_cast<Index>(k);
         const bool is_lag = place >= kLinear;
         const std::size_t lag = is_lag ? k - static_cast<std::size_t>(kLinear) : 0;
-        units(place) = two_path_prior(static_cast<TwoPathTerm>(k)).deviation;
+        units(place) = is_lag ? std::log(kLagFactor.at(lag)) : kPriorDeviation.at(k);
         const double deviation = units(place) * std::sqrt(scaled(place, place));
         const double value = is_lag ? lag_s(u, lag) : units(place) * beta(place);
         const bool is_determined = std::sqrt(scaled(place, place)) < kDeterminedDeviation;

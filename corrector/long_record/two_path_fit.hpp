@@ -5,13 +5,19 @@
 ///     a = c + d t + w exp(-t / tW) + rA (T - T0) + rF (T - lag(T, tF)) / tF + rS (lag(T, tS) - T0)
 ///
 /// a is in mGal, T in degC, t in h, rF in mGal/(degC/h), tF, tS and tW in s.
-/// - lag(T, tau): T behind a first-order lag, in equilibrium at the start of the segment.
-/// - rA: rest of the thermometer's compensation.
-/// - rF: crystals that feel a change before the thermometer.
-/// - rS: an oscillator that feels a change later.
+/// - rA, rF, rS, lag(T, tau): the unit's thermal response (protocol/unit/thermal_response.hpp), in
+///   equilibrium at the start of the segment.
 /// - w: warm-up that the thermometer does not see, at the start of the segment.
 ///
 /// Methods and figures: corrector/long_record/long_record.md, "Two paths" and "Measured".
+///
+///     const TwoPathFit fit = fit_two_paths(t, a, 20.0, 900.0);
+///     const FittedParameter& fast = fit[TwoPathTerm::fast];
+///     if (fast.is_determined) use(fast.value, fast.standard_error);
+///     else ask_for(fast.needed);
+///
+/// A value that is not determined is mostly its prior.  Do not extrapolate a fit with `unexplained`
+/// bands: the response of the unit is then not that of two first-order lags.
 
 #include <Eigen/Core>
 #include <array>
@@ -19,24 +25,32 @@
 #include <vector>
 
 #include "corrector/long_record/response.hpp"
+#include "protocol/unit/thermal_response.hpp"
 
 namespace a351::corrector {
 
 /// Parameters d, w, rA, rF, rS, tF, tS, tW, in the order of TwoPathFit::parameters and its
 /// covariance.
+/// - `drift`: d, mGal/h; `warm_up`: w, mGal, at the start of the segment.
+/// - `level`: rA, mGal/degC; `fast`: rF, mGal/(degC/h); `slow`: rS, mGal/degC.
+/// - `fast_lag`: tF, `slow_lag`: tS, `warm_up_time`: tW, all in s.
 enum class TwoPathTerm { drift, warm_up, level, fast, slow, fast_lag, slow_lag, warm_up_time };
 /// Number of parameters.
 inline constexpr std::size_t kTwoPathTerms = 8;
 
-/// Parameters that a calibration keeps, in the order of kThermalNames.
-inline constexpr std::array<TwoPathTerm, 5> kThermalTerms{TwoPathTerm::level, TwoPathTerm::slow,
-                                                          TwoPathTerm::fast, TwoPathTerm::fast_lag,
-                                                          TwoPathTerm::slow_lag};
+/// Parameters that a calibration keeps, in the order of ThermalTerm.
+inline constexpr std::array<TwoPathTerm, kThermalTerms> kThermalOfTwoPath{
+    TwoPathTerm::level, TwoPathTerm::slow, TwoPathTerm::fast, TwoPathTerm::fast_lag,
+    TwoPathTerm::slow_lag};
 
-/// Greatest standard error of a determined parameter, in deviations of its prior.
+/// Greatest standard error of a determined parameter, in deviations of its prior.  Reason: the
+/// record then halves the uncertainty that there was before.
 inline constexpr double kDeterminedDeviation = 0.5;
 
 /// An estimated parameter.
+///
+/// `value` and `standard_error` are in `unit` and include the prior.  For a lag or time the error
+/// is value x error of its natural logarithm.  `name` is for people.
 struct FittedParameter {
     std::string key;  ///< Key with its unit, as in result.json.
     std::string name;
@@ -47,29 +61,24 @@ struct FittedParameter {
     std::string needed;          ///< Record that would determine it; empty if it is determined.
 };
 
-/// Normal prior of a parameter in its unit; for lags and times of the natural logarithm of seconds.
-/// The priors are independent.
-struct TwoPathPrior {
-    double mean = 0.0;
-    double deviation = 0.0;
-};
-/// Returns the prior of a parameter, as listed at fit_two_paths().
-[[nodiscard]] TwoPathPrior two_path_prior(TwoPathTerm term);
-
 /// Result of fit_two_paths().
+///
+/// The constant c is no parameter: the residual has no mean.  The sum rA + rS is often determined
+/// where its parts are not, because a record shows them apart only by the slow lag.
 struct TwoPathFit {
     std::array<FittedParameter, kTwoPathTerms> parameters;
     /// (kTwoPathTerms, kTwoPathTerms) Covariance of the coefficients in their units, and of the
     /// natural logarithms of lags and times.
     Eigen::MatrixXd covariance;
     double static_slope = 0.0, static_slope_error = 0.0;  ///< rA + rS, mGal/degC.
-    bool is_static_slope_determined = false;              ///< As FittedParameter::is_determined.
-    double residual_rms_mgal = 0.0;                       ///< Rms of `residual_mgal`.
-    std::vector<double> residual_mgal;                    ///< (n) Residual minus its mean.
+    /// True: static_slope_error is below half of the prior standard deviation of rA + rS.
+    bool is_static_slope_determined = false;
+    double residual_rms_mgal = 0.0;     ///< Rms of `residual_mgal`.
+    std::vector<double> residual_mgal;  ///< (n) Residual minus its mean.
     /// Bands in which the residual still follows the temperature, at 5 % for all bands together.
     std::vector<ResponsePoint> unexplained;
 
-    /// Returns a parameter.
+    /// Returns a parameter; valid as long as the fit exists.
     [[nodiscard]] const FittedParameter& operator[](TwoPathTerm term) const {
         return parameters.at(static_cast<std::size_t>(term));
     }
@@ -96,6 +105,11 @@ struct TwoPathFit {
 ///
 /// Accuracy (two_path_fit_test.cpp): on 20 simulated nights, 95 % limits of every parameter contain
 /// the true value in at least 17.  White noise instead of a temperature determines no path.
+/// The errors of a week are smaller than those of a night; it determines the static slope.
+///
+/// For rA, rF, rS and their lags the segment must begin in equilibrium: remove the first hours
+/// after power-on.  For w and tW keep them.  The spectra use the first samples, up to a length that
+/// is fast to transform; the residual is of all n.  Deterministic.
 /// @param temperature_degc   (n) finite, n >= 540.
 /// @param acceleration_mgal  (n) finite.
 /// @param step_s             time between samples, s.

@@ -5,19 +5,6 @@
 
 namespace a351::corrector {
 
-std::vector<double> lagged(const TimeSeries<DegC>& series, double tau_s) {
-    const double step = 1.0 / (series.rate().value() * tau_s);
-    // Exact for straight lines between samples:
-    // y_i = k y_(i-1) + (1 - k) x_(i-1) + (1 - (1 - k) / h) (x_i - x_(i-1))
-    const double keep = std::exp(-step);
-    const double of_rise = 1.0 - (1.0 - keep) / step;
-    const std::vector<double>& x = series.values();
-    std::vector<double> y = x;
-    for (std::size_t i = 1; i < x.size(); ++i)
-        y[i] = keep * y[i - 1] + (1.0 - keep) * x[i - 1] + of_rise * (x[i] - x[i - 1]);
-    return y;
-}
-
 BinMeans::BinMeans(const TimeSeries<DegC>& grid, const std::vector<DayBin>& bins) {
     const auto last = static_cast<double>(grid.size() - 1);
     for (const DayBin& bin : bins) {

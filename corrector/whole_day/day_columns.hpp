@@ -1,6 +1,14 @@
 #pragma once
 /// @file
-/// The day's temperature behind a first-order lag, and its means at the bins.
+/// Means of the day's temperature, or of a function of it, at the bins.
+///
+/// A column of the whole-day model is a mean over the same samples as the reading, not a value at
+/// the middle of the bin.  A disturbed part of a bin, which the reading leaves out, is thus left
+/// out of the temperature too.
+///
+///     const BinMeans means(day.temperature.series, day.bins);
+///     const Eigen::VectorXd degc = means.of(day.temperature.series.values());
+///     const Eigen::VectorXd slow_degc = means.of(lagged(day.temperature.series, 2700.0));
 
 #include <Eigen/Core>
 #include <vector>
@@ -9,34 +17,24 @@
 
 namespace a351::corrector {
 
-/// Returns the response of a first-order lag to a series: tau y' = x - y.
-///
-/// x is a straight line between samples, and y = x at the first sample (equilibrium).  The
-/// recursion is exact for this x:
-///
-///     y_i = k y_(i-1) + (1 - k) x_(i-1) + (1 - (1 - k) / h) (x_i - x_(i-1)),
-///     h = step / tau,   k = exp(-h)
-///
-/// A NaN makes all later values NaN.
-/// Accuracy: a ramp agrees with its exact response within 1e-13 of its values
-/// (day_columns_test.cpp).
-/// @param series  x (n), at constant rate.
-/// @param tau_s   time constant of the lag, s, > 0.
-/// @return y (n), in the unit of the series.
-[[nodiscard]] std::vector<double> lagged(const TimeSeries<DegC>& series, double tau_s);
-
 /// Means of a series on the day's grid over the samples of every bin.
 ///
 /// Between the grid's samples the series is a straight line; before the first and after the last
-/// sample it is constant.
+/// sample it is constant.  Samples outside the grid are not refused.
+///
+/// The positions are computed once, so that of() is fast for many series on one grid.  The object
+/// has no reference to grid or bins, and several threads may call of() at a time.
 class BinMeans {
 public:
+    /// Computes the positions of all samples of the bins on the grid.
     /// @param grid  series whose times are the grid, at least one sample; its values are not used.
     /// @param bins  (bins), each with at least one sample.
     BinMeans(const TimeSeries<DegC>& grid, const std::vector<DayBin>& bins);
 
     /// Returns the means over the bins (bins), in the unit of the values.
-    /// @param values  (grid) values on the grid.
+    ///
+    /// Values with a NaN make the bins NaN that use this sample.  Cost: O(samples of all bins).
+    /// @param values  (grid) values on the grid; their number is not checked.
     [[nodiscard]] Eigen::VectorXd of(const std::vector<double>& values) const;
 
 private:

@@ -106,12 +106,18 @@ void DayPriors::observe(const std::vector<Eigen::Index>& places, const Eigen::Ve
 // fit_day() lists the priors; corrector/methods.md gives their origin.
 DayPriors usual_day_priors() {
     constexpr double kFreeDeviation_mgal = 1e4;
-    constexpr double kLagFactor = 1.5;
+    constexpr double kDrift_mgal_per_h = 1.0, kBias_mgal_per_g = 2000.0;
+    const ThermalPrior fast_lag = day_prior(ThermalTerm::fast_lag),
+                       slow_lag = day_prior(ThermalTerm::slow_lag),
+                       level = day_prior(ThermalTerm::level), slow = day_prior(ThermalTerm::slow),
+                       fast = day_prior(ThermalTerm::fast);
     DayPriors priors;
-    priors.mean << std::log(43.0), std::log(2700.0), 0.0, -12.0, -20.0, 11.3, 0.0, 0.0, 0.0, 0.0;
+    priors.mean << fast_lag.mean, slow_lag.mean, 0.0, level.mean, slow.mean, fast.mean, 0.0, 0.0,
+        0.0, 0.0;
     DayPriors::Vector deviations;
-    deviations << std::log(kLagFactor), std::log(kLagFactor), kFreeDeviation_mgal, 12.0, 20.0, 11.3,
-        1.0, 36.0, 2000.0, 2000.0;
+    deviations << fast_lag.deviation, slow_lag.deviation, kFreeDeviation_mgal, level.deviation,
+        slow.deviation, fast.deviation, kDrift_mgal_per_h, kTypicalUnit.warm_up_mgal,
+        kBias_mgal_per_g, kBias_mgal_per_g;
     priors.factor = deviations.asDiagonal();
     return priors;
 }

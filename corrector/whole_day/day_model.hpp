@@ -7,11 +7,30 @@
 ///               + d (t - t0) + w exp(-t / 2.5 h) + bx x + by y + placement + flicker + white
 ///
 /// Readings are in mGal, T in degC, rF in mGal/(degC/h), t in h, lags tF and tS in s, x and y in g.
-/// - lag(T, tau): T behind a first-order lag, in equilibrium at the start of the record.
-/// - rA: rest of the thermometer's compensation.
-/// - rF: crystals that feel a change before the thermometer.
-/// - rS: an oscillator that feels a change later.
+/// A reading is the mean of a bin, and so are T, lag(T, tau), x and y.
+/// - T0: 42.5 degC, the set point of the publication's oven.  It only shifts c.
+/// - t: time of a bin since the first sample of the temperature record, which counts as power-on.
+/// - t0: middle between the first and the last bin of the day.  It only shifts c.
+/// - rA, rF, rS, lag(T, tau): the unit's thermal response (protocol/unit/thermal_response.hpp), in
+///   equilibrium at the start of the record.
+/// - w: warm-up after power-on, which the thermometer does not see.
 /// - bx, by: biases of the horizontal axes, which a tilt turns into the norm.
+/// - placement, flicker, white: noise (day_noise.hpp).
+///
+/// Order of the set-ups: they are numbered from 0 in order of time.  The bins are in order of
+/// set-up, and in order of time within it; all bins of a set-up are together.  Element s of the
+/// stations belongs to set-up s.  Nothing of this is checked: another order gives a wrong
+/// covariance of the noise, without an error.
+///
+/// Begin the temperature two hours or more before the first bin, because tS is 45 min and the lags
+/// begin in equilibrium.  Drives between the set-ups belong to it.
+///
+///     std::vector<DayStation> stations;
+///     for (const SurveyRow& row : rows)  // one row per set-up
+///         stations.push_back({row.tide, row.reference, 0});
+///     stations[3].gravity.reset();       // to be found: unknown number 0
+///     const auto fit = fit_day(record, stations);
+///     fit->unknown_mgal[0].value;        // its gravity
 ///
 /// Methods and figures: corrector/methods.md, "The whole-day model".
 
@@ -24,19 +43,26 @@
 
 #include "corrector/reading/day_record.hpp"
 #include "corrector/whole_day/day_noise.hpp"
+#include "protocol/unit/thermal_response.hpp"
 
 namespace a351::corrector {
 
 /// Terms of the model: c, rA, rS, rF, d, w, bx, by.
+///
+/// - constant: c, mGal; level: rA and slow: rS, mGal/degC; fast: rF, mGal/(degC/h).
+/// - drift: d, mGal/h; warm_up: w, mGal at the first sample of the temperature.
+/// - x: bx and y: by, mGal/g.
+///
+/// The values are indices from 0, for example in DayFit::coefficients.
 enum class DayTerm { constant, level, slow, fast, drift, warm_up, x, y };
 /// Number of terms.
 inline constexpr std::size_t kDayTerms = 8;
 /// Names of the terms with their units, as in result.json.
 inline constexpr std::array<std::string_view, kDayTerms> kDayTermNames{
     "constant_mgal",
-    "temperature_mgal_per_degc",
-    "slow_temperature_mgal_per_degc",
-    "rate_mgal_per_degc_per_h",
+    kThermalNames[static_cast<std::size_t>(ThermalTerm::level)],
+    kThermalNames[static_cast<std::size_t>(ThermalTerm::slow)],
+    kThermalNames[static_cast<std::size_t>(ThermalTerm::fast)],
     "time_mgal_per_h",
     "warm_up_mgal",
     "x_mgal_per_g",
@@ -46,12 +72,20 @@ inline constexpr std::array<std::string_view, kDayTerms> kDayTermNames{
 inline constexpr std::size_t kDayLags = 2;
 
 /// Joint normal prior: natural logarithms of the lags in seconds, then the terms in their units.
+///
+/// A default-constructed prior has means 0 and deviations 1, which fits no sensor.  Begin with
+/// usual_day_priors():
+///
+///     DayPriors priors = usual_day_priors();
+///     priors.observe({DayPriors::place_of(DayTerm::x)}, Eigen::VectorXd::Constant(1, 900.0),
+///                    Eigen::MatrixXd::Constant(1, 1, 400.0));  // bx = 900 +- 20 mGal/g
 struct DayPriors {
+    /// Number of lags and terms: fast lag, slow lag, then the terms in the order of DayTerm.
     static constexpr int kCount = static_cast<int>(kDayLags + kDayTerms);
     using Vector = Eigen::Matrix<double, kCount, 1>;
     using Matrix = Eigen::Matrix<double, kCount, kCount>;
 
-    Vector mean = Vector::Zero();
+    Vector mean = Vector::Zero();        ///< Means; of a lag ln(s).
     Matrix factor = Matrix::Identity();  ///< Lower triangular L of the covariance L L'.
 
     /// Combines the prior with an independent measurement of some of its quantities (Kalman
@@ -59,6 +93,9 @@ struct DayPriors {
     ///
     /// The measurement may be very exact: variances down to 1e-20 leave a finite prior with this
     /// standard deviation (day_model_test.cpp).
+    ///
+    /// Quantities that were not measured change too, if the prior or the measurement correlates
+    /// them with others.  Each call is one measurement: do not use the same one twice.
     /// @param places      (m) places of the quantities, see place_of(); 0 and 1 are the lags.
     /// @param values      (m) measured values; of a lag ln(s).
     /// @param covariance  (m, m) of the values, positive definite.
@@ -66,36 +103,44 @@ struct DayPriors {
     void observe(const std::vector<Eigen::Index>& places, const Eigen::VectorXd& values,
                  const Eigen::MatrixXd& covariance);
 
-    /// Returns the index of a term in `mean`, which is also its row and column in `factor`.
+    /// Returns the index of a term in `mean`, which is also its row and column in `factor`.  The
+    /// indices of the lags are 0 (fast) and 1 (slow).
     [[nodiscard]] static constexpr Eigen::Index place_of(DayTerm term) {
         return static_cast<Eigen::Index>(kDayLags) + static_cast<Eigen::Index>(term);
     }
 };
 
-/// Returns the priors for a unit without calibration; fit_day() lists them.
+/// Returns the priors for a unit without calibration; fit_day() lists them.  All are independent.
+/// With a calibration use day_priors_of() (corrector/model/calibration_use.hpp).
 [[nodiscard]] DayPriors usual_day_priors();
 
 /// The station of a set-up: its gravity is held or unknown.
 struct DayStation {
     MilliGal tide;                    ///< Effect on gravity; subtracted.
     std::optional<MilliGal> gravity;  ///< Gravity that is held; absent: unknown.
-    std::size_t unknown = 0;          ///< Number of the unknown, shared by set-ups of one station.
+    /// Number of the unknown from 0, shared by set-ups of one station; ignored if gravity is held.
+    /// A number that no set-up has gives the estimate 0 with the deviation of its prior.
+    std::size_t unknown = 0;
 };
 
 /// An estimated value.
 struct Estimate {
-    double value = 0.0;
-    double standard_error = 0.0;
+    double value = 0.0;           ///< Posterior mean.
+    double standard_error = 0.0;  ///< Posterior standard deviation, in the unit of the value.
 };
 
 /// One set-up.  Effects are means over its bins, mGal, with the sign that they have in the reading.
+///
+/// A bin counts by its number of samples.  A correction is minus an effect.
 struct DaySetUp {
-    MilliGal reading;
-    DegC temperature;
+    MilliGal reading;                             ///< Mean reading, the full value.
+    DegC temperature;                             ///< Mean temperature.
     double rate_degc_per_h = 0.0;                 ///< (T - lag(T, tF)) / tF.
     std::array<double, kDayTerms> effect_mgal{};  ///< Effects in the order of DayTerm.
-    MilliGal flicker;    ///< Estimated flicker, with the rest of the white noise.
-    MilliGal corrected;  ///< reading - tide - effects - flicker: gravity and placement.
+    MilliGal flicker;  ///< Estimated flicker, with the rest of the white noise.
+    /// reading - tide - effects - flicker: gravity and placement.  If gravity is held, it is the
+    /// held value plus the estimated placement, and so in sample.
+    MilliGal corrected;
 };
 
 /// Result of fit_day().
@@ -103,17 +148,17 @@ struct DayFit {
     /// Lags, placement, flicker, white: deviations from their priors in standard deviations.
     using Point = std::array<double, 5>;
 
-    Point point{};
+    Point point{};                                 ///< Most likely point; 0: medians of the priors.
     DayNoise noise;                                ///< Most likely noise.
     double fast_lag_s = 0.0, slow_lag_s = 0.0;     ///< tF, tS.
     std::array<Estimate, kDayTerms> coefficients;  ///< Errors include those of the lags.
-    std::vector<Estimate> unknown_mgal;            ///< Gravity of each unknown.
+    std::vector<Estimate> unknown_mgal;            ///< Gravity of each unknown, by its number.
     /// Posterior mean of lags and terms, in coordinates in which their priors are independent and
     /// of variance 1: estimate - prior mean = factor x shift.
     DayPriors::Vector shift = DayPriors::Vector::Zero();
     /// Posterior covariance of `shift`.
     DayPriors::Matrix shift_covariance = DayPriors::Matrix::Identity();
-    std::vector<DaySetUp> set_ups;  ///< One per set-up.
+    std::vector<DaySetUp> set_ups;  ///< One per set-up, in the order of the stations.
 };
 
 /// Fits the whole-day model.
@@ -121,6 +166,10 @@ struct DayFit {
 /// Coefficients and unknowns: generalised least squares with priors.  Lags and noise: largest
 /// restricted likelihood times their priors.  Standard errors: posterior covariance with the lags
 /// to first order, at the expected noise, which is larger than the most likely one.
+///
+/// Stations of known gravity determine the instrument; unknown stations follow from it.  A station
+/// that is held has no uncertainty.  To find the error of the method, fit again with the gravity of
+/// a known station removed and compare.
 ///
 /// Usual priors, mean and standard deviation:
 /// - rA -12, 12 mGal/degC; rS -20, 20 mGal/degC; rF 11.3, 11.3 mGal/(degC/h)
@@ -134,9 +183,13 @@ struct DayFit {
 /// within 1 % and gravity within 0.001 mGal.  With a placement of 1.2 mGal, the rms error of an
 /// unknown station is below 1.6 mGal over 40 days, and 55 to 85 % are within the stated error.  The
 /// fit has the same bits each time.  From nearby an unknown agrees within 0.005 mGal.
-/// @param record    record of the day, finite; each set-up has a bin.
+///
+/// Cost: at most 2000 evaluations of the likelihood, each of which filters all bins and columns;
+/// time is proportional to the number of bins.  Several threads may call it at a time.
+/// @param record    record of the day, finite; each set-up has a bin.  Order: see above.
 /// @param stations  one per set-up, in the record's numbering; unknowns are numbered from 0.
 /// @param nearby    fit of a similar problem as start of the search, which is then faster; or null.
+///                  It should have the same priors, because its point counts from them.
 /// @param priors    priors of lags and terms.
 /// @return std::nullopt if no set-up that is held has a bin.
 /// Source: H. D. Patterson and R. Thompson, Biometrika 58, 545-554, 1971 (restricted likelihood);

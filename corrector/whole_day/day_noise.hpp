@@ -1,6 +1,15 @@
 #pragma once
 /// @file
 /// The noise of a survey day, and the whitening of correlated readings.
+///
+/// Bins of one set-up have its placement error in common, and neighbours in time have similar
+/// flicker.  After whitening, the rows of least squares are independent:
+///
+///     const double log_determinant = whiten(bins, noise, columns);  // readings and regressors
+///     // now ordinary least squares of columns.col(0) on the others
+///
+/// The Gaussian likelihood of residuals r is exp(-(log_determinant + |whitened r|^2) / 2), up to a
+/// constant.
 
 #include <Eigen/Core>
 #include <array>
@@ -11,6 +20,9 @@
 namespace a351::corrector {
 
 /// Three independent parts of the noise, as standard deviations in mGal.
+///
+/// Averaging over a set-up reduces white noise, flicker only a little, and placement not at all.
+/// Only further set-ups reduce placement.
 struct DayNoise {
     double placement_mgal = 0.0;  ///< Placement: one error per set-up.
     double flicker_mgal = 0.0;    ///< Flicker: 1/f noise over the day.
@@ -31,12 +43,18 @@ inline constexpr std::array<double, 7> kFlickerPeriods_s{40.0,   126.5,   400.0,
 /// plus white^2 kBinSamples / samples on the diagonal.  A Kalman filter runs over every column; its
 /// time is proportional to bins x columns.
 ///
-/// Accuracy: agrees with the dense factorisation within 1e-9 of the norm, the determinant's logarithm within
-/// 1e-12 of its value (day_noise_test.cpp).
+/// The order of the bins matters, because the filter goes from each bin to the next.  If set-ups
+/// are not in order of time, the correlation of the flicker is wrong.  A set-up whose bins are not
+/// together gets a placement for each part.  This is not checked.
+///
+/// Accuracy: agrees with the dense factorisation within 1e-9 of the norm, the determinant's
+/// logarithm within 1e-12 of its value (day_noise_test.cpp).
 /// @param bins     (n) in order of set-up and time, each with at least one sample.
-/// @param noise    standard deviations, >= 0; white > 0, or flicker > 0 and no two bins at one time.
-/// @param columns  (n, c) finite, changed in place; one row per bin.
-/// @return ln det of the covariance.
+/// @param noise    standard deviations, >= 0; white > 0, or flicker > 0 and no two bins at one
+///                 time.
+/// @param columns  (n, c) finite, changed in place; one row per bin.  Each column is whitened
+///                 alone; a NaN spreads to the later rows of its column.
+/// @return ln det of the covariance, in ln(mGal^2); 0 without bins.
 /// Source: A. C. Harvey, Forecasting, Structural Time Series Models and the Kalman Filter,
 /// Cambridge 1989, section 3.4 (regression by filtering every column).
 double whiten(const std::vector<DayBin>& bins, const DayNoise& noise, Eigen::MatrixXd& columns);

@@ -16,7 +16,6 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr double kReferenceTemperature_degc = 42.5;  // T0: set point of the publication's oven
-constexpr double kWarmUp_h = 2.5;  // warm-up time of the publication's sensor after power-on
 constexpr double kFreeDeviation_mgal = 1e4;  // deviation of gravity's prior: practically no prior
 
 // fit_day() lists the priors; corrector/methods.md gives their origin.
@@ -97,7 +96,7 @@ void DayProblem::set_fixed_columns() {
         const DayBin& bin = record_.bins[static_cast<std::size_t>(i)];
         column(DayTerm::drift)(i) = seconds_between(middle, bin.time) / kSecondsPerHour;
         column(DayTerm::warm_up)(i) =
-            std::exp(-seconds_between(begin, bin.time) / kSecondsPerHour / kWarmUp_h);
+            std::exp(-seconds_between(begin, bin.time) / kSecondsPerHour / kTypicalUnit.warm_up_h);
         column(DayTerm::x)(i) = bin.x.value();
         column(DayTerm::y)(i) = bin.y.value();
         const DayStation& station = stations_[bin.set_up];
@@ -106,11 +105,7 @@ void DayProblem::set_fixed_columns() {
 }
 
 Eigen::VectorXd DayProblem::fast_column(double lag_s) const {
-    const TimeSeries<DegC>& temperature = record_.temperature.series;
-    std::vector<double> rate = lagged(temperature, lag_s);
-    for (std::size_t i = 0; i < rate.size(); ++i)
-        rate[i] = (temperature.values()[i] - rate[i]) / lag_s * kSecondsPerHour;
-    return means_.of(rate);
+    return means_.of(fast_rate_degc_per_h(record_.temperature.series, lag_s));
 }
 
 Eigen::VectorXd DayProblem::slow_column(double lag_s) const {

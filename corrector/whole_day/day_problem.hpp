@@ -2,6 +2,20 @@
 /// @file
 /// The whole-day model as a regression whose columns depend on the lags, and the likelihood of lags
 /// and noise.
+///
+/// It is a part of fit_day().  A point u has five numbers: lags, placement, flicker and white
+/// noise, each in standard deviations from its prior.  For a fixed point the model is linear:
+///
+///     const DayProblem problem(record, stations, priors);
+///     const DayProblem::Point u = problem.most_likely(std::nullopt);
+///     Eigen::MatrixXd columns = problem.scaled(u);         // readings, then columns
+///     whiten(record.bins, problem.noise(u), columns);
+///     // (X'X + 1)^-1 X'y of the whitened columns: scaled coefficients
+///     problem.unscaled(u, scaled_coefficients);            // in the units of the terms
+///
+/// T0, t and t0 are those of day_model.hpp: 42.5 degC, the time since the first sample of the
+/// temperature, and the middle between the first and the last bin.  The order of set-ups and bins
+/// that day_model.hpp requires is not checked here either.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -18,17 +32,25 @@ inline constexpr auto kLags = static_cast<Eigen::Index>(kDayLags);
 inline constexpr auto kTerms = static_cast<Eigen::Index>(kDayTerms);
 
 /// Log-normal prior of a standard deviation: median x factor^u with u normal, of variance 1.
+///
+/// About two thirds of the probability are between median / factor and median x factor.
 struct LogNormalPrior {
-    double median = 0.0, factor = 1.0;
+    double median = 0.0, factor = 1.0;  ///< Median, mGal; factor of one deviation, > 1.
     /// Returns median x factor^u.
     [[nodiscard]] double at(double u) const { return median * std::pow(factor, u); }
 };
 
-/// Places in DayFit::Point.
+/// Places in DayFit::Point.  kFastLag and kSlowLag are also places in DayPriors.
 enum DayHyper : std::size_t { kFastLag, kSlowLag, kPlacement, kFlicker, kWhite };
 
 /// Readings and columns of fit_day() for n bins.  The estimated quantities are the terms, then the
 /// unknowns.
+///
+/// An unknown is counted from its rough gravity: the mean of its readings minus the mean constant
+/// of the set-ups that are held.  Therefore the prior of an unknown, 0 +- 1e4 mGal, has practically
+/// no influence.
+///
+/// Constant members may be called from several threads at a time.
 class DayProblem {
 public:
     using Point = DayFit::Point;
@@ -43,32 +65,43 @@ public:
 
     /// Returns the estimates (estimated) in the units of the terms: a linear function of the
     /// point's lags and of the scaled coefficients.
+    ///
+    /// An estimate is mean + factor x (lags, coefficients) of the priors.  The lags take part
+    /// because a prior may correlate them with slopes.  An unknown is counted from rough_mgal().
     /// @param scaled  (estimated) coefficients of scaled().
     [[nodiscard]] Eigen::VectorXd unscaled(const Point& u, const Eigen::VectorXd& scaled) const;
     /// Returns the derivative of unscaled() (estimated, estimated + 2); the lags are last.
     [[nodiscard]] Eigen::MatrixXd unscaling() const;
 
-    /// Returns the noise at a point.
+    /// Returns the noise at a point.  The median of white noise is the scatter between neighbouring
+    /// bins of a set-up, at least 1e-3 mGal; 1 mGal if no set-up has two bins.
     [[nodiscard]] DayNoise noise(const Point& u) const;
 
     /// Returns the roots of the expected variances of placement and flicker; white as noise().
     ///
     /// They are larger than the most likely ones, because the distribution is skew.  It is taken as
     /// log-normal, with the variance from the curvature of the cost.
-    /// @param u  most likely point.
+    /// @param u  most likely point.  Elsewhere the curvature means nothing.
     [[nodiscard]] DayNoise expected_noise(const Point& u) const;
     /// Returns a lag at a point, s.
+    /// @param lag  kFastLag or kSlowLag.
     [[nodiscard]] double lag_s(const Point& u, DayHyper lag) const;
 
     /// Returns the point with the least cost, on the grid of search_point(), at most 12 standard
     /// deviations of the priors away.
+    ///
+    /// It evaluates cost() at most 2000 times and does not report if this was too few.
     /// @param nearby  start of the search; absent: the priors' medians.
     [[nodiscard]] Point most_likely(const std::optional<Point>& nearby) const;
 
     /// Returns -ln(restricted likelihood x priors), up to a constant; infinite if it overflows.
+    ///
+    /// Differences between points are meaningful, the value itself is not.  Cost: one lag filter of
+    /// the temperature for each lag, then O(n (1 + estimated)^2).
     [[nodiscard]] double cost(const Point& u) const;
 
-    /// Returns the columns (n, estimated) in the units of the terms.
+    /// Returns the columns (n, estimated) in the units of the terms: derivatives of the readings by
+    /// the terms, then 1 for the bins of each unknown.
     [[nodiscard]] Eigen::MatrixXd design(const Point& u) const;
 
     /// Returns (n, 1 + estimated): readings minus their prior expectation, then the columns of
@@ -76,15 +109,18 @@ public:
     [[nodiscard]] Eigen::MatrixXd scaled(const Point& u) const;
 
     /// Returns the derivatives of the readings by the point's lags (n, 2), mGal per standard
-    /// deviation of the prior.
+    /// deviation of the prior.  With them as further columns, the errors of the lags enter those of
+    /// the terms.
     /// @param values  (estimated) from unscaled().
     [[nodiscard]] Eigen::MatrixXd lag_columns(const Point& u, const Eigen::VectorXd& values) const;
 
-    /// Returns the means over the bins.
+    /// Returns the object that averages a series over the bins.  The reference is valid as long as
+    /// this object.
     [[nodiscard]] const BinMeans& means() const { return means_; }
-    /// Returns the readings (n) minus tide and gravity, held or rough.
+    /// Returns the readings (n) minus tide and gravity, held or rough, mGal.
     [[nodiscard]] const Eigen::VectorXd& readings_mgal() const { return readings_mgal_; }
-    /// Returns the rough gravity of each unknown, to which its estimate is added.
+    /// Returns the rough gravity of each unknown, mGal, to which its estimate is added; 0 for an
+    /// unknown without a bin.
     [[nodiscard]] const std::vector<double>& rough_mgal() const { return rough_mgal_; }
 
 private:

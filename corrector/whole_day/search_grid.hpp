@@ -8,6 +8,14 @@
 /// A search that compares such numbers takes another path and ends elsewhere within its tolerance
 /// of 1e-3 or 1e-2 deviations.  On these grids it takes the same path, except if a number is within
 /// rounding of the middle between two steps.
+///
+/// Use it for a negative log likelihood plus priors, in which every parameter counts in standard
+/// deviations of its prior.  A cost of another size does not suit the steps.
+///
+///     const auto u = least_cost_point<2>(cost, {0.0, 0.0}, false,
+///         {.farthest = 12.0, .first_step = 0.5, .tolerance = 1e-3, .most_costs = 2000});
+///
+/// All functions are pure; searches in several threads do not influence each other.
 
 #include <nlopt.h>
 
@@ -33,11 +41,11 @@ inline double search_cost(double value) {
     return std::nearbyint(value * kSteps) / kSteps;
 }
 
-/// Limits of a search, in deviations of the priors.
+/// Limits of a search, in deviations of the priors.  All are > 0; not checked.
 struct SearchLimits {
     double farthest;    ///< Bound of every parameter, on either side of 0.
     double first_step;  ///< Step with which the search begins.
-    double tolerance;   ///< The search ends with changes below it.
+    double tolerance;   ///< The search ends with changes below it; 1e-3 and 1e-2 suit the grid.
     int most_costs;     ///< Largest number of costs computed.
 };
 
@@ -45,8 +53,16 @@ struct SearchLimits {
 ///
 /// Without a start nearby: Subplex, which no shape of the cost stops too early.  With one: BOBYQA,
 /// which needs a third to a fifth of the time.
-/// @param cost   returns the cost of a point; HUGE_VAL if it overflows.
-/// @param start  start of the search.
+///
+/// The search finds a local minimum.  If it ends early, by `most_costs` or an error of NLopt, the
+/// best point so far is returned, and this is not reported.
+/// @tparam kCount  number of parameters.
+/// @param cost       returns the cost of a point; HUGE_VAL if it overflows.  Called by one thread.
+///                   It must not throw, because NLopt is written in C.
+/// @param start      start of the search, within `limits.farthest` of 0; another one is returned
+///                   without a search, on the grid.
+/// @param is_nearby  true if the start is close to the minimum.
+/// @param limits     see SearchLimits.
 template <std::size_t kCount, class Cost>
 std::array<double, kCount> least_cost_point(Cost cost, const std::array<double, kCount>& start,
                                             bool is_nearby, const SearchLimits& limits) {

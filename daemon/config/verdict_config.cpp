@@ -55,11 +55,12 @@ constexpr Key kKeys[] = {
 VerdictOptions thresholds_for(const corrector::Calibration& unit) {
     VerdictOptions options;
     if (unit.thermal) {
-        const auto& values = unit.thermal->values;  // Order: corrector::kThermalNames.
-        options.static_mgal_per_degc = values[0];
-        options.slow_mgal_per_degc = values[1];
-        options.rate_mgal_h_per_degc = values[2];
-        options.slow_lag_min = std::exp(values[4]) / 60.0;
+        using corrector::ThermalTerm;
+        const auto value = [&](ThermalTerm term) { return value_of(*unit.thermal, term); };
+        options.static_mgal_per_degc = value(ThermalTerm::level);
+        options.slow_mgal_per_degc = value(ThermalTerm::slow);
+        options.rate_mgal_h_per_degc = value(ThermalTerm::fast);
+        options.slow_lag_min = std::exp(value(ThermalTerm::slow_lag)) / 60.0;
     }
     if (unit.warm_up && unit.warm_up->after_power_on_h > 0.0 &&
         unit.warm_up->within_mgal < options.warm_up_mgal) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "protocol/unit/thermal_response.hpp"
+
 namespace a351::daemon {
 
 /// Thresholds of the verdict: the keys of [verdict], with defaults and sources; see a351d.toml(5).
@@ -10,14 +12,18 @@ struct VerdictOptions {
     double cycle_s = 900.0;        ///< Period of its cycle, s: 10 to 15 min were published.
     double history_min = 20.0;     ///< Time of temperature before it is judged: more than a cycle.
 
-    // The effect of temperature on the reading, fitted to the published records.
-    double static_mgal_per_degc = -12.0;  ///< Immediate effect.
-    double rate_mgal_h_per_degc = 11.3;   ///< Effect of its rate: compensation 43 s before crystal.
-    double slow_mgal_per_degc = -20.0;    ///< Effect of the clock oscillator, which lags.
-    double slow_lag_min = 45.0;           ///< Time constant of this lag.
-    double relax_min = 17.0;              ///< Time constant of the box after a step of the air.
-    double warm_up_mgal = 36.0;           ///< Effect of warm-up at power-on.
-    double warm_up_h = 2.5;               ///< Time constant of its decay.
+    // Effect of temperature on the reading: that of the typical unit, or of the calibration.
+    /// Effect of the temperature.
+    double static_mgal_per_degc = corrector::kTypicalUnit.level_mgal_per_degc;
+    /// Effect of its rate.
+    double rate_mgal_h_per_degc = corrector::kTypicalUnit.fast_mgal_per_degc_per_h;
+    /// Effect of the clock oscillator, which follows the temperature with a lag.
+    double slow_mgal_per_degc = corrector::kTypicalUnit.slow_mgal_per_degc;
+    double slow_lag_min =
+        corrector::kTypicalUnit.slow_lag_s / 60.0;  ///< Time constant of this lag.
+    double relax_min = 17.0;  ///< Time constant of the box after a step of the air.
+    double warm_up_mgal = corrector::kTypicalUnit.warm_up_mgal;  ///< Effect at power-on.
+    double warm_up_h = corrector::kTypicalUnit.warm_up_h;        ///< Time constant of its decay.
 
     // Settled.
     double change_mgal = 2.0;        ///< Largest change in the next 10 min: the published scatter.
@@ -40,7 +46,7 @@ struct VerdictOptions {
     double lid_degc_per_h = 0.47;   ///< Error that it adds to its rate: air changing by 8 degC/h.
     double tilt_deg = 0.02;         ///< Change of tilt within a minute that means another place.
     double noise_factor = 5.0;      ///< Ratio of the noise to its usual level in the last hour.
-    double noise_floor_mgal = 1.0;  ///< Least usual level: the ripple of a quiet field.
+    double noise_floor_mgal = 1.0;  ///< Lowest value taken as usual level: quiet field.
 
     // An occupation.
     double cycle_mgal = 6.0;   ///< Change of the reading in the cycle, peak to peak, as published.

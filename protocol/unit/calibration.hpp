@@ -2,6 +2,15 @@
 /// @file
 /// Calibration of one unit, known before a survey, as the file calibration.toml
 /// (protocol/unit/calibration-format.md).
+///
+/// It holds properties of one sensor that are the same on every survey day.  The serial number says
+/// which sensor: a calibration of another unit makes results worse.
+///
+///     const Calibration known = read_calibration("calibration.toml");
+///     if (known.thermal) std::exp(value_of(*known.thermal, ThermalTerm::slow_lag));  // s
+///
+/// All types are plain values without references.  All functions are pure, except that
+/// read_calibration() reads its file.
 
 #include <Eigen/Core>
 #include <array>
@@ -12,6 +21,7 @@
 #include <vector>
 
 #include "protocol/core/utc_time.hpp"
+#include "protocol/unit/thermal_response.hpp"
 
 namespace a351::corrector {
 
@@ -19,6 +29,10 @@ namespace a351::corrector {
 ///
 /// Range: a file is read only if all numbers are finite, covariances are within +-1e12, and the
 /// covariance is symmetric and positive definite.  The struct itself checks nothing.
+///
+/// A default-constructed object has values 0 with standard deviations of 1, which is no
+/// measurement.  Comparison is exact: objects with a NaN are never equal.
+/// @tparam kCount  number of coefficients.
 template <int kCount>
 struct CalibratedCoefficients {
     /// Values (kCount), in the order and units of the names below.
@@ -34,23 +48,25 @@ struct CalibratedCoefficients {
 ///
 ///     norm - bx mean(x) - by mean(y)    does not depend on levelling
 ///
+/// The norm is in mGal, the means of the axes are in g.  A tilt by 0.1 deg changes a mean by
+/// 0.0017 g, so a bias of 2000 mGal per g changes the norm by 3.5 mGal.
 /// Range in a file: +-1e5.
 inline constexpr std::array<std::string_view, 2> kAxisBiasNames{"x_mgal_per_g", "y_mgal_per_g"};
+/// Biases bx, by with their covariance, (mGal/g)^2.
 using AxisBias = CalibratedCoefficients<2>;
 
-/// Response to the temperature T, as in fit_day() (corrector/whole_day/day_model.hpp):
-///
-///     rA (T - T0) + rF (T - lag(T, tF)) / tF + rS (lag(T, tS) - T0)
-///
-/// Order and units: rA, rS in mGal/degC; rF in mGal/(degC/h); natural logarithms of the lags tF and
-/// tS in seconds.  Range in a file: slopes +-1e4, logarithms of lags 0 to 12 (1 s to two days).
-inline constexpr std::array<std::string_view, 5> kThermalNames{
-    "temperature_mgal_per_degc", "slow_temperature_mgal_per_degc", "rate_mgal_per_degc_per_h",
-    "fast_lag_ln_s", "slow_lag_ln_s"};
-using ThermalResponse = CalibratedCoefficients<5>;
+/// Thermal response (thermal_response.hpp), in the order and units of kThermalNames.  Range in a
+/// file: slopes +-1e4, logarithms of lags 0 to 12 (1 s to two days).
+using ThermalResponse = CalibratedCoefficients<static_cast<int>(kThermalTerms)>;
+
+/// Returns a parameter of a thermal response, in the unit of its name; of a lag, ln(s).
+[[nodiscard]] inline double value_of(const ThermalResponse& response, ThermalTerm term) {
+    return response.values(static_cast<Eigen::Index>(term));
+}
 
 /// Factor on the standard errors of a thermal response, dimensionless.  Errors estimated from a
-/// record at one point are too small by 1.4 to 2.3 on simulated records.
+/// record at one point are too small by 1.4 to 2.3 on simulated records.  A user of the covariance
+/// multiplies it by the square of this factor.
 inline constexpr double kThermalErrorFactor = 2.0;
 
 /// Time to wait after power-on: from then on the reading, corrected for temperature, is within
@@ -70,32 +86,41 @@ struct CalibrationData {
     bool operator==(const CalibrationData&) const = default;
 };
 
+/// Calibration of one unit.
+///
+/// A file has at least one of axis_bias, thermal and warm_up.  A default-constructed object is not
+/// a valid calibration: to_toml() writes it, but parse_calibration() refuses the text.
 struct Calibration {
     std::string serial_number;  ///< Serial number of the unit; not empty.
     std::string program;        ///< Program that made the calibration, with its version; not empty.
-    UtcTime valid_from;
+    UtcTime valid_from;         ///< Start of the validity, for example the first sample used.
     std::optional<UtcTime> valid_to;  ///< Later than valid_from; absent: until a newer calibration.
-    std::vector<CalibrationData> data;
-    std::optional<AxisBias> axis_bias;
-    std::optional<ThermalResponse> thermal;
-    std::optional<WarmUpGuidance> warm_up;
+    std::vector<CalibrationData> data;       ///< Files that were used; may be empty.
+    std::optional<AxisBias> axis_bias;       ///< Absent: not measured.
+    std::optional<ThermalResponse> thermal;  ///< Absent: not measured.
+    std::optional<WarmUpGuidance> warm_up;   ///< Absent: not measured.
 
     bool operator==(const Calibration&) const = default;
 };
 
 /// Returns the text of the file.
 ///
+/// It ends with a newline.  The same calibration gives the same bytes.  Every number has the fewest
+/// digits that read back as the same double; times have nine decimals.  Bytes of a text that are
+/// not UTF-8 become U+FFFD.
+///
 /// Accuracy: parse_calibration() gives back the same calibration to the bit (calibration_test.cpp).
 /// @param calibration  as read_calibration() accepts it; not checked.
 [[nodiscard]] std::string to_toml(const Calibration& calibration);
 
-/// Reads a calibration file.
+/// Reads a calibration file.  The unit and the validity are not compared with a survey.
 /// @throws InputError  the file cannot be read or is not TOML; a key is unknown, missing or not as
 ///                     the format requires, such as a number that is NaN or out of range.
 [[nodiscard]] Calibration read_calibration(const std::filesystem::path& file);
 
 /// Reads a calibration from text in memory, as read_calibration(); `origin` is the file name shown
-/// in messages.
+/// in messages.  The file itself is not opened.
+/// @throws InputError  as read_calibration(); the message begins with `origin`.
 [[nodiscard]] Calibration parse_calibration(std::string_view text, std::filesystem::path origin);
 
 }  // namespace a351::corrector

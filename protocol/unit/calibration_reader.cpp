@@ -29,8 +29,8 @@ constexpr std::array<Range, 2> kAxisBiasRanges{kBiasRange, kBiasRange};
 /// Ranges of slopes, mGal/degC or mGal/(degC/h), a thousand times the observed values; and of
 /// logarithms of lags in seconds, from 1 s to two days.
 constexpr Range kSlopeRange{-1e4, 1e4}, kLagRange{0.0, 12.0};
-constexpr std::array<Range, 5> kThermalRanges{kSlopeRange, kSlopeRange, kSlopeRange, kLagRange,
-                                              kLagRange};
+constexpr std::array<Range, kThermalTerms> kThermalRanges{kSlopeRange, kSlopeRange, kSlopeRange,
+                                                          kLagRange, kLagRange};
 
 std::string required(text::TomlTable& table, std::string_view key) {
     std::string value = table.string_or(key, "");

@@ -31,14 +31,11 @@ TwoPathFit fitted(const std::string& scenario, std::uint64_t seed) {
     return fitted(sim::load_scenario(scenario), seed);
 }
 
-constexpr std::array kTerms{TwoPathTerm::level, TwoPathTerm::slow, TwoPathTerm::fast,
-                            TwoPathTerm::fast_lag, TwoPathTerm::slow_lag};
-
 /// Returns the variance of the best-known direction, in units of the priors' variances.
 double best_variance(const ThermalResponse& response) {
     Eigen::Matrix<double, 5, 5> scaled = response.covariance;
     for (Eigen::Index k = 0; k < 5; ++k) {
-        const double deviation = two_path_prior(kTerms.at(static_cast<std::size_t>(k))).deviation;
+        const double deviation = record_prior(static_cast<ThermalTerm>(k)).deviation;
         scaled.row(k) /= deviation;
         scaled.col(k) /= deviation;
     }
@@ -116,8 +113,7 @@ TEST_CASE("a calibration does not contain the priors of the fit", "[long_record]
     REQUIRE(pooled.response);
     Eigen::Matrix<double, 5, 5> information = pooled.response->covariance.inverse();
     for (Eigen::Index k = 0; k < 5; ++k)
-        information(k, k) +=
-            std::pow(two_path_prior(kTerms.at(static_cast<std::size_t>(k))).deviation, -2.0);
+        information(k, k) += std::pow(record_prior(static_cast<ThermalTerm>(k)).deviation, -2.0);
     const double error = std::sqrt(information.inverse()(2, 2));
     const double of_fit = week[TwoPathTerm::fast].standard_error;
     CHECK(error > 0.999 * of_fit);
@@ -153,10 +149,12 @@ TEST_CASE("a record at constant temperature calibrates nothing, and the reason s
 TEST_CASE("a fit that does not determine rate and static slope calibrates nothing",
           "[long_record][calibrate]") {
     TwoPathFit fit = fitted("indoor", 706);
-    fit.covariance.setZero();
-    for (Eigen::Index k = 0; k < fit.covariance.rows(); ++k)
-        fit.covariance(k, k) =
-            0.9 * std::pow(two_path_prior(static_cast<TwoPathTerm>(k)).deviation, 2.0);
+    fit.covariance.setIdentity();
+    for (std::size_t k = 0; k < kThermalTerms; ++k) {
+        const auto place = static_cast<Eigen::Index>(kThermalOfTwoPath.at(k));
+        fit.covariance(place, place) =
+            0.9 * std::pow(record_prior(static_cast<ThermalTerm>(k)).deviation, 2.0);
+    }
     for (FittedParameter& parameter : fit.parameters) parameter.needed = "more";
     const PooledThermal pooled = pool_thermal({fit});
     CHECK_FALSE(pooled.response);

@@ -8,6 +8,7 @@
 
 #include "corrector/whole_day/day_columns.hpp"
 #include "corrector/whole_day/day_model.hpp"
+#include "protocol/unit/thermal_response.hpp"
 
 namespace a351::corrector {
 

@@ -1,0 +1,77 @@
+#include "protocol/unit/thermal_response.hpp"
+
+#include <numbers>
+
+namespace a351::corrector {
+
+ThermalPrior day_prior(ThermalTerm term) {
+    constexpr double kLagFactor = 1.5;
+    const auto as_large = [](double mean) { return ThermalPrior{mean, std::abs(mean)}; };
+    switch (term) {
+        case ThermalTerm::level:
+            return as_large(kTypicalUnit.level_mgal_per_degc);
+        case ThermalTerm::slow:
+            return as_large(kTypicalUnit.slow_mgal_per_degc);
+        case ThermalTerm::fast:
+            return as_large(kTypicalUnit.fast_mgal_per_degc_per_h);
+        case ThermalTerm::fast_lag:
+            return {std::log(kTypicalUnit.fast_lag_s), std::log(kLagFactor)};
+        case ThermalTerm::slow_lag:
+            break;
+    }
+    return {std::log(kTypicalUnit.slow_lag_s), std::log(kLagFactor)};
+}
+
+ThermalPrior record_prior(ThermalTerm term) {
+    switch (term) {
+        case ThermalTerm::level:
+        case ThermalTerm::slow:
+            return {0.0, kRecordSlopeDeviation_mgal_per_degc};
+        case ThermalTerm::fast:
+            return {0.0, kRecordFastDeviation_mgal_per_degc_per_h};
+        case ThermalTerm::fast_lag:
+            return {std::log(kTypicalUnit.fast_lag_s), std::log(kRecordLagFactor)};
+        case ThermalTerm::slow_lag:
+            break;
+    }
+    return {std::log(kTypicalUnit.slow_lag_s), std::log(kRecordLagFactor)};
+}
+
+std::vector<double> lagged(const TimeSeries<DegC>& series, double tau_s) {
+    const double step = 1.0 / (series.rate().value() * tau_s);
+    // Exact for straight lines between samples:
+    // y_i = k y_(i-1) + (1 - k) x_(i-1) + (1 - (1 - k) / h) (x_i - x_(i-1))
+    const double keep = std::exp(-step);
+    const double of_rise = 1.0 - (1.0 - keep) / step;
+    const std::vector<double>& x = series.values();
+    std::vector<double> y = x;
+    for (std::size_t i = 1; i < x.size(); ++i)
+        y[i] = keep * y[i - 1] + (1.0 - keep) * x[i - 1] + of_rise * (x[i] - x[i - 1]);
+    return y;
+}
+
+std::vector<double> fast_rate_degc_per_h(const TimeSeries<DegC>& series, double fast_lag_s) {
+    std::vector<double> rate = lagged(series, fast_lag_s);
+    for (std::size_t i = 0; i < rate.size(); ++i)
+        rate[i] = (series.values()[i] - rate[i]) / fast_lag_s * kSecondsPerHour;
+    return rate;
+}
+
+std::vector<double> ThermalEffect::of(const TimeSeries<DegC>& series, double zero_degc) const {
+    const std::vector<double>& t = series.values();
+    const std::vector<double> behind_fast = lagged(series, fast_lag_s),
+                              behind_slow = lagged(series, slow_lag_s);
+    std::vector<double> effect(t.size());
+    for (std::size_t i = 0; i < t.size(); ++i)
+        effect[i] = level * (t[i] - zero_degc) + slow * (behind_slow[i] - zero_degc) +
+                    fast * kSecondsPerHour * (t[i] - behind_fast[i]) / fast_lag_s;
+    return effect;
+}
+
+std::complex<double> ThermalEffect::at(double period_s) const {
+    const std::complex<double> turn(0.0, 2.0 * std::numbers::pi / period_s);
+    return level + slow / (1.0 + turn * slow_lag_s) +
+           fast * kSecondsPerHour * turn / (1.0 + turn * fast_lag_s);
+}
+
+}  // namespace a351::corrector
