@@ -3,11 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <set>
 #include <tuple>
 
 #include "protocol/core/input_error.hpp"
-#include "protocol/events/event_log.hpp"
+#include "protocol/events/occupations.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
 
@@ -103,21 +102,6 @@ UtcTime instant(const text::CsvTable& table, std::size_t row, std::string_view c
     return *time;
 }
 
-/// Returns the instants at which a start ended an occupation without a stop.
-std::set<UtcTime> ends_without_stop(const std::vector<record::Event>& events) {
-    std::set<UtcTime> ends;
-    bool is_running = false;
-    for (const record::Event& event : events) {
-        if (event.type == "start") {
-            if (is_running) ends.insert(event.utc);
-            is_running = true;
-        } else if (event.type == "stop" || event.type == "discard") {
-            is_running = false;
-        }
-    }
-    return ends;
-}
-
 }  // namespace
 
 OccupationList read_occupation_table(const std::filesystem::path& file,
@@ -164,14 +148,13 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
         list.warnings.push_back(fmt::format("{}:{}: not an event, skipped",
                                             damage.file.filename().string(), damage.line));
     }
-    const std::set<UtcTime> ends = ends_without_stop(log.events);
-    auto occupations = record::occupations_of(log.events);
+    const record::OccupationReplay replay(log.events);
+    auto occupations = replay.finished();
     if (!from && !to) keep_last_day(occupations, list, events);
     for (const record::Occupation& occupation : occupations) {
         for (const record::Occupation::SetUp& set_up : occupation.set_ups)
             list.windows.push_back({occupation.site, occupation.number, set_up.start, set_up.end});
-        OccupationWindow& last = list.windows.back();
-        if (ends.contains(last.end)) last.notes.emplace_back("no-stop");
+        if (!occupation.is_stopped) list.windows.back().notes.emplace_back("no-stop");
     }
     sort_by_start(list.windows);
     keep_between(list.windows, from, to, events);
@@ -181,9 +164,10 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
                                     " has no stop: it lasts until the next start, at " +
                                     to_rfc3339(window.end));
     }
-    if (const auto site = record::running_site(log.events); site && !to) {
-        list.warnings.push_back(fmt::format(
-            "{}: the last occupation, of {}, has no stop and is left out", events.string(), *site));
+    if (replay.running() && !to) {
+        list.warnings.push_back(
+            fmt::format("{}: the last occupation, of {}, has no stop and is left out",
+                        events.string(), replay.running()->site));
     }
     return list;
 }

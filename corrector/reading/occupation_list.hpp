@@ -1,6 +1,16 @@
 #pragma once
 /// @file
 /// The occupations of a survey, from a table or from the event log.
+///
+/// An occupation is a stay at a benchmark; it has one or more set-ups of the sensor, and each
+/// set-up is a window.  Order of use:
+///
+///     OccupationList list = read_logged_occupations(root / "events");   // or from a table
+///     amend(list.windows, amendments_file, sites);                      // optional
+///     list = drop_invalid_occupations(std::move(list), sites, root / "events");
+///
+/// A table is written with care, so a mistake in it is refused.  A log is written in the field, so
+/// a mistake in it costs only its own occupation, with a warning.
 
 #include <filesystem>
 #include <optional>
@@ -14,10 +24,15 @@
 namespace a351::corrector {
 
 /// One set-up of the sensor at a benchmark, from its start to its end.
+///
+/// Invariant after drop_invalid_occupations(): the site is known, start < end, and no two windows
+/// overlap.
 struct OccupationWindow {
     std::string site;
     int number = 1;  ///< Number of the stay at this site; all set-ups of one stay share it.
+    /// First instant of the set-up.
     UtcTime start;
+    /// End of the set-up.  Samples before this instant are used.
     UtcTime end;
     bool is_flagged = false;                  ///< Marked as not to be used in the fit.
     std::optional<MilliGal> given_tide = {};  ///< Effect of the tide on gravity.
@@ -25,17 +40,25 @@ struct OccupationWindow {
     std::vector<std::string> notes = {};      ///< Flags for the table, e.g. "no-stop".
 };
 
+/// The set-ups of a survey.  Each set-up of the input is in `windows` or in `left_out`.  Exceptions
+/// are those outside the time that was asked for, and a last one without a stop.
 struct OccupationList {
     std::vector<OccupationWindow> windows;  ///< Set-ups in order of start.
-    std::vector<LeftOut> left_out;
-    std::vector<std::string> warnings;  ///< Entries skipped or left out, with the reason.
+    std::vector<LeftOut> left_out;          ///< Set-ups that cannot be used, in order of discovery.
+    std::vector<std::string> warnings;      ///< Entries skipped or left out, with the reason.
 };
 
 /// Reads a table `site,occupation,start_utc,end_utc,used,note`.  `used` is 1, 0 or empty (= 1).  A
 /// column `earth_tide_mgal` is optional.
+///
+/// `used` is optional too, and `note` is not read.  Times without a zone are UTC.  The tide is from
+/// -1 to 1 mGal or empty, the number of the stay from 1 to 10^6.  An end before its start is not
+/// refused here.  A table without rows gives an empty list.
 /// @param from, to  if given, only occupations that start at or after `from` and before `to`.
+/// @return the windows in order of start; no warnings.
 /// @throws InputError  unknown site, a cell that does not fit its column, no occupation in that
-///                     time.
+///                     time; with file, line, column and value.  Also if the file cannot be read
+///                     or lacks a column.
 [[nodiscard]] OccupationList read_occupation_table(const std::filesystem::path& file,
                                                    const std::vector<text::Site>& sites,
                                                    const std::optional<UtcTime>& from = {},
@@ -45,6 +68,11 @@ struct OccupationList {
 ///
 /// An occupation that was not stopped lasts until the next start, with the note no-stop and a
 /// warning.  The last occupation of the log is left out with a warning if it was not stopped.
+///
+/// Stays are numbered over the whole log, also if only a day of it is used.  Lines that are not
+/// events are skipped with a warning.  A directory that does not exist gives an empty list.  Sites
+/// are not checked here.  With `to` there is no warning about a last occupation without a stop.
+///
 /// @param from, to  only occupations that start at or after `from` and before `to`.  If neither is
 ///                  given: the last survey day (record::kSurveyNight), with a warning if there are
 ///                  others.
@@ -59,14 +87,23 @@ struct OccupationList {
 /// start, and those that overlap others.  The one that overlaps most others is left out first, and
 /// so on until none overlaps.  If two overlap only each other, both are left out, because it is not
 /// known which one is right.
+///
+/// A window that begins at the end of another does not overlap it.  The reasons are "not in the
+/// table of sites", "ends before it starts" (also without duration) and "overlaps another", checked
+/// in this order.
 /// @param origin  file or directory from which they were read, for messages.
-/// @throws InputError  none is left.
+/// @return the list with its windows in order of start, at least one; `left_out` and `warnings`
+///         are extended.
+/// @throws InputError  none is left; the message has all warnings.
 [[nodiscard]] OccupationList drop_invalid_occupations(OccupationList list,
                                                       const std::vector<text::Site>& sites,
                                                       const std::filesystem::path& origin);
 
 /// Adds an occupation without a row to `left_out`, and a warning.
-/// @param detail  text after the reason in the warning.
+///
+/// The warning is "SITE (NUMBER) at START is left out: REASON" and the detail.
+/// @param reason  a few words without the site; the printed table uses them as a flag.
+/// @param detail  text after the reason in the warning, with its own comma or blank in front.
 void leave_out(std::vector<LeftOut>& left_out, std::vector<std::string>& warnings,
                const OccupationWindow& window, const std::string& reason,
                const std::string& detail = "");

@@ -74,7 +74,8 @@ Response ok(const json& body) {
     return {.body = body.dump(-1, ' ', false, json::error_handler_t::replace) + "\n"};
 }
 
-Response answer_of(const Outcome& outcome, const std::optional<RunningOccupation>& running) {
+Response answer_of(const Outcome& outcome,
+                   const std::optional<record::RunningOccupation>& running) {
     if (outcome.kind == Outcome::Kind::refused) return refusal(409, outcome.message);
     if (outcome.kind == Outcome::Kind::failed) return refusal(500, outcome.message);
     return ok({{"message", outcome.message},
@@ -118,8 +119,7 @@ std::optional<std::string> Api::urgent_status() noexcept {
                                 is_fresh ? to_text(status.verdict.state) : "stale");
         if (const auto& running = sources_.occupations.running()) {
             text += running->site + to_rfc3339(running->start) +
-                    to_rfc3339(running->set_ups.back()) + running->remark.operator_name +
-                    running->remark.note;
+                    to_rfc3339(running->set_ups.back()) + running->operator_name + running->note;
         }
         return text;
     } catch (...) {

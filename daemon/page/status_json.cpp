@@ -160,11 +160,11 @@ json to_json(const Status& status, const Occupations& occupations, const FieldSt
               {"longest_sync_ms", status.longest_sync.count()}}}};
 }
 
-json to_json(const RunningOccupation& running, UtcTime now) {
+json to_json(const record::RunningOccupation& running, UtcTime now) {
     return {{"site", running.site},
             {"number", running.number},
-            {"operator", running.remark.operator_name},
-            {"note", running.remark.note},
+            {"operator", running.operator_name},
+            {"note", running.note},
             {"start", to_rfc3339(running.start, 3)},
             {"set_up", to_rfc3339(running.set_ups.back(), 3)},
             {"set_up_count", running.set_ups.size()},

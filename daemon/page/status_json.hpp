@@ -6,7 +6,7 @@
 #include "daemon/status/status.hpp"
 #include "daemon/survey/field_status.hpp"
 #include "daemon/survey/occupations.hpp"
-#include "protocol/events/event_log.hpp"
+#include "protocol/events/occupations.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::daemon {
@@ -23,7 +23,7 @@ inline constexpr int kApiVersion = 1;
                                      Nanoseconds stale_after);
 
 /// Converts the running occupation; `now` gives its running time.
-[[nodiscard]] nlohmann::json to_json(const RunningOccupation& running, UtcTime now);
+[[nodiscard]] nlohmann::json to_json(const record::RunningOccupation& running, UtcTime now);
 [[nodiscard]] nlohmann::json to_json(const record::Occupation& occupation);
 [[nodiscard]] nlohmann::json to_json(const SiteDistance& one);
 

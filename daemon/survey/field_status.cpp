@@ -16,7 +16,7 @@ constexpr double kEarthRadiusMetres = 6371000.0;
 
 using SetUp = record::Occupation::SetUp;
 
-std::vector<SetUp> set_ups_so_far(const RunningOccupation& running, UtcTime now) {
+std::vector<SetUp> set_ups_so_far(const record::RunningOccupation& running, UtcTime now) {
     std::vector<SetUp> set_ups;
     for (const UtcTime start : running.set_ups) {
         if (!set_ups.empty()) set_ups.back().end = start;
@@ -25,7 +25,7 @@ std::vector<SetUp> set_ups_so_far(const RunningOccupation& running, UtcTime now)
     return set_ups;
 }
 
-std::vector<std::string> warnings_of(const RunningOccupation& running,
+std::vector<std::string> warnings_of(const record::RunningOccupation& running,
                                      const std::vector<record::Occupation>& day, double running_s,
                                      double planned_s) {
     std::vector<std::string> warnings;

@@ -10,7 +10,7 @@
 #include "daemon/live/live_record.hpp"
 #include "daemon/survey/occupations.hpp"
 #include "protocol/core/utc_time.hpp"
-#include "protocol/events/event_log.hpp"
+#include "protocol/events/occupations.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::daemon {

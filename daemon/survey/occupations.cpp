@@ -51,14 +51,9 @@ std::string named(const auto& occupation) {
 }  // namespace
 
 Occupations::Occupations(Recorder& recorder, std::vector<text::Site> sites,
-                         std::vector<record::Event> events, const OccupationOptions& options)
+                         const std::vector<record::Event>& events, const OccupationOptions& options)
     : recorder_(recorder), options_(options), sites_(std::move(sites)) {
-    events_.reserve(events.size());
-    for (auto& event : events) {
-        follow(event);
-        events_.push_back(std::move(event));
-    }
-    renumber();
+    for (const record::Event& event : events) follow(event);
 }
 
 Occupations::Placed Occupations::place(std::optional<UtcTime> at) {
@@ -75,12 +70,12 @@ Occupations::Placed Occupations::place(std::optional<UtcTime> at) {
 
 /// Places the stop or a set-up of the running occupation.
 Occupations::Placed Occupations::place_in_running(std::optional<UtcTime> at) {
-    if (!running_) return {std::nullopt, "no occupation is running"};
+    if (!running()) return {std::nullopt, "no occupation is running"};
     auto placed = place(at);
-    if (!placed.instant || placed.instant->utc > running_->set_ups.back()) return placed;
+    if (!placed.instant || placed.instant->utc > running()->set_ups.back()) return placed;
     return {std::nullopt, fmt::format("{} is not after the start of the set-up at {}, {}",
-                                      shown(placed.instant->utc), running_->site,
-                                      shown(running_->set_ups.back()))};
+                                      shown(placed.instant->utc), running()->site,
+                                      shown(running()->set_ups.back()))};
 }
 
 std::optional<std::string> Occupations::trouble_with_site(std::string_view site) const {
@@ -92,13 +87,13 @@ std::optional<std::string> Occupations::trouble_with_site(std::string_view site)
 /// Makes an event that needs no sample, because it must be possible with the sensor unplugged.
 record::Event Occupations::about_now(std::string type) {
     if (const auto latest = recorder_.latest()) return event_at(std::move(type), *latest);
-    return {std::move(type), events_.empty() ? UtcTime{} : events_.back().utc, {}, {}, {}};
+    return {std::move(type), last_event_, {}, {}, {}};
 }
 
 Outcome Occupations::start(std::string_view site, const Remark& remark, std::optional<UtcTime> at) {
-    if (running_) {
+    if (running()) {
         return refused(fmt::format("{} has been running since {}: stop or discard it first",
-                                   named(*running_), shown(running_->start)));
+                                   named(*running()), shown(running()->start)));
     }
     if (auto trouble = trouble_with_site(site)) return refused(*std::move(trouble));
     const auto placed = place(at);
@@ -116,8 +111,9 @@ Outcome Occupations::start(std::string_view site, const Remark& remark, std::opt
     add(event, remark);
     auto outcome =
         commit(std::move(event), fmt::format("started {} at {}", site, shown(placed.instant->utc)));
-    if (running_ && running_->number > 1)
-        outcome.message += fmt::format("; the site was occupied before: stay {}", running_->number);
+    if (running() && running()->number > 1)
+        outcome.message +=
+            fmt::format("; the site was occupied before: stay {}", running()->number);
     return outcome;
 }
 
@@ -127,17 +123,17 @@ Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
     const UtcTime utc = placed.instant->utc;
     for (const auto& one : list()) {
         const auto begin = one.set_ups.front().start;
-        if (running_->start < begin && begin < utc) {
+        if (running()->start < begin && begin < utc) {
             return refused(fmt::format("{} lies between the start at {} and {}", named(one),
-                                       running_->site, shown(utc)));
+                                       running()->site, shown(utc)));
         }
     }
     auto event = event_at("stop", *placed.instant);
-    add(event, "site", running_->site);
+    add(event, "site", running()->site);
     add(event, remark);
-    auto message = fmt::format("stopped {} at {}", named(*running_), shown(utc));
+    auto message = fmt::format("stopped {} at {}", named(*running()), shown(utc));
     using Minutes = std::chrono::duration<double, std::ratio<60>>;
-    if (const Nanoseconds stay = utc - running_->start; stay < options_.planned) {
+    if (const Nanoseconds stay = utc - running()->start; stay < options_.planned) {
         message += fmt::format("; shorter than planned: {:.1f} of {:.0f} min",
                                Minutes(stay).count(), Minutes(options_.planned).count());
     }
@@ -148,19 +144,19 @@ Outcome Occupations::setup(std::optional<UtcTime> at) {
     const auto placed = place_in_running(at);
     if (!placed.instant) return refused(placed.trouble);
     auto event = event_at("setup", *placed.instant);
-    add(event, "site", running_->site);
-    return commit(std::move(event), fmt::format("further set-up at {} from {}", named(*running_),
+    add(event, "site", running()->site);
+    return commit(std::move(event), fmt::format("further set-up at {} from {}", named(*running()),
                                                 shown(placed.instant->utc)));
 }
 
 Outcome Occupations::discard() {
     auto event = about_now("discard");
-    if (running_) {
-        add(event, "site", running_->site);
+    if (running()) {
+        add(event, "site", running()->site);
         return commit(std::move(event),
-                      fmt::format("discarded {}, which was running", named(*running_)));
+                      fmt::format("discarded {}, which was running", named(*running())));
     }
-    const auto last = changed_by(event);
+    const auto last = replay_.last_finished();
     if (!last) return refused("there is no occupation to discard");
     add(event, "site", last->site);
     return commit(std::move(event), fmt::format("discarded {}, started {}", named(*last),
@@ -172,13 +168,14 @@ Outcome Occupations::rename(std::string_view site, const Remark& remark) {
     auto event = about_now("rename");
     add(event, "site", site);
     add(event, remark);
-    const auto last = changed_by(event);
-    if (!running_ && !last) {
+    const auto last = replay_.last_finished();
+    if (!running() && (!last || last->site == site)) {
         return refused(
             fmt::format("there is no occupation to rename, or {} is already its name", site));
     }
-    return commit(std::move(event), fmt::format("renamed {} to {}",
-                                                running_ ? named(*running_) : named(*last), site));
+    return commit(
+        std::move(event),
+        fmt::format("renamed {} to {}", running() ? named(*running()) : named(*last), site));
 }
 
 Outcome Occupations::note(std::string_view text) {
@@ -205,25 +202,6 @@ void Occupations::use(std::vector<text::Site> sites, const OccupationOptions& op
     options_ = options;
 }
 
-std::vector<record::Occupation> Occupations::list() const {
-    return record::occupations_of(events_);
-}
-
-/// Returns the finished occupation that `event` would remove or rename.
-std::optional<record::Occupation> Occupations::changed_by(const record::Event& event) const {
-    auto events = events_;
-    events.push_back(event);
-    const auto after = record::occupations_of(events);
-    for (const auto& one : list()) {
-        const auto is_same = [&](const auto& other) {
-            return other.site == one.site &&
-                   other.set_ups.front().start == one.set_ups.front().start;
-        };
-        if (std::ranges::none_of(after, is_same)) return one;
-    }
-    return std::nullopt;
-}
-
 Outcome Occupations::commit(record::Event event, std::string message) {
     try {
         recorder_.commit(event);
@@ -231,34 +209,14 @@ Outcome Occupations::commit(record::Event event, std::string message) {
         return {Outcome::Kind::failed, std::string("not saved: ") + error.what()};
     }
     follow(event);
-    events_.push_back(std::move(event));
-    renumber();
     return {Outcome::Kind::done, std::move(message)};
 }
 
 void Occupations::follow(const record::Event& event) {
-    if (event.type == "start") {
-        running_ = RunningOccupation{detail(event, "site"),
-                                     1,
-                                     event.utc,
-                                     {event.utc},
-                                     event.session,
-                                     event.index,
-                                     {detail(event, "operator"), detail(event, "note")}};
-    } else if (event.type == "target") {
-        if (const auto target = target_of(event)) target_ = target;
-    } else if (running_) {
-        if (event.type == "stop" || event.type == "discard") running_.reset();
-        if (event.type == "setup") running_->set_ups.push_back(event.utc);
-        if (event.type == "rename") running_->site = detail(event, "site");
-    }
-}
-
-void Occupations::renumber() {
-    if (!running_) return;
-    const auto finished = list();
-    running_->number = 1 + static_cast<int>(std::ranges::count(finished, running_->site,
-                                                               &record::Occupation::site));
+    replay_.take(event);
+    last_event_ = event.utc;
+    if (event.type != "target") return;
+    if (const auto target = target_of(event)) target_ = target;
 }
 
 }  // namespace a351::daemon

@@ -8,7 +8,7 @@
 #include "daemon/survey/recorder.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
-#include "protocol/events/event_log.hpp"
+#include "protocol/events/occupations.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::daemon {
@@ -28,17 +28,6 @@ struct Outcome {
 struct Remark {
     std::string operator_name;
     std::string note;
-};
-
-/// The occupation that was started and is not stopped yet.
-struct RunningOccupation {
-    std::string site;
-    int number = 1;  ///< Number of this stay at the site, without discarded ones.
-    UtcTime start;
-    std::vector<UtcTime> set_ups;              ///< Start of each set-up; the first is `start`.
-    std::optional<record::SessionId> session;  ///< Session of the first sample.
-    std::optional<std::int64_t> index;         ///< Index of the first sample.
-    Remark remark;
 };
 
 struct OccupationOptions {
@@ -61,7 +50,7 @@ class Occupations {
 public:
     /// @param events  the event log so far, in file order.  `recorder` must outlive this.
     Occupations(Recorder& recorder, std::vector<text::Site> sites,
-                std::vector<record::Event> events, const OccupationOptions& options = {});
+                const std::vector<record::Event>& events, const OccupationOptions& options = {});
 
     Outcome start(std::string_view site, const Remark& remark, std::optional<UtcTime> at);
     Outcome stop(const Remark& remark, std::optional<UtcTime> at);
@@ -84,10 +73,10 @@ public:
     void use(std::vector<text::Site> sites, const OccupationOptions& options);
     [[nodiscard]] const std::vector<text::Site>& sites() const noexcept { return sites_; }
 
-    /// Returns the finished occupations, as record::occupations_of() reads them from the log.
-    [[nodiscard]] std::vector<record::Occupation> list() const;
-    [[nodiscard]] const std::optional<RunningOccupation>& running() const noexcept {
-        return running_;
+    /// Returns the finished occupations, in order of time.
+    [[nodiscard]] std::vector<record::Occupation> list() const { return replay_.finished(); }
+    [[nodiscard]] const std::optional<record::RunningOccupation>& running() const noexcept {
+        return replay_.running();
     }
 
 private:
@@ -100,17 +89,15 @@ private:
     [[nodiscard]] Placed place_in_running(std::optional<UtcTime> at);
     [[nodiscard]] std::optional<std::string> trouble_with_site(std::string_view site) const;
     [[nodiscard]] record::Event about_now(std::string type);
-    [[nodiscard]] std::optional<record::Occupation> changed_by(const record::Event& event) const;
     Outcome commit(record::Event event, std::string message);
     void follow(const record::Event& event);
-    void renumber();
 
     Recorder& recorder_;
     OccupationOptions options_;
     std::optional<MilliGal> target_;  ///< Target set by the operator.
     std::vector<text::Site> sites_;
-    std::vector<record::Event> events_;
-    std::optional<RunningOccupation> running_;
+    record::OccupationReplay replay_;
+    UtcTime last_event_;
 };
 
 }  // namespace a351::daemon

@@ -85,8 +85,7 @@ std::optional<Event> parse_event(std::string_view text) {
 
 void append_event(FileLayer& files, const fs::path& directory, const Event& event) {
     const auto path = directory / (to_rfc3339(event.utc).substr(0, 7) + ".jsonl");
-    const bool is_new = !fs::exists(path);
-    if (is_new) files.create_directories(directory);
+    if (!fs::exists(path)) files.create_directories(directory);
     // The new line must not be joined to one torn by a crash.
     std::string line = ends_without_newline(path) ? "\n" : "";
     line += to_json(event);
@@ -96,7 +95,8 @@ void append_event(FileLayer& files, const fs::path& directory, const Event& even
     try {
         file->append(std::as_bytes(std::span(line)));
         file->sync();
-        if (is_new) files.sync_directory(directory);
+        // Always, because a program that made the file may have been killed before this.
+        files.sync_directory(directory);
     } catch (const std::system_error&) {
         take_back(files, path, size_before);
         throw;

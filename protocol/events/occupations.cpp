@@ -1,100 +1,92 @@
+#include "protocol/events/occupations.hpp"
+
 #include <algorithm>
 #include <utility>
-
-#include "protocol/events/event_log.hpp"
 
 namespace a351::record {
 
 namespace {
+
+UtcTime start_of(const Occupation& occupation) { return occupation.set_ups.front().start; }
 
 std::string detail(const Event& event, const std::string& key) {
     const auto found = event.details.find(key);
     return found == event.details.end() ? std::string() : found->second;
 }
 
-void remark(Occupation& occupation, const Event& event) {
+void add_note(std::string& notes, const Event& event) {
     const std::string note = detail(event, "note");
     if (note.empty()) return;
-    if (!occupation.note.empty()) occupation.note += "; ";
-    occupation.note += note;
+    if (!notes.empty()) notes += "; ";
+    notes += note;
 }
-
-/// Applies the events one by one.
-class EventReplay {
-public:
-    explicit EventReplay(const std::vector<Event>& events) {
-        for (const Event& event : events) take(event);
-    }
-
-    [[nodiscard]] std::vector<Occupation> take_finished() { return std::move(finished_); }
-    [[nodiscard]] std::optional<std::string> running_site() const {
-        return is_running_ ? std::optional(running_.site) : std::nullopt;
-    }
-
-private:
-    void take(const Event& event) {
-        if (event.type == "start") start(event);
-        if (event.type == "rename") rename(event);
-        if (event.type == "discard") discard();
-        if (!is_running_) return;
-        if (event.type == "setup") begin_set_up(event.utc);
-        if (event.type == "note") remark(running_, event);
-        if (event.type == "stop") {
-            remark(running_, event);
-            stop(event.utc);
-        }
-    }
-
-    void start(const Event& event) {
-        if (is_running_) stop(event.utc);
-        is_running_ = true;
-        running_ = Occupation{};
-        running_.site = detail(event, "site");
-        remark(running_, event);
-        set_up_ = event.utc;
-    }
-
-    void begin_set_up(UtcTime time) {
-        if (time != set_up_) running_.set_ups.push_back({set_up_, time});
-        set_up_ = time;
-    }
-
-    void stop(UtcTime end) {
-        begin_set_up(end);
-        if (!running_.set_ups.empty()) finished_.push_back(running_);
-        is_running_ = false;
-    }
-
-    void rename(const Event& event) {
-        if (!is_running_ && finished_.empty()) return;
-        Occupation& occupation = is_running_ ? running_ : finished_.back();
-        occupation.site = detail(event, "site");
-        remark(occupation, event);
-    }
-
-    void discard() {
-        if (is_running_) {
-            is_running_ = false;
-        } else if (!finished_.empty()) {
-            finished_.pop_back();
-        }
-    }
-
-    bool is_running_ = false;
-    Occupation running_;
-    UtcTime set_up_;
-    std::vector<Occupation> finished_;
-};
 
 }  // namespace
 
-std::vector<Occupation> occupations_of(const std::vector<Event>& events) {
-    auto occupations = EventReplay(events).take_finished();
-    std::ranges::stable_sort(occupations, {},
-                             [](const Occupation& one) { return one.set_ups.front().start; });
+void OccupationReplay::take(const Event& event) {
+    if (event.type == "start") start(event);
+    if (event.type == "rename") rename(event);
+    if (event.type == "discard") discard();
+    if (running_) {
+        if (event.type == "setup") running_->set_ups.push_back(event.utc);
+        if (event.type == "note" || event.type == "stop") add_note(running_->note, event);
+        if (event.type == "stop") end_running(event.utc, true);
+    }
+    renumber();
+}
+
+void OccupationReplay::start(const Event& event) {
+    if (running_) end_running(event.utc, false);
+    running_ = RunningOccupation{
+        detail(event, "site"),     1, event.utc, {event.utc}, event.session, event.index,
+        detail(event, "operator"), ""};
+    add_note(running_->note, event);
+}
+
+void OccupationReplay::end_running(UtcTime end, bool is_stopped) {
+    Occupation ended{running_->site, 1, {}, running_->note, is_stopped};
+    std::vector<UtcTime>& limits = running_->set_ups;
+    limits.push_back(end);
+    for (std::size_t i = 1; i < limits.size(); ++i)
+        if (limits[i] != limits[i - 1]) ended.set_ups.push_back({limits[i - 1], limits[i]});
+    if (!ended.set_ups.empty()) ended_.push_back(std::move(ended));
+    running_.reset();
+}
+
+void OccupationReplay::rename(const Event& event) {
+    if (running_) {
+        running_->site = detail(event, "site");
+        add_note(running_->note, event);
+    } else if (!ended_.empty()) {
+        ended_.back().site = detail(event, "site");
+        add_note(ended_.back().note, event);
+    }
+}
+
+void OccupationReplay::discard() {
+    if (running_)
+        running_.reset();
+    else if (!ended_.empty())
+        ended_.pop_back();
+}
+
+void OccupationReplay::renumber() {
+    std::vector<Occupation*> by_start;
+    for (Occupation& occupation : ended_) by_start.push_back(&occupation);
+    std::ranges::stable_sort(by_start, {}, [](const Occupation* one) { return start_of(*one); });
     std::map<std::string, int> stays;
-    for (Occupation& occupation : occupations) occupation.number = ++stays[occupation.site];
+    for (Occupation* const occupation : by_start) occupation->number = ++stays[occupation->site];
+    if (running_) running_->number = 1 + stays[running_->site];
+}
+
+std::vector<Occupation> OccupationReplay::finished() const {
+    std::vector<Occupation> occupations = ended_;
+    std::ranges::stable_sort(occupations, {}, start_of);
     return occupations;
+}
+
+std::optional<Occupation> OccupationReplay::last_finished() const {
+    return ended_.empty() ? std::nullopt : std::optional(ended_.back());
 }
 
 std::vector<Occupation> survey_day(std::vector<Occupation> occupations, UtcTime later) {
@@ -102,14 +94,10 @@ std::vector<Occupation> survey_day(std::vector<Occupation> occupations, UtcTime 
     while (first != occupations.begin() &&
            later - std::prev(first)->set_ups.back().start < kSurveyNight) {
         --first;
-        later = first->set_ups.front().start;
+        later = start_of(*first);
     }
     occupations.erase(occupations.begin(), first);
     return occupations;
-}
-
-std::optional<std::string> running_site(const std::vector<Event>& events) {
-    return EventReplay(events).running_site();
 }
 
 }  // namespace a351::record

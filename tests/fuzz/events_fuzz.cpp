@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "protocol/events/event_log.hpp"
+#include "protocol/events/occupations.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
 
 using namespace a351;
@@ -23,6 +23,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const Occupation& occupation : occupations_of(log.events)) {
         require(occupation.number >= 1 && !occupation.set_ups.empty());
     }
-    (void)running_site(log.events);
+    (void)OccupationReplay(log.events).running();
     return 0;
 }

@@ -61,7 +61,7 @@ TEST_CASE("replaying the log at any point leads to the same state", "[daemon][oc
             CHECK(again.running()->set_ups == whole.running()->set_ups);
             CHECK(again.running()->session == whole.running()->session);
             CHECK(again.running()->index == whole.running()->index);
-            CHECK(again.running()->remark.operator_name == whole.running()->remark.operator_name);
+            CHECK(again.running()->operator_name == whole.running()->operator_name);
         }
         CHECK(again.list().size() == whole.list().size());
     };

@@ -8,7 +8,7 @@
 #include "tests/support/catch.hpp"
 
 #include "protocol/archive/archive_reader.hpp"
-#include "protocol/events/event_log.hpp"
+#include "protocol/events/occupations.hpp"
 #include "protocol/journal/journal_reader.hpp"
 #include "protocol/station/station_xml.hpp"
 #include "protocol/text/csv.hpp"

@@ -1,0 +1,134 @@
+#pragma once
+/// @file
+/// The rules that make occupations of events.  Daemon and corrector use this one replay, so that
+/// field and evening agree.
+///
+/// An occupation is a stay at a benchmark; a set-up is the part of it in which the sensor was not
+/// lifted.  The log keeps every event; only the replay says which of them still count.
+///
+///     OccupationReplay replay(read_events(root / "events").events);
+///     replay.take(event);                                     // each further event
+///     const auto today = survey_day(replay.finished(), now);
+///
+/// Nothing here reads a file or a clock.  Equal events give equal occupations.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocol/core/utc_time.hpp"
+#include "protocol/events/event_log.hpp"
+
+namespace a351::record {
+
+/// Stay at a benchmark that has ended: one or more set-ups of the sensor.
+///
+/// The replay never gives an occupation without set-ups.  Two stays can overlap, and an end can be
+/// before its start, in a log that the daemon did not make.
+struct Occupation {
+    /// One placement of the sensor.
+    struct SetUp {
+        UtcTime start;  ///< Time of the start of the stay, or of the event `setup`.
+        UtcTime end;    ///< Start of the next set-up, or end of the stay; never equal to `start`.
+    };
+    /// Name of the benchmark as entered; empty if the event has none.  No table is consulted.
+    std::string site;
+    int number = 1;  ///< Number of the stay at this site, counted from 1 in order of time.
+    std::vector<SetUp> set_ups;  ///< At least one, in the order of the events.
+    std::string note;            ///< Notes joined by "; "; empty if there are none.
+    bool is_stopped = true;      ///< False: it has no stop, and the next start ended it.
+};
+
+/// The stay that was started and has not ended.
+///
+/// Times and texts are those of the events so far.
+struct RunningOccupation {
+    std::string site;  ///< Name of the benchmark, after renames.
+    /// Number of this stay at the site, one more than the finished stays there.  If one of these is
+    /// later, the stay gets a smaller number when it ends.
+    int number = 1;
+    UtcTime start;  ///< Start of the stay.
+    /// Start of each set-up; the first is `start`.  A set-up without duration is still included.
+    std::vector<UtcTime> set_ups;
+    std::optional<SessionId> session;   ///< Session of the first sample.
+    std::optional<std::int64_t> index;  ///< Index of the first sample.
+    std::string operator_name;          ///< Detail `operator` of the start; empty if not given.
+    std::string note;                   ///< Notes so far, joined by "; ".
+};
+
+/// Applies events one by one.
+///
+/// - `start` begins an occupation.  If one runs, this ends it.
+/// - `setup` begins a further set-up of the running one, `stop` ends it.
+/// - `discard` and `rename` apply to the running occupation, or else to the last one that ended and
+///   was not discarded.
+/// - Notes of start, stop and rename, and `note` while one runs, are joined by "; ".
+/// - A set-up without duration is left out, and so is an occupation without set-ups.
+/// - A second `discard` cancels the last occupation that is left.
+/// - `setup`, `stop` and `note` change nothing if no occupation runs.  Other types change nothing.
+/// An occupation that ends before it starts, which the daemon does not log, is kept as it was
+/// logged.
+///
+/// Stays are numbered again after every event.  A stay entered later for an earlier time, a rename
+/// or a discard therefore changes the numbers of other stays at the site.
+///
+/// An event costs O(m log m) for m ended occupations.  One thread at a time may use an object that
+/// changes.
+class OccupationReplay {
+public:
+    OccupationReplay() = default;
+    /// @param events  in the order in which they were logged.
+    explicit OccupationReplay(const std::vector<Event>& events) {
+        for (const Event& event : events) take(event);
+    }
+
+    /// Applies the next event in the order of the log.  A missing detail counts as empty text.
+    void take(const Event& event);
+
+    /// Returns the occupations that ended and were not discarded, in order of time: by the start of
+    /// their first set-up.  Stays with equal starts are in the order in which they ended.
+    [[nodiscard]] std::vector<Occupation> finished() const;
+    /// Returns the occupation to which `discard` and `rename` apply if none runs.  It is the one
+    /// that ended last in the log, which need not be the latest in time; absent if there is none.
+    [[nodiscard]] std::optional<Occupation> last_finished() const;
+    /// Returns the occupation that still runs after the last event; absent if none runs.  The
+    /// reference is to a member, which the next take() changes.
+    [[nodiscard]] const std::optional<RunningOccupation>& running() const noexcept {
+        return running_;
+    }
+
+private:
+    void start(const Event& event);
+    void end_running(UtcTime end, bool is_stopped);
+    void rename(const Event& event);
+    void discard();
+    void renumber();
+
+    std::optional<RunningOccupation> running_;
+    std::vector<Occupation> ended_;  ///< In the order in which they ended; numbered.
+};
+
+/// Returns the finished occupations of a log.  A running one is not included.
+/// @param events  in the order in which they were logged.
+[[nodiscard]] inline std::vector<Occupation> occupations_of(const std::vector<Event>& events) {
+    return OccupationReplay(events).finished();
+}
+
+/// Time without the begin of a set-up after which a new survey day begins; longer than any drive
+/// between benchmarks.
+inline constexpr Nanoseconds kSurveyNight = std::chrono::hours(6);
+
+/// Returns the occupations of the survey day that contains `later`.  Only the starts of set-ups
+/// count, so that a stop forgotten in the evening does not join two days.
+///
+/// It goes back from `later` until no set-up begins for kSurveyNight.  A pause of exactly this
+/// length separates two days.
+/// @param occupations  as OccupationReplay::finished() returns them, none after `later`.
+/// @param later        instant of the day, for example now or the start of the last set-up.
+/// @return in the given order; empty if no set-up begins within kSurveyNight before `later`.
+[[nodiscard]] std::vector<Occupation> survey_day(std::vector<Occupation> occupations,
+                                                 UtcTime later);
+
+}  // namespace a351::record

@@ -1,0 +1,169 @@
+#include "protocol/events/occupations.hpp"
+
+#include <fstream>
+#include <iterator>
+#include "tests/support/catch.hpp"
+
+#include "tests/unit/events/made_up_events.hpp"
+
+namespace a351::record {
+namespace {
+
+/// Returns "site#number hh:mm-hh:mm ..." for each occupation.
+std::vector<std::string> shown(const std::vector<Event>& events) {
+    std::vector<std::string> lines;
+    for (const auto& occupation : occupations_of(events)) {
+        std::string line = occupation.site;
+        line.append("#").append(std::to_string(occupation.number));
+        for (const auto& set_up : occupation.set_ups) {
+            line += " " + to_rfc3339(set_up.start).substr(11, 5) + "-" +
+                    to_rfc3339(set_up.end).substr(11, 5);
+        }
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+using Lines = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("start and stop make an occupation", "[record][occupations]") {
+    CHECK(shown({start("09:00", "A"), stop("09:10")}) == Lines{"A#1 09:00-09:10"});
+}
+
+TEST_CASE("occupations are numbered per site in time order", "[record][occupations]") {
+    CHECK(shown({start("10:00", "A"), stop("10:10"), start("11:00", "B"), stop("11:10"),
+                 start("12:00", "A"), stop("12:10"),
+                 // Logged last, with a time before all others.
+                 start("09:00", "A"), stop("09:10")}) ==
+          Lines{"A#1 09:00-09:10", "A#2 10:00-10:10", "B#1 11:00-11:10", "A#3 12:00-12:10"});
+}
+
+TEST_CASE("a start while another occupation is running ends that occupation",
+          "[record][occupations]") {
+    CHECK(shown({start("09:00", "A"), start("09:30", "B"), stop("09:40")}) ==
+          Lines{"A#1 09:00-09:30", "B#1 09:30-09:40"});
+    const auto both = occupations_of({start("09:00", "A"), start("09:30", "B"), stop("09:40")});
+    CHECK_FALSE(both[0].is_stopped);
+    CHECK(both[1].is_stopped);
+}
+
+TEST_CASE("a set-up event divides an occupation", "[record][occupations]") {
+    CHECK(shown({start("09:00", "A"), event_of("setup", "09:05"), event_of("setup", "09:07"),
+                 stop("09:10")}) == Lines{"A#1 09:00-09:05 09:05-09:07 09:07-09:10"});
+    CHECK(shown({event_of("setup", "09:05"), start("09:10", "A"), event_of("setup", "09:10"),
+                 stop("09:20")}) == Lines{"A#1 09:10-09:20"});
+}
+
+TEST_CASE("a running occupation and an occupation of no length are left out",
+          "[record][occupations]") {
+    CHECK(shown({start("09:00", "A")}).empty());
+    CHECK(shown({start("09:00", "A"), stop("09:00")}).empty());
+    CHECK(shown({stop("09:00")}).empty());
+}
+
+TEST_CASE("an occupation that ends before it starts is kept as logged, with its number",
+          "[record][occupations]") {
+    CHECK(shown({start("09:10", "A"), stop("09:00"), start("10:00", "A"), stop("10:10")}) ==
+          Lines{"A#1 09:10-09:00", "A#2 10:00-10:10"});
+}
+
+TEST_CASE("a discarded occupation is neither listed nor counted", "[record][occupations]") {
+    const auto discard = event_of("discard", "23:00");
+    CHECK(shown({start("09:00", "A"), discard, stop("09:10"), start("10:00", "A"),
+                 stop("10:10")}) == Lines{"A#1 10:00-10:10"});
+    const std::vector two{start("09:00", "A"), stop("09:10"), start("10:00", "A"), stop("10:10")};
+    auto events = two;
+    events.push_back(discard);
+    CHECK(shown(events) == Lines{"A#1 09:00-09:10"});
+    events.push_back(discard);
+    CHECK(shown(events).empty());
+    events.push_back(discard);
+    CHECK(shown(events).empty());
+}
+
+TEST_CASE("a rename applies to the running occupation, or otherwise to the last one",
+          "[record][occupations]") {
+    const auto rename = event_of("rename", "23:00", {{"site", "C"}});
+    CHECK(shown({rename, start("09:00", "A"), stop("09:10"), start("10:00", "B"), rename,
+                 stop("10:10")}) == Lines{"A#1 09:00-09:10", "C#1 10:00-10:10"});
+    CHECK(shown({start("09:00", "A"), stop("09:10"), start("10:00", "B"), stop("10:10"), rename}) ==
+          Lines{"A#1 09:00-09:10", "C#1 10:00-10:10"});
+}
+
+TEST_CASE("notes during an occupation are joined, other notes stay only in the log",
+          "[record][occupations]") {
+    const auto note = [](const char* time, const char* text) {
+        return event_of("note", time, {{"note", text}});
+    };
+    auto begin = start("09:00", "A");
+    begin.details["note"] = "wind";
+    auto end = stop("09:10");
+    end.details["note"] = "calm";
+    const auto occupations = occupations_of({note("08:00", "packed"), begin, note("09:05", "lorry"),
+                                             end, note("09:30", "on the road")});
+    REQUIRE(occupations.size() == 1);
+    CHECK(occupations[0].note == "wind; lorry; calm");
+}
+
+TEST_CASE("events of other kinds change no occupation", "[record][occupations]") {
+    CHECK(shown({start("09:00", "A"), event_of("fault", "09:05"), event_of("clock_step", "09:06"),
+                 stop("09:10")}) == Lines{"A#1 09:00-09:10"});
+}
+
+TEST_CASE("a running occupation has its number, set-ups, operator and notes so far",
+          "[record][occupations]") {
+    auto begin = start("09:00", "A");
+    begin.details["operator"] = "M. Ito";
+    OccupationReplay replay({start("08:00", "A"), stop("08:10"), begin, event_of("setup", "09:05"),
+                             event_of("note", "09:06", {{"note", "lorry"}})});
+    const RunningOccupation running = replay.running().value();
+    CHECK(running.site == "A");
+    CHECK(running.number == 2);
+    CHECK(running.operator_name == "M. Ito");
+    CHECK(running.note == "lorry");
+    CHECK(running.set_ups == std::vector{begin.utc, at("2026-03-01T09:05:00Z")});
+    replay.take(event_of("rename", "09:07", {{"site", "B"}}));
+    CHECK(replay.running()->number == 1);
+}
+
+TEST_CASE("discard and rename apply to the occupation that ended last, not to the latest one",
+          "[record][occupations]") {
+    const OccupationReplay replay({start("10:00", "A"), stop("10:10"),
+                                   // Entered afterwards, with an earlier time.
+                                   start("09:00", "B"), stop("09:10")});
+    CHECK(replay.last_finished()->site == "B");
+    CHECK(replay.finished().back().site == "A");
+    CHECK_FALSE(OccupationReplay().last_finished());
+}
+
+TEST_CASE("an occupation without a stop is reported as running", "[record][occupations]") {
+    CHECK(OccupationReplay({start("09:00", "A"), stop("09:10"), start("09:20", "B")})
+              .running()
+              ->site == "B");
+    CHECK_FALSE(OccupationReplay({start("09:00", "A"), stop("09:10")}).running());
+    CHECK_FALSE(OccupationReplay({start("09:00", "A"), event_of("discard", "09:05")}).running());
+}
+
+TEST_CASE("the reference log has the occupations worked out by hand", "[record][occupations]") {
+    const std::filesystem::path golden = A351_GOLDEN "/events";
+    const EventLog log = read_events(golden);
+    CHECK(log.events.size() == 16);
+    REQUIRE(log.damage.size() == 1);
+    CHECK(log.damage[0].line == 9);
+    std::string rows = "site,number,setup,start_utc,end_utc,note\n";
+    for (const Occupation& occupation : occupations_of(log.events)) {
+        int number = 0;
+        for (const auto& set_up : occupation.set_ups) {
+            rows += occupation.site + ',' + std::to_string(occupation.number) + ',' +
+                    std::to_string(++number) + ',' + to_rfc3339(set_up.start, 9) + ',' +
+                    to_rfc3339(set_up.end, 9) + ',' + occupation.note + '\n';
+        }
+    }
+    std::ifstream expected(golden / "occupations.csv");
+    CHECK(rows == std::string(std::istreambuf_iterator<char>(expected), {}));
+    CHECK(OccupationReplay(log.events).running()->site == "No.9");
+}
+
+}  // namespace a351::record
