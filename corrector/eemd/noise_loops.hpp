@@ -2,6 +2,12 @@
 /// @file
 /// White Gaussian noise in plain loops over blocks, compiled once for every instruction set.  The
 /// rules are in sift_kernels.hpp, the formula is in noise.hpp.
+///
+/// Only additions, multiplications, divisions and roots of doubles are used, which IEEE 754 rounds
+/// exactly, and operations on integers.  The logarithm and the sine are series, written out below.
+/// Hence no mathematical library can change a bit.
+///
+/// Call fill_noise() through SiftKernels::fill_white_noise; the other functions are its parts.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,21 +20,30 @@ namespace {
 /// Pairs of samples per block.  Reason: the buffers fit into the first-level cache.
 constexpr std::size_t kNoiseBlock = 64;
 
+/// Returns the 64 bits of a double.
 inline std::uint64_t bits_of(double value) { return __builtin_bit_cast(std::uint64_t, value); }
+/// Returns the double with these bits; the inverse of bits_of().
 inline double double_of(std::uint64_t bits) { return __builtin_bit_cast(double, bits); }
 
 /// Returns an integer below 2^52 as a double, from the bits of 2^52 + value.
+/// It is exact.  A cast would do the same, but AVX2 has no instruction for it, so that the loop
+/// would not become vectors.
 inline double small_integer(std::uint64_t value) {
     return double_of(bits_of(0x1p52) | value) - 0x1p52;
 }
 
 /// Returns the upper 53 bits of two words, 0 ... 2^53 - 1.
+/// The result is exact.
+/// @param low, high  words of 32 bits, each in 64 bits.
 inline double upper_bits(std::uint64_t low, std::uint64_t high) {
     return small_integer(high) * 0x1p21 + small_integer(low >> 11);
 }
 
 /// Returns ln(u) for 2^-53 <= u <= 1, within 2 units in the last place, by
 /// ln m = 2 artanh((m - 1) / (m + 1)).
+///
+/// The argument is split into m 2^k with 0.7 < m < 1.42, and the result is k ln 2 + ln m.  Other
+/// arguments (0, negative, NaN) give a meaningless number.  ln(1) is exactly 0.
 inline double natural_log(double u) {
     constexpr std::uint64_t kMantissa = 0x000FFFFFFFFFFFFF;
     const double half = double_of((bits_of(u) & kMantissa) | bits_of(0.5));  // 0.5 <= half < 1
@@ -52,6 +67,12 @@ inline double natural_log(double u) {
 }
 
 /// Fills w0 ... w3 with the words of one block's counters, by Philox 4x32-10.
+///
+/// @param first_pair  number of the first pair of samples, a multiple of kNoiseBlock.
+/// @param member  upper half of the counter.
+/// @param seed  key of the generator.
+/// @param w0, w1, w2, w3  receive kNoiseBlock words each, one per pair of samples.
+/// Source of the constants: J. K. Salmon et al., SC11, 2011 (noise.hpp).
 inline void philox_block(std::uint64_t first_pair, std::uint64_t member, std::uint64_t seed,
                          std::uint32_t* w0, std::uint32_t* w1, std::uint32_t* w2,
                          std::uint32_t* w3) {
@@ -86,6 +107,12 @@ inline void philox_block(std::uint64_t first_pair, std::uint64_t member, std::ui
 }
 
 /// Box-Muller transform of one block: cosine[i] is sample 2 i, sine[i] is sample 2 i + 1.
+///
+/// The words w0 and w1 give u, with which the radius sqrt(-2 ln u) is computed.  The words w2 and
+/// w3 give the angle, as a fraction of a turn.
+///
+/// The angle is reduced to an eighth of a turn by symmetry.  Sine and cosine there are Taylor
+/// series to the powers 17 and 16 (the first term left out is below 2^-53).  Accuracy: noise.hpp.
 inline void transform_block(const std::uint32_t* w0, const std::uint32_t* w1,
                             const std::uint32_t* w2, const std::uint32_t* w3, double* cosine,
                             double* sine) {
@@ -128,6 +155,8 @@ inline void transform_block(const std::uint32_t* w0, const std::uint32_t* w1,
     }
 }
 
+/// Fills noise[0 ... n - 1] with white Gaussian noise of variance 1; n = 0 writes nothing.  The
+/// last block is computed completely and copied in part, so a shorter request has the same samples.
 inline void fill_noise(std::uint64_t seed, std::uint64_t member, double* noise, std::size_t n) {
     std::uint32_t w0[kNoiseBlock], w1[kNoiseBlock], w2[kNoiseBlock], w3[kNoiseBlock];
     double cosine[kNoiseBlock], sine[kNoiseBlock];

@@ -2,6 +2,15 @@
 /// @file
 /// The search for extrema and the subtraction of the mean envelope, written once and compiled for
 /// every instruction set.  The rules are in sift_kernels.hpp.
+///
+/// Comparisons of neighbours become bits, 64 samples to a word.  An extremum is a place where the
+/// bits change from rise to fall or back.  It is found without a branch per sample.
+///
+/// The same bits say later at which samples the cubic changes.  Hence the subtraction needs no
+/// search for the knot of a sample.
+///
+/// Call find_extrema() and subtract_mean_envelope() through SiftKernels; the other functions are
+/// their parts.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,11 +21,16 @@
 namespace a351::corrector {
 namespace {
 
+/// Returns an index as a double, exact below 2^53.  The way over a signed integer is one
+/// instruction on every processor.
 inline double as_double(std::size_t index) {
     return static_cast<double>(static_cast<std::int64_t>(index));
 }
 
 /// Finds the extrema of curves with plateaus, sample by sample; otherwise as find_extrema().
+///
+/// A plateau is a run of equal samples.  Its position is its middle, which ends in 0.5 for an even
+/// number of samples; the segment then starts at the next sample.
 inline std::size_t find_plateaus(const double* curve, std::size_t n, double* positions,
                                  double* values, std::uint64_t* starts) {
     // Every step writes its candidate, and keeps it by increasing the count.  Branches here would
@@ -49,6 +63,8 @@ inline std::size_t find_plateaus(const double* curve, std::size_t n, double* pos
 
 /// Returns the bits i = 0 ... count - 1 of curve[i + 1] > curve[i].  Makes `equals` different from
 /// 0 if two neighbours are equal.
+/// @param curve  count + 1 samples, finite.
+/// @param count  1 to 64.
 inline std::uint64_t rises_of(const double* curve, std::size_t count, Words& equals) {
     std::uint64_t rises = 0;
     std::size_t i = 0;
@@ -66,8 +82,11 @@ inline std::uint64_t rises_of(const double* curve, std::size_t count, Words& equ
 }
 
 /// Number of extrema in 64 samples above which all samples are moved by flags, not one by one.
+/// Reason: one by one costs time per extremum, by flags time per sample.  The result is the same.
 constexpr int kDense = 20;
 
+/// Finds the interior extrema, see SiftKernels::find_extrema.  One pass over the curve; if two
+/// neighbours are equal anywhere, a second pass by find_plateaus().
 inline std::size_t find_extrema(const double* curve, std::size_t n, double* positions,
                                 double* values, std::uint64_t* starts) {
     std::size_t count = 0;
@@ -123,6 +142,7 @@ inline std::size_t find_extrema(const double* curve, std::size_t n, double* posi
 }
 
 /// Cubics of some samples, and the distances d of the samples from the knots before them.
+/// Lane j belongs to sample j of the group: y + d (b + d (c + d e)), with d in samples.
 struct Cubics {
     Lanes d, y, b, c, e;
 };
@@ -134,6 +154,9 @@ inline void subtract_cubics(const double* curve, double* out, const Cubics& at) 
     store_lanes(out, (load_lanes(curve) - line) - at.d * at.d * bend);
 }
 
+/// Computes out = curve - mean envelope, see SiftKernels::subtract_mean_envelope.  A word of 64
+/// samples without an extremum is one cubic; other words take the cubic of every sample by its
+/// flag.
 inline void subtract_mean_envelope(const double* curve, double* out, std::size_t n,
                                    const std::uint64_t* starts, const double* x,
                                    std::size_t first_segment, const SplineArrays& arrays) {

@@ -19,6 +19,16 @@
 /// In the list of both envelopes' knots the neighbours i and i + 1 are two apart.
 /// Source: C. de Boor, A Practical Guide to Splines, Springer, 1978, chap. IV; c_i here is half the
 /// second derivative.
+///
+/// Call fit_mean_envelope() through SiftKernels; the other functions are its parts.  Steps for
+/// eight knots or more:
+///
+/// - eliminate(): the equations for c, from both ends to the middle, for both envelopes at once;
+/// - substitute(): c from the middle outwards;
+/// - average(): the mean cubic of each knot as soon as c is known around it.
+///
+/// With fewer knots solve_few() computes c directly.  Accuracy: within 1e-9 of dense solutions,
+/// also for thousands of knots (mean_envelope_test.cpp).
 
 #include <cstddef>
 
@@ -29,12 +39,18 @@ namespace a351::corrector {
 namespace {
 
 /// One row of each of the two envelopes.
+/// Element 0 is row k and element 1 is row k + 1, which belongs to the other envelope.
 typedef double Pair __attribute__((vector_size(16), aligned(8), may_alias));
 
+/// Returns from[0] and from[1]; any address of a double will do.
 inline Pair load(const double* from) { return *reinterpret_cast<const Pair*>(from); }
+/// Writes to[0] and to[1]; any address of a double will do.
 inline void store(double* to, Pair value) { *reinterpret_cast<Pair*>(to) = value; }
 
 /// Computes distances and slopes from knot k to k + 2 for first <= k < last, and some beyond.
+///
+/// Sets arrays.h, inverse and slope.  Reads x and y up to kLanes + 1 elements after knot last - 1;
+/// results beyond last are computed again later, or not used.
 inline void set_up(const double* x, const double* y, std::size_t first, std::size_t last,
                    SplineArrays arrays) {
     for (std::size_t k = first; k < last; k += kLanes) {
@@ -53,6 +69,10 @@ inline void set_up(const double* x, const double* y, std::size_t first, std::siz
 ///
 /// product_k is the product of the two coefficients between rows k and k - 2.  This recurrence
 /// needs no division.  p_{k-2} is scaled to 1 after every block, so that it does not overflow.
+///
+/// A default-constructed object is before the first row.  Call first_step(), then step() for each
+/// following row, and keep() after each.  Call rescale() once per block (kBlock).  Rows of both
+/// envelopes are eliminated side by side.
 struct Elimination {
     Pair before = {0.0, 0.0};    ///< p_{k-4}
     Pair latest = {1.0, 1.0};    ///< p_{k-2}
@@ -60,6 +80,8 @@ struct Elimination {
     Pair coupling = {0.0, 0.0};  ///< from the row before to this one
 
     /// Eliminates the outermost row, where the third derivative is continuous.
+    /// @param near, far  distances to the outermost knot, and to the next one towards the middle.
+    /// @param right      right side of the row's equation, 3 (s_i - s_{i-1}).
     void first_step(Pair near, Pair far, Pair right) {
         before = latest;
         latest = near + 2.0 * far;
@@ -68,6 +90,7 @@ struct Elimination {
     }
     /// Eliminates one row.
     /// @param near, far  distances to the next knot towards the end, and towards the middle.
+    /// @param right      right side of the row's equation, 3 (s_i - s_{i-1}).
     void step(Pair near, Pair far, Pair right) {
         const Pair next = 2.0 * (near + far) * latest - near * coupling * before;
         reduced = right * latest - near * reduced;
@@ -75,6 +98,8 @@ struct Elimination {
         latest = next;
         coupling = far;
     }
+    /// Divides p_k, p_{k-2} and z_k by p_k.  The ratios that keep() stores later do not change,
+    /// except for rounding.
     void rescale() {
         const Pair inverse = 1.0 / latest;
         before *= inverse;
@@ -91,6 +116,7 @@ struct Elimination {
 
 /// Divides rows first <= k < last, and some beyond, by their pivots.  Then the array c holds the
 /// right sides r_k of c_k + link_k c_j = r_k, where j is the next row towards the middle.
+/// Needs keep() of all these rows.  This is the only division per row, done for whole vectors.
 inline void divide_by_pivots(std::size_t first, std::size_t last, SplineArrays arrays) {
     for (std::size_t k = first; k < last; k += kLanes) {
         const Lanes inverse = 1.0 / load_lanes(arrays.pivot + k);
@@ -108,6 +134,13 @@ inline void divide_by_pivots(std::size_t first, std::size_t last, SplineArrays a
 constexpr std::size_t kBlock = 32;
 
 /// Eliminates the rows before `middle` from the left and the others from the right.
+///
+/// Row k is the equation at knot k, 2 <= k <= n - 3.  Afterwards the arrays link and c have the
+/// equations of divide_by_pivots() for all rows.
+///
+/// @param n  number of knots, >= 8.
+/// @param middle  first row from the right.  The right has whole pairs of rows, at most as many as
+///                the left.
 inline void eliminate(const double* x, const double* y, std::size_t n, std::size_t middle,
                       SplineArrays arrays) {
     const double* const h = arrays.h;
@@ -169,6 +202,9 @@ inline void eliminate(const double* x, const double* y, std::size_t n, std::size
 
 /// Computes c of one envelope of two to four knots, every second one from `a`.  The envelope is the
 /// polynomial through all knots, by divided differences.
+///
+/// Needs slope of the envelope's knots.  Sets c at these knots only; two knots give a line with c =
+/// 0.
 inline void solve_few(const double* x, std::size_t a, std::size_t n, SplineArrays arrays) {
     const std::size_t knots = (n - a + 1) / 2;
     double* const c = arrays.c;
@@ -188,6 +224,7 @@ inline void solve_few(const double* x, std::size_t a, std::size_t n, SplineArray
 /// Computes the cubics first <= k < last of the mean of both envelopes.  Each is half the sum of
 /// the cubic of the knot's own envelope and of the other envelope's, expanded about the same
 /// position.  Needs c from first - 1 to last + 1.
+/// Reads h, inverse and slope too.  Overwrites b and e; sets mean_y, mean_b, mean_c and mean_e.
 ///
 /// Cubics are evaluated in two halves, here and at the samples.  In one chain by Horner's rule the
 /// processor would wait, because it does not look far enough ahead for other work.
@@ -220,6 +257,12 @@ inline void average(const double* x, const double* y, std::size_t first, std::si
 }
 
 /// Computes c of all rows from the middle outwards, and the mean cubics as soon as c is known.
+///
+/// The two rows of each envelope next to the middle are solved as a system of two equations.  The
+/// outermost knots have no row; their c continues the line through the next two, which is the
+/// not-a-knot condition.
+///
+/// @param n, middle  as eliminate().
 inline void substitute(const double* x, const double* y, std::size_t n, std::size_t middle,
                        SplineArrays arrays) {
     const double* const link = arrays.link;
@@ -269,6 +312,7 @@ inline void substitute(const double* x, const double* y, std::size_t n, std::siz
 }
 
 /// Fits both envelopes through `n` >= 4 alternating knots and leaves their mean in `arrays`.
+/// The conditions are those of SiftKernels::fit_mean_envelope.  The time is O(n).
 inline void fit_mean_envelope(const double* x, const double* y, std::size_t n,
                               const SplineArrays& shared) {
     // A local copy, so that no store below can change a pointer.

@@ -1,6 +1,16 @@
 #pragma once
 /// @file
 /// Export of a channel on exact multiples of a period of UTC.
+///
+/// The sensor samples on its own clock, so the times in the archive are not round.  Use an export
+/// for programs that need a regular grid, or to compare with another instrument.  Do not use it for
+/// a survey: the corrector takes the archive itself.
+///
+///     ExportOptions options{root, from, to, "BNZ", 50, ExportFormat::csv};
+///     const ExportReport report =
+///         export_channel(options, [&](std::string_view bytes) { file.write(bytes); });
+///
+/// Values are counts of the channel; station.xml of the data root has their scale.
 
 #include <cstdint>
 #include <filesystem>
@@ -14,11 +24,18 @@
 
 namespace a351::corrector {
 
+/// Formats of an export.
+/// - `csv`: for tables and plots; the values keep their fractions of a count.
+/// - `mseed`: for seismological programs; the values are rounded to whole counts.
 enum class ExportFormat {
-    csv,   ///< `time_utc,counts`, 17 significant digits; an empty line at each gap.
+    csv,   ///< `time_utc,counts`, shortest exact digits; an empty line at each gap.
     mseed  ///< Records as in the archive, whole counts, location code 10.
 };
 
+/// Part of a channel to be exported, and its form.
+///
+/// `from` is before `to`; both may be outside the archive.  `rate_hz` is 1 or more, and at most 1 %
+/// above the rate of the channel.  A lower rate includes a low-pass filter (utc_grid.hpp).
 struct ExportOptions {
     std::filesystem::path root;  ///< A data root.
     UtcTime from, to;            ///< Start, and end, which is not included.
@@ -27,7 +44,8 @@ struct ExportOptions {
     ExportFormat format = ExportFormat::csv;
 };
 
-/// Summary of an export.
+/// Summary of an export.  A run is a sequence of values without a gap on the grid.  Damaged records
+/// are missing in the values, which is a gap.
 struct ExportReport {
     std::int64_t values = 0;                    ///< Values written.
     std::int64_t runs = 0;                      ///< Runs without a gap.
@@ -39,10 +57,17 @@ struct ExportReport {
 /// It processes one day at a time, so that memory is bounded.  Location code 10 distinguishes the
 /// product from the record, which has 00 or the code of the station.  The timing quality of the
 /// records is 0, unknown; the archive and its channel LCQ have it.
-/// @param write  takes the bytes in order.
+///
+/// Instants of the values are multiples of 1 / rate_hz since 1970, within [from, to).  Values are
+/// missing on both sides of a gap, where the filter is not filled: 0.64 s for 50 Hz.  No value is
+/// extrapolated.  Days are joined without a gap.  Nothing in the data root is changed.
+///
+/// In CSV a time has nine decimals.  The same options and archive give the same bytes.
+/// @param options  see ExportOptions; only a rate that is too high is refused here.
+/// @param write    takes the bytes in order, in pieces of any size; its exceptions are passed on.
 /// @return a summary.
 /// @throws InputError  no metadata, no samples of the channel in this time, a rate above that of
-///                     the samples.
+///                     the samples.  A part of the output may have been written before.
 ExportReport export_channel(const ExportOptions& options,
                             const std::function<void(std::string_view)>& write);
 

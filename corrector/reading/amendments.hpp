@@ -2,6 +2,24 @@
 /// @file
 /// Later changes to the occupations of a day by a person, in a separate file.  The record and the
 /// event log are not changed.
+///
+/// Mistakes of the field are put right this way: a slip in a name, a start that was pressed too
+/// early, or a knock that nobody marked.  Each has a reason, which the results show.  Example of a
+/// file:
+///
+///     [[exclude]]
+///     site = "No.2"
+///     occupation = 1
+///     set_up = 2                             # without it: the whole stay
+///     reason = "knocked over"
+///     [[retime]]
+///     site = "No.5"
+///     occupation = 1
+///     start_utc = "2017-07-16T05:01:00Z"     # without a zone: UTC
+///     reason = "started before the tripod was levelled"
+///
+/// Order of use: read the list, call amend(), then drop_invalid_occupations().  The last one
+/// removes what an amendment made impossible, such as overlaps.
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
@@ -15,12 +33,12 @@ namespace a351::corrector {
 
 /// An amendment that was carried out.
 struct Amendment {
-    std::string kind;  ///< exclude, include, retime, rename.
-    std::string site;  ///< Site before all amendments, as `occupation` and `set_up`.
-    int occupation = 1;
+    std::string kind;           ///< exclude, include, retime, rename.
+    std::string site;           ///< Site before all amendments, as `occupation` and `set_up`.
+    int occupation = 1;         ///< Number of the stay at this site, from 1.
     std::optional<int> set_up;  ///< Number of the set-up within the stay, from 1; absent: all.
     std::string change;         ///< Change in words; empty if the kind says everything.
-    std::string reason;
+    std::string reason;         ///< Reason as written in the file; not empty.
 };
 
 /// Carries out the amendments of a TOML file.
@@ -32,16 +50,31 @@ struct Amendment {
 /// All amendments name the occupations as they were in the list before.  A renamed stay keeps its
 /// number if the other site has no stay of this number; otherwise it gets the next one.  Every
 /// changed window gets a note.
+///
+/// The notes are excluded, included, retimed and renamed.  One window may be changed once in its
+/// use, once in its times and once in its name; more is a contradiction.  Hence `include` cannot
+/// undo an `exclude` of the same file.  A retime of a stay with several set-ups must name one.
+///
+/// The order of the windows is not changed, also if the times are.  If an exception is thrown,
+/// `windows` may be amended in part; read the list again.
+///
+/// @param windows  all occupations of the survey; set-ups of a stay are numbered in this order.
+/// @param file  TOML file.  An empty file is permitted and changes nothing.
+/// @param sites  table of the sites; only a new name must be in it.
 /// @return the amendments, in the order of kinds above, then of the file.
-/// @throws InputError  unknown key, no reason, no such occupation or site, contradiction.
+/// @throws InputError  unknown key, no reason, no such occupation or site, contradiction; or the
+///                     file cannot be read.  The message has line, key, value and what is allowed.
 std::vector<Amendment> amend(std::vector<OccupationWindow>& windows,
                              const std::filesystem::path& file,
                              const std::vector<text::Site>& sites);
 
-/// Returns one line per amendment.
+/// Returns one line per amendment, each with a line end, for the printed report:
+///
+///     amended: exclude No.2 (1), set-up 2: knocked over
 [[nodiscard]] std::string amendments_text(const std::vector<Amendment>& amendments);
 
-/// Returns an array with one object per amendment.
+/// Returns an array with one object per amendment, for result.json.  The keys are kind, site,
+/// occupation, set_up (null for all), change and reason.
 [[nodiscard]] nlohmann::ordered_json amendments_json(const std::vector<Amendment>& amendments);
 
 }  // namespace a351::corrector

@@ -2,6 +2,16 @@
 /// @file
 /// Input of the whole-day model: the temperature of the day, drives included, and the readings of
 /// every set-up as means of 50 s.
+///
+/// The whole-day model (corrector/whole_day) fits all bins of a day at once, so it needs the
+/// temperature between the set-ups too.  Order of use:
+///
+///     DayRecord day{*day_temperature(raw_temperature), {}};
+///     for (std::size_t i = 0; i < set_ups; ++i)
+///         for (DayBin& bin : bin_set_up(i, axes[i], kDisturbanceThreshold))
+///             day.bins.push_back(std::move(bin));
+///
+/// average_occupations() does this for a survey.
 
 #include <cstddef>
 #include <optional>
@@ -15,6 +25,8 @@
 namespace a351::corrector {
 
 /// Means over the undisturbed samples of 50 s, the period of the ripple that the publication saw.
+/// Invariant of a bin from bin_set_up(): eight to kBinSamples samples, and no NaN.  A
+/// default-constructed bin has no samples.
 struct DayBin {
     std::size_t set_up = 0;      ///< Number of the set-up in the day, from 0, in order of time.
     UtcTime time;                ///< Mean of its samples' times.
@@ -23,24 +35,38 @@ struct DayBin {
     StandardGravity x, y;        ///< Means of the horizontal axes.
 };
 
-/// Number of 2 s samples in a complete bin, 50 s.
+/// Number of 2 s samples in a complete bin, 50 s.  Reason: the ripple averages out over its period.
 inline constexpr std::size_t kBinSamples = 25;
 
 /// Returns the bins of a set-up; bins with fewer than eight samples are left out.
 ///
 /// A sample is used if all axes are valid and no disturbance (find_disturbances()) is within 10 s,
 /// the reach of the decimation filters (tests/unit/whole_day/day_record_test.cpp).
+///
+/// Bins follow each other from the first sample of the set-up, so the last one can be incomplete.
+/// The mean time is that of the samples used, not the middle of the 50 s.
+///
+/// The norm is that of the decimated axes.  The horizontal means show the tilt.  The times
+/// of 50 and 10 s are those of axes recorded at 50 Hz; at other rates they are 25 and 5 samples.
+///
+/// @param set_up     number that the bins get; not used otherwise.
 /// @param axes       decimate_axes() of the set-up, in g; missing samples NaN.
-/// @param threshold  threshold of find_disturbances(), > 0.
+/// @param threshold  threshold of find_disturbances(), > 0; kDisturbanceThreshold in a survey.
 /// @return the bins in order of time; none without valid samples.
+/// @throws std::invalid_argument  the axes differ in start, rate or length.
 [[nodiscard]] std::vector<DayBin> bin_set_up(std::size_t set_up, const DecimatedAxes& axes,
                                              double threshold);
 
 /// The temperature of a day, decimated to 1/100 of the rate and smoothed with a cut-off of 120 s,
 /// so that the noise of the thermometer does not become noise of the temperature rate.
+/// Invariant of the result of day_temperature(): every value is finite.  The delay of the smoother
+/// is zero.
 struct DayTemperature {
-    TimeSeries<DegC> series;     ///< Temperature without gaps.
-    double longest_gap_s = 0.0;  ///< Longest gap bridged by a straight line, s.
+    TimeSeries<DegC> series;  ///< Temperature without gaps.
+    /// Longest gap bridged by a straight line, s; 0 if there is none.  The filters make a gap of
+    /// the raw samples longer by about 18 s at 50 Hz.  Above 30 min `auto` does not choose the
+    /// whole-day model (methods.md).
+    double longest_gap_s = 0.0;
 };
 
 /// Decimates and smooths the temperature of a day.
@@ -51,12 +77,15 @@ struct DayTemperature {
 ///
 /// With thermometer noise of 0.01 degC per sample the result is within 0.0015 degC of a ramp, also
 /// over a gap of 300 s (tests/unit/whole_day/day_record_test.cpp).
-/// @param raw  temperature at the sensor's rate, missing samples NaN.
+/// @param raw  temperature at the sensor's rate, 10 to 4000 Hz; missing samples NaN.
 /// @return the temperature from the first valid sample to the last; std::nullopt with less than ten
-///         minutes of valid samples.
+///         minutes of valid samples after decimation.  Gaps within a piece count as valid.
+/// @throws std::invalid_argument  as smooth(), at rates outside this range.
 [[nodiscard]] std::optional<DayTemperature> day_temperature(const TimeSeries<DegC>& raw);
 
 /// A day as the whole-day model takes it.
+/// The temperature should begin hours before the first set-up (a survey takes eight), because the
+/// slow response to temperature has a long memory.
 struct DayRecord {
     DayTemperature temperature;
     std::vector<DayBin> bins;  ///< Bins in order of set-up and time.

@@ -1,6 +1,16 @@
 #pragma once
 /// @file
 /// From a data root to the rows of a survey.
+///
+/// This is the first half of the command `survey`: everything up to the readings, before tide and
+/// fit.  It has two steps, so that mistakes in the small files are found before the archive is
+/// read:
+///
+///     const SurveyStays stays = read_survey_inputs(source);
+///     OccupationRows result = average_occupations(source, stays, progress);
+///     apply_tide(result.rows, result.sites, choice);                     // tide_choice.hpp
+///
+/// The same files give the same bits on any number of cores (archive_survey_test.cpp: two runs).
 
 #include <cstddef>
 #include <filesystem>
@@ -23,6 +33,8 @@
 namespace a351::corrector {
 
 /// Files of a survey's readings, and the options of their average.
+/// Only `root` and `sites` must be set.  Paths are used as they are; relative ones refer to the
+/// current directory.
 struct SurveySource {
     /// File that names the others, for messages; empty if there is none.
     std::filesystem::path path;
@@ -34,20 +46,25 @@ struct SurveySource {
     /// or the last survey day of the log.
     std::optional<UtcTime> from;
     std::optional<UtcTime> to;  ///< End of this time, not included.
+    /// Options of every average.  averaging.cutoff_s is checked when the first one is computed.
     RepresentativeOptions averaging;
 };
 
 /// The stays of a survey and the sensor that recorded them; no sample has been read yet.
+/// Invariant of the result of read_survey_inputs(): list.windows is not empty and in order of
+/// start.
 struct SurveyStays {
-    std::vector<text::Site> sites;
-    OccupationList list;
-    std::vector<Amendment> amendments;
-    std::filesystem::path metadata;
-    record::StationMetadata station;
-    SurveyChannels channels;
+    std::vector<text::Site> sites;      ///< Table of the sites.
+    OccupationList list;                ///< Possible set-ups, amended.
+    std::vector<Amendment> amendments;  ///< Amendments carried out; empty without a file.
+    std::filesystem::path metadata;     ///< StationXML that was read.
+    record::StationMetadata station;    ///< Epochs in force at the first set-up.
+    SurveyChannels channels;            ///< Channels of axes and temperature.
 };
 
 /// The readings of a survey.
+/// Invariant: rows and records have the same length, at least 1, and element i of both is one
+/// set-up.  It owns everything; nothing refers to the source.
 struct OccupationRows {
     std::vector<SurveyRow> rows;  ///< In order of time; the rate is that within a row's interval.
     std::vector<RepresentativeValue> records;           ///< Record of each row.
@@ -62,12 +79,34 @@ struct OccupationRows {
 };
 
 /// Reads the table of sites, the occupations and the station's metadata.
-/// @throws InputError  one of them cannot be read.
+///
+/// The occupations are from source.occupations, or else from the events of the root.  They are
+/// amended, and impossible ones are left out.  The metadata is metadata/station.xml of the root,
+/// with the epochs in force at the first set-up.
+///
+/// @throws InputError  one of them cannot be read or has a mistake, no occupation is possible, or a
+///                     channel is missing.
 [[nodiscard]] SurveyStays read_survey_inputs(const SurveySource& source);
 
 /// Averages every occupation, on all cores.  The result does not depend on their number.  The tide
 /// is left zero.
-/// @throws InputError  no occupation has a value.
+///
+/// Every channel is read once, from the first set-up to the last with a minute on either side.  The
+/// temperature begins eight hours earlier.  All samples of this time are in memory at once.
+///
+/// A set-up without samples, with fewer than 16 decimated samples in a row, or without temperature
+/// has no row.  It is in `left_out` with the reason, and in the warnings.  Damage in the archive is
+/// a warning.  The other set-ups are averaged nevertheless.
+///
+/// `day` is absent with less than ten minutes of temperature.  Its bins have the index of their row
+/// as number of the set-up.
+///
+/// @param source    the one of which `stays` was read.
+/// @param stays     from read_survey_inputs().
+/// @param progress  called after each set-up, from any thread, never from two at once; not empty.
+/// @throws InputError             no occupation has a value.
+/// @throws std::invalid_argument  averaging.cutoff_s is out of range.
+/// @throws std::system_error      a file of the archive cannot be read, or no thread started.
 [[nodiscard]] OccupationRows average_occupations(const SurveySource& source,
                                                  const SurveyStays& stays,
                                                  const Progress& progress);

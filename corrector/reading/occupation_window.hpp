@@ -1,6 +1,17 @@
 #pragma once
 /// @file
 /// From samples of the archive to the regular record of one occupation.
+///
+/// The archive has segments of counts with time stamps.  A record has values on a regular grid,
+/// with NaN where there is no sample.  Samples are moved to the nearest instant of the grid, never
+/// interpolated.  Order of use:
+///
+///     const SurveyChannels channels = find_channels(station, metadata_file);
+///     SurveySamples samples;    // read once for the whole survey, with record::read_channel()
+///     const auto record = cut_occupation(samples, channels, window.start, window.end);
+///     if (!record) leave_out(...);
+///
+/// The functions are pure, so several occupations may be cut at once.
 
 #include <array>
 #include <cstddef>
@@ -18,10 +29,11 @@
 namespace a351::corrector {
 
 /// The instants origin + i / rate, i = 0 ... count - 1.
+/// A default-constructed grid is empty and must not be used.
 struct SampleGrid {
-    UtcTime origin;
-    double rate_hz = 0.0;
-    std::size_t count = 0;
+    UtcTime origin;         ///< Instant of sample 0.
+    double rate_hz = 0.0;   ///< Rate, Hz, > 0.
+    std::size_t count = 0;  ///< Number of instants, >= 1.
 };
 
 /// Returns the grid on which the sensor sampled between two instants.
@@ -31,12 +43,27 @@ struct SampleGrid {
 /// tested at 80 ppm (tests/unit/reading/occupation_window_test.cpp).  If these stamps span less
 /// than 60 s, it is the rate of the header, because then the rounding of the stamps is the larger
 /// error.
-/// @return the grid up to `end`; std::nullopt without a sample in the window.
+///
+/// @param segments    of one channel, in any order; each has an anchor at its first sample.
+/// @param start, end  window [start, end); start <= end, which is not checked.
+/// @return the grid up to `end`; std::nullopt without a sample in the window.  The last instant is
+///         0.5 to 1.5 samples before `end`, so that rounded stamps do not change the count.
 [[nodiscard]] std::optional<SampleGrid> sampling_grid(const std::vector<record::Segment>& segments,
                                                       UtcTime start, UtcTime end);
 
 /// Puts segments on the grid, value = offset + gain x count; NaN if there is no sample.  A segment
 /// is placed by its first sample and not divided.
+///
+/// Samples more than half a step before the origin are left out.  The first of the others is put at
+/// the nearest instant, and those after it follow one by one.  Within a segment no sample is lost
+/// or doubled.  After a long segment at another rate they are off their instants by the drift.
+///
+/// Samples beyond the last instant are left out.  If two segments claim an instant, the later one
+/// in the list has it.
+///
+/// @param segments  of one channel, in order of time.
+/// @param scale     gain and offset of the channel.
+/// @return (grid.count) values in the unit of the scale.
 [[nodiscard]] std::vector<double> place_on_grid(const std::vector<record::Segment>& segments,
                                                 const record::ChannelScale& scale,
                                                 const SampleGrid& grid);
@@ -48,22 +75,36 @@ struct SurveyChannels {
 };
 
 /// Finds the channels of the axes and of the temperature.
+///
+/// The code of an axis is any band letter, then N and the last letter of the axis
+/// (StationCodes::axes).  The code of the temperature ends in K1.  Channels that begin with L, of 1
+/// Hz, are derived and left out.  If several channels fit, the first is taken.
+///
+/// @param station  from record::read_station_xml().
 /// @param file  name of the metadata, for messages.
-/// @throws InputError  a channel is missing or has another unit.
+/// @throws InputError  a channel is missing or has another unit than m/s**2 or degC; the message
+///                     has the channels that there are.
 [[nodiscard]] SurveyChannels find_channels(const record::StationMetadata& station,
                                            const std::filesystem::path& file);
 
-/// Adds a warning for each piece of the channel's files that could not be read.
+/// Adds a warning for each piece of the channel's files that could not be read.  The text is that
+/// of record::to_text(); earlier warnings are kept.
 void add_damage(std::vector<std::string>& warnings, const record::ChannelData& channel);
 
 /// The samples of all channels over a survey.
+/// The temperature should begin earlier than the axes, for the whole-day model.
 struct SurveySamples {
-    std::array<record::ChannelData, 3> axes;
+    std::array<record::ChannelData, 3> axes;  ///< x, y, z.
     record::ChannelData temperature;
 };
 
 /// Returns the record of one occupation, axes in g.  The temperature extends 10 s (500 samples at
 /// 50 Hz) beyond it on both sides.
+///
+/// The grid is that of the vertical axis; x and y are placed on it.  A horizontal axis or a
+/// temperature without samples is NaN throughout, which is no error.
+///
+/// @param start, end  window [start, end), start <= end.
 /// @return std::nullopt without a sample of the vertical axis in the window.
 [[nodiscard]] std::optional<OccupationRecord> cut_occupation(const SurveySamples& samples,
                                                              const SurveyChannels& channels,

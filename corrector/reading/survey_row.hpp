@@ -1,6 +1,13 @@
 #pragma once
 /// @file
 /// The reading of one occupation: a row of a survey.
+///
+/// The models work on rows.  They come from records (average_occupations()) or from a table of
+/// averages (read_observations()); rows of both kinds are not mixed.
+///
+///     std::vector<SurveyRow> rows = read_observations(file, sites);
+///     apply_tide(rows, sites, choice);              // tide_choice.hpp
+///     // corrected = acceleration - tide + corrections of the model
 
 #include <filesystem>
 #include <optional>
@@ -16,8 +23,10 @@
 namespace a351::corrector {
 
 /// The averages of one occupation, or one set-up of it, over an interval without disturbance.
+/// The set-ups of one stay share `site` and `occupation` and differ in `time`.  In a
+/// default-constructed row all numbers are 0 except `occupation`.
 struct SurveyRow {
-    std::string site;
+    std::string site;              ///< Name in the table of sites.
     int occupation = 1;            ///< Number of the stay at this site, from 1.
     UtcTime time;                  ///< Middle of the averaging interval.
     std::optional<UtcTime> start;  ///< Start of the averaging interval, if known; `end` alike.
@@ -26,8 +35,12 @@ struct SurveyRow {
     bool is_excluded = false;        ///< Excluded from every fit by an amendment.
     std::vector<std::string> notes;  ///< Reasons for doubt, e.g. "fallback".
     MilliGal acceleration;           ///< Mean; the full value, not a difference.
+    /// Mean temperature of the sensor over the interval.
     DegC temperature;
-    double rate_degc_per_h = 0.0;  ///< Rate of the temperature, degC/h.
+    /// Rate of the temperature, degC/h.  From a record: the slope within the interval.  From a
+    /// table: that of set_backward_rates().
+    double rate_degc_per_h = 0.0;
+    /// Tide that came with the row, effect on gravity; used by the tide `given` only.
     std::optional<MilliGal> given_tide;
     MilliGal tide;                      ///< Effect of the tide on gravity; to be subtracted.
     std::optional<MilliGal> reference;  ///< Known gravity of the site.
@@ -37,14 +50,16 @@ struct SurveyRow {
 
     /// Returns the record, for a computation that needs the means of the axes.
     /// @param wanted_by  computation, at the beginning of the message.
+    /// @return a reference that is valid as long as the row.
     /// @throws InputError  the row is from a table of averages.
     [[nodiscard]] const RecordSummary& axes_for(std::string_view wanted_by) const;
 };
 
-/// An occupation that has no row.
+/// An occupation that has no row.  It appears in the results with its reason, so that no stay is
+/// lost unseen.
 struct LeftOut {
-    std::string site;
-    int occupation = 1;
+    std::string site;    ///< Name as logged, which may be a slip.
+    int occupation = 1;  ///< Number of the stay at this site.
     UtcTime start;       ///< Start of the stay as given.
     UtcTime end;         ///< End of the stay as given.
     std::string reason;  ///< Reason in a few words.
@@ -55,17 +70,33 @@ struct LeftOut {
 ///
 /// A zone in a cell has priority; without one the zone of the column applies.  Cells of `time` must
 /// have a zone.  `tide` is left zero; rates are set by set_backward_rates().
+///
+/// Permitted are 900 000 to 1 100 000 mGal, -60 to 100 degC and a tide of -1 to 1 mGal.  The number
+/// of the stay is from 1 to 10^6, and `outlier` is 0 or 1 (1 is flagged).  Cells must not be empty;
+/// other columns are ignored.  `time` is the middle of the average; `start`, `end` and `record`
+/// stay absent.
+///
+/// @param file   CSV with one row per occupation, in any order.
+/// @param sites  table of the sites; their gravity becomes the reference of the rows.
+/// @return at least one row, in strictly ascending time.
 /// @throws InputError  a site that `sites` lacks, two rows at one instant, a number out of range,
-///                     no rows.
+///                     no rows, not exactly one column of time; with file, line, column and
+///                     value.
 [[nodiscard]] std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
                                                        const std::vector<text::Site>& sites);
 
 /// Sets the temperature rates R_i = (T_i - T_{i-1}) / (t_i - t_{i-1}), degC/h, over all rows,
 /// flagged or not; 0 for the first.
-/// @param rows  in strictly ascending time.
+///
+/// They are crude, because the sensor's temperature is not linear during a drive.  Rows of records
+/// have a better rate, which this would overwrite.
+/// @param rows  in strictly ascending time; may be empty.  Equal times give infinity or NaN, which
+///              is not checked.
 void set_backward_rates(std::vector<SurveyRow>& rows);
 
-/// Returns a warning for every site of the rows without a known position.
+/// Returns a warning for every site of the rows without a known position, once per site, in order
+/// of the rows.  The site has the mean position of the others, which is good enough for the tide
+/// and not for a map.  A site that is not in the table gets no warning.
 [[nodiscard]] std::vector<std::string> position_warnings(const std::vector<SurveyRow>& rows,
                                                          const std::vector<text::Site>& sites);
 

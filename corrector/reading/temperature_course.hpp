@@ -1,6 +1,9 @@
 #pragma once
 /// @file
 /// The temperature of a survey in means of one minute.
+///
+/// It is for figures and tables, where every sample would be too much.  For the correction use
+/// day_temperature(), which has no gaps and the noise smoothed.
 
 #include <vector>
 
@@ -12,6 +15,7 @@
 namespace a351::corrector {
 
 /// The mean temperature of one minute.
+/// It has at least one sample.
 struct MinuteTemperature {
     UtcTime middle;  ///< Middle of a minute of UTC.
     DegC mean;       ///< Mean of its samples.
@@ -19,8 +23,18 @@ struct MinuteTemperature {
 
 /// Returns the sensor's temperature in means of one minute, in order of time; minutes without a
 /// sample are left out.
-/// @param segments  counts of the temperature channel, with time stamps.
+///
+/// Minutes are whole minutes of UTC.  The time of a sample is counted from the time stamp of its
+/// record, so a sensor off its nominal rate is right too.  Counts are summed as integers, hence
+/// exactly.
+///
+/// A gap gives missing minutes and nothing else; there is no NaN.  Two segments with samples in one
+/// minute give one mean.  The time is O(n log m) for n samples and m minutes.
+///
+/// @param segments  counts of the temperature channel, with time stamps; any order.  Each segment
+///                  needs rate_hz > 0; one without a time stamp is left out.
 /// @param scale     degC = offset + gain x count.
+/// @return one mean for each minute with a sample; empty without samples.
 [[nodiscard]] std::vector<MinuteTemperature> temperature_course(
     const std::vector<record::Segment>& segments, const record::ChannelScale& scale);
 

@@ -1,6 +1,16 @@
 #pragma once
 /// @file
 /// Choice of the tide of a survey, and its application to the rows.
+///
+/// A choice is made from the text of an option or a survey file, and then applied to all rows:
+///
+///     TideChoice choice;                        // direct, factors 1.16 and 1.07
+///     set_tide_option(choice, "tide.csv");      // or a name
+///     apply_tide(rows, sites, choice);
+///     describe_tide(settings, choice);          // what was done, for result.json
+///
+/// All tides here are the effect on gravity: positive if gravity is larger, to be subtracted from a
+/// reading.  A series with the opposite sign must be inverted before it is used.
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
@@ -14,11 +24,16 @@
 namespace a351::corrector {
 
 /// The source of a survey's tide.
+///
+/// If `series` is not empty, it is used, and `source` is only its name in results.  Set both with
+/// the functions below, which keep them consistent.
 struct TideChoice {
     /// Name: given (column of the table), direct = catalogue, longman, none; or the file name of
     /// `series`.
     std::string source = "direct";
-    TideFactors factors;  ///< Factors of direct and longman.
+    /// Factors of direct and longman; both begin with those of TideFactors.  Set kLongmanFactors
+    /// here if those are wanted.  Other sources ignore them.
+    TideFactors factors;
     std::filesystem::path
         series;  ///< CSV for TideSeries::read(); empty: `source` is one of the names.
 };
@@ -28,19 +43,38 @@ inline constexpr std::string_view kTideSources =
     "given, direct, catalogue, longman, none, or a CSV time,tide_mgal";
 
 /// Sets the source from its name, or from a file name relative to `directory`.
+///
+/// A name is preferred to a file of the same name.  The file is not read yet.  The factors do not
+/// change.
+///
+/// @param text  a name (lower case), or a path; an absolute path is used without `directory`.
+/// @param directory  directory of the file that contains `text`; empty: the current directory.
 /// @return false, and nothing is changed, if `text` is neither a name nor a regular file.
+/// @throws std::filesystem::filesystem_error  the file's type cannot be found out.
 [[nodiscard]] bool set_tide_source(TideChoice& choice, const std::string& text,
                                    const std::filesystem::path& directory);
 
 /// Sets the source from the text of the option --tide; files are relative to the current directory.
 /// @throws InputError  if `text` is neither a name nor a regular file.
+/// @throws std::filesystem::filesystem_error  as set_tide_source().
 void set_tide_option(TideChoice& choice, const std::string& text);
 
 /// Returns the model of a computed source: direct, catalogue, longman or none.
+/// `direct` and `catalogue` are one model: it agrees with the harmonic catalogue within 0.0001
+/// mGal.
 /// @throws InputError  if the source is another one; names those allowed.
 [[nodiscard]] TideModel tide_model(const std::string& source);
 
 /// Sets the tide of every row from the chosen source.
+///
+/// The tide is that at the row's `time`, the middle of its averaging interval.  An earlier tide is
+/// overwritten.  A series serves all sites alike, and `given` is the row's given_tide.  The other
+/// sources need the position of each site; also `none` refuses a site that is not in the table.
+///
+/// If an exception is thrown, the rows before the one at fault may have their new tide already.
+///
+/// @param rows  any order; may be empty.
+/// @param sites  table of the sites; not used for a series or for `given`.
 /// @throws InputError  as tide_model() or TideSeries::read(); if a row's site is not in `sites`, a
 ///                     row has no given tide, or the series does not cover a row.
 void apply_tide(std::vector<SurveyRow>& rows, const std::vector<text::Site>& sites,
@@ -48,6 +82,9 @@ void apply_tide(std::vector<SurveyRow>& rows, const std::vector<text::Site>& sit
 
 /// Adds source, model, sign and factors of the tide to the settings of a result.  The factors are
 /// null if the tide is not computed.
+/// The keys are tide, tide_model, tide_sign, delta2 and delta3.  Keys that exist are overwritten.
+/// Example: tests/unit/tide/tide_series_test.cpp.
+/// @throws InputError  as tide_model(), without a series.
 void describe_tide(nlohmann::ordered_json& settings, const TideChoice& choice);
 
 }  // namespace a351::corrector

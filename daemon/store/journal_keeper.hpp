@@ -15,7 +15,10 @@
 
 namespace a351::daemon {
 
-/// Runs in a thread of its own that uses a processor only when it is otherwise idle.
+/// Compresses closed segments of the journal and removes old sessions, in a thread of its own.
+///
+/// The thread uses a processor only when it is otherwise idle.  A fault is counted and tried again
+/// at the next interval; segments that could not be compressed remain as they are.
 class JournalKeeper {
 public:
     struct Options {

@@ -1,6 +1,16 @@
 #pragma once
 /// @file
 /// Samples of the archive, with the times of their records.
+///
+/// Use it for every computation on recorded data.  It finds the day files, skips damage and joins
+/// records without a gap between them.
+///
+///     const ChannelData data = read_channel(archive, codes, "BNZ", from, to);
+///     for (const Segment& segment : data.segments)
+///         for (std::size_t i = 0; i < segment.counts.size(); ++i)
+///             use(segment.time_of(i), scale.offset + scale.gain * segment.counts[i]);
+///
+/// The scale is that of read_station_xml().  No file is changed; the daemon may write meanwhile.
 
 #include <cstdint>
 #include <filesystem>
@@ -14,37 +24,58 @@ namespace a351::record {
 
 /// Samples without a gap: records of which each starts within half a sample of the end of the one
 /// before.  The start time of each record is kept, because the header rate drifts away from it.
+///
+/// The sizes of `counts` and `anchors` are at least 1 in a result of read_channel().
 struct Segment {
+    /// First sample of a record within the interval that was read.
     struct Anchor {
         std::size_t offset = 0;  ///< Sample within `counts`.
         UtcTime time;            ///< Time of that sample.
     };
-    double rate_hz = 0.0;
-    std::vector<std::int32_t> counts;
-    std::vector<Anchor> anchors;  ///< One per record, ascending; the first has offset 0.
+    double rate_hz = 0.0;              ///< Rate of blockette 100, else of the fixed header, Hz.
+    std::vector<std::int32_t> counts;  ///< Raw counts (n), one sample after the other.
+    std::vector<Anchor> anchors;       ///< One per record, ascending; the first has offset 0.
 
     /// Returns the time of sample i, from the last anchor at or before it.
+    ///
+    ///     anchor.time + (i - anchor.offset) / rate_hz
+    ///
+    /// From one record to the next the times jump by half a sample at most.  An i beyond the last
+    /// sample is extrapolated.  O(log m) for m anchors.  Precondition: `anchors` is not empty.
     [[nodiscard]] UtcTime time_of(std::size_t i) const;
 };
 
-/// Damage found while reading: bytes that are not a record of the channel.
+/// Damage found while reading: bytes that are not a record of the channel.  Samples of damaged
+/// records are missing; those before and after them are read.
 struct ArchiveDamage {
-    std::filesystem::path file;
-    std::uint64_t offset = 0;
-    std::uint64_t byte_count = 0;
+    std::filesystem::path file;    ///< Day file, with its folders.
+    std::uint64_t offset = 0;      ///< First damaged byte, from the begin of the file.
+    std::uint64_t byte_count = 0;  ///< Bytes up to the next record, or to the end of the file.
 };
 
 /// Returns "FILE: offset O: N bytes are not a record", FILE without its folder.
 [[nodiscard]] std::string to_text(const ArchiveDamage& damage);
 
+/// Result of read_channel().
 struct ChannelData {
     std::vector<Segment> segments;  ///< In time order.
+    /// Damage of all day files read, also outside the interval, in the order of the files.
     std::vector<ArchiveDamage> damage;
 };
 
 /// Reads the samples of one channel whose times lie within [from, to), from
 /// `<archive>/YEAR/NET/STA/CHAN.D/...`.  A day without a file is a gap.  Damage is skipped up to
 /// the next record, at any offset.
+///
+/// A gap or an overlap of more than half a sample begins a new segment, and another rate too.
+/// After the host's clock was set back, segments may overlap; nothing is removed.
+///
+/// A missing archive or channel gives no segments and no error, and so does from >= to.  The
+/// interval may exceed the archive, for example UtcTime::min() to UtcTime::max().
+///
+/// Cost: each day file of the interval is read as a whole, one at a time.  Thread-safe.
+/// @param codes    valid codes, see are_valid(); they become parts of the path.
+/// @param channel  channel code, e.g. BNZ; records of another channel in its files are damage.
 /// @throws std::system_error  a file cannot be read.
 [[nodiscard]] ChannelData read_channel(const std::filesystem::path& archive,
                                        const StationCodes& codes, const std::string& channel,

@@ -1,4 +1,18 @@
 #pragma once
+/// @file
+/// The last step of archiving: numbers records, writes them to day files, and reports which samples
+/// survive a power cut.
+///
+///     ArchiveWriter writer(files, archive, codes);
+///     Archiver archiver(writer);
+///     writer.begin_replay();                 // only if the archive may already have the records
+///     for (...) archiver.take(old_chunk);
+///     writer.end_replay();
+///     for (...) archiver.take(new_chunk);
+///     const auto marks = writer.sync();      // about every 30 s
+///
+/// replay_journal() replays the journal after a crash.  SdsWriter writes records without numbering
+/// and comparing them.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,39 +30,57 @@ namespace a351::record {
 
 /// Writes the archiver's records into the SDS archive.  Sequence numbers continue those in the
 /// archive: per channel 1 ... 999999 and again from 1.
+///
+/// Only one writer at a time may write to the archive of a station.  Not thread-safe.  The
+/// destructor does not sync.
 class ArchiveWriter : public ArchiveSink {
 public:
+    /// Reads and writes nothing yet; directories are made with the first record.
+    /// @param files    must outlive this.
+    /// @param archive  root of the archive; it may be missing.
+    /// @param codes    valid codes, see are_valid(); they become parts of the path.
     ArchiveWriter(FileLayer& files, std::filesystem::path archive, StationCodes codes);
 
     /// Begins a replay of the journal: records that the archive already holds are not written
     /// again.  Each day file concerned is read and synced first, because the previous writer may
     /// not have synced it.
     void begin_replay() { is_replaying_ = true; }
-    /// Ends the replay: all further records are new, whatever their times.
+    /// Ends the replay: all further records are new, whatever their times.  Records of the archive
+    /// that the replay did not make remain there.
     void end_replay();
 
-    /// Begins another session: sync() no longer reports samples of older ones.
+    /// Begins another session: sync() no longer reports samples of older ones.  Call sync() before,
+    /// and this function before the first record of the session.
     void begin_session();
 
-    /// Closes all files after a fault and examines the archive again.
+    /// Closes all files after a fault and examines the archive again.  Call it after record() or
+    /// sync() threw.  It does not sync.  Data that a failed sync lost can only come from the
+    /// journal.
     void reopen();
 
     /// Writes a record.  In a replay, a record with the same start and samples as one in the
     /// archive is skipped.  Each record of the archive counts once, because times repeat after a
     /// clock was set back.  A record that overlaps other records, not yet matched by the replay, is
     /// a conflict: it is skipped too, the archive is right, and sync() does not report it.
-    /// @throws std::system_error  the archive cannot be written.
+    /// @param record      result of pack_record(); its sequence number is replaced.
+    /// @param last_index  index of the last sample of the record, reported by sync().
+    /// @throws std::system_error  the archive cannot be written.  The record can be given again.
     void record(const std::string& channel, const PackedRecord& record,
                 std::int64_t last_index) override;
+    /// Returns the number of samples of an archived record that the replay has not matched yet.
+    /// std::nullopt if there is none with this start, or outside a replay.
     [[nodiscard]] std::optional<std::size_t> samples_in_archive(const std::string& channel,
                                                                 UtcTime start) const override;
 
     /// Syncs the archive.
-    /// @return the last sample per channel that now survives a power cut.
+    /// @return the last sample per channel that now survives a power cut, in the order of the
+    ///         codes.  Channels without a record since begin_session() are absent.
     /// @throws std::system_error  the archive could not be synced.
     [[nodiscard]] std::vector<ChannelMark> sync();
 
+    /// Returns the number of records appended since construction.
     [[nodiscard]] std::uint64_t records_written() const noexcept { return records_written_; }
+    /// Returns the number of replayed records that the archive already held.
     [[nodiscard]] std::uint64_t records_skipped() const noexcept { return records_skipped_; }
     /// Returns the number of records skipped because the archive holds other samples at their time.
     [[nodiscard]] std::uint64_t replay_conflicts() const noexcept { return replay_conflicts_; }

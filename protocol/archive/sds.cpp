@@ -144,7 +144,8 @@ void SdsWriter::append(const std::string& channel, const PackedRecord& record) {
             // Created with its first record: readers fail on an empty day file.
             files_.create_directories(path.parent_path());
             write_file_atomically(files_, path, record.bytes);
-            // All parents too: the program that made them may have been killed before their sync.
+            // The parent directories are synced too: a program that made them earlier may have
+            // been killed before it synced them.
             for (auto directory = path.parent_path(); directory != archive_.parent_path();
                  directory = directory.parent_path())
                 new_entries_.insert(directory);

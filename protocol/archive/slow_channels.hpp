@@ -2,6 +2,9 @@
 /// @file
 /// The derived channels: means and states at whole UTC seconds, from the samples and their times.
 /// Like the samples they are a pure function of the journal.
+///
+/// Archiver uses it between its packers and the sink.  The values do not depend on where records
+/// end (slow_channels_test.cpp); protocol/archive/archive-format.md describes them for readers.
 
 #include <chrono>
 #include <cstdint>
@@ -19,9 +22,9 @@ namespace a351::record {
 
 /// Answer of the oven's controller.
 struct OvenSample {
-    UtcTime utc;
-    oven::ControllerValues values;
-    std::int64_t index = 0;  ///< Newest sample of the sensor at that time.
+    UtcTime utc;                    ///< Time of the answer.
+    oven::ControllerValues values;  ///< Temperatures in degC, heating in percent.
+    std::int64_t index = 0;         ///< Newest sample of the sensor at that time.
 };
 
 /// Makes the channels of the oven: LK2 process value, LK3 set point, both in 0.001 degC, and LYH
@@ -31,17 +34,24 @@ struct OvenSample {
 /// is missing if the status reports an input error.
 class OvenChannels {
 public:
+    /// Begins the three channels without samples.
+    /// @param interval  time from sample to sample, 1 s to 1 h; not checked.
     explicit OvenChannels(std::chrono::seconds interval)
         : interval_(interval),
           temperature_(kOvenTemperature, interval),
           set_point_(kOvenSetPoint, interval),
           heating_(kOvenHeating, interval) {}
 
+    /// Returns the time from sample to sample.
     [[nodiscard]] std::chrono::seconds interval() const noexcept { return interval_; }
 
+    /// Adds an answer, or drops it if it comes before the next place.  One that is more than 2 s
+    /// older than the newest sample begins a new row, because the host's clock was set back.
     void add(const RecordContext& context, const OvenSample& sample);
 
+    /// Closes records that are old at `now`: 60 samples, but at most an hour.
     void pass(const RecordContext& context, UtcTime now);
+    /// Packs all samples.  @param ends_series  marks the last records as the end of the run.
     void close(const RecordContext& context, bool ends_series);
 
 private:
@@ -63,31 +73,47 @@ private:
 /// by the clock's fixed times.  The first and the last second of a run and one in which the times
 /// jump have none.  So a second never depends on where a process or a record ended.  Missing
 /// samples are left out of the mean.
+///
+/// Samples and polls wait until their times are fixed.  LCE gets its values when a record of the
+/// reference channel ends, LK1 and LCQ when a second is over.  Not thread-safe.
 class SlowChannels final : public ArchiveSink {
 public:
+    /// Begins without a run; begin_run() must be called before any sample is added.
+    /// @param profile  converts the temperature; must outlive this.
     /// @param context  context of the archive itself; the objects it refers to must outlive this.
     SlowChannels(const wire::DeviceProfile& profile, const RecordContext& context);
 
     /// Begins a run; its indices begin at 0.  @param reference  channel whose records LCE refers
     /// to.
+    /// @param has_temperature  false if the layout has no temperature: then there is no LK1.
+    ///
+    /// Samples that were not packed are dropped; close() must be called before.
     void begin_run(std::string reference, bool has_temperature);
 
-    /// Sets the sample interval of the oven's channels from now on.
+    /// Sets the sample interval of the oven's channels from now on.  Another interval ends their
+    /// records; the same one changes nothing.
     void use_oven_interval(std::chrono::seconds interval);
 
-    /// Adds a sample of the sensor.
+    /// Adds a sample of the sensor.  The context's clock must have observed it.
+    /// @param index               rises from call to call; missing samples are left out.
+    /// @param temperature_counts  raw counts; not used if the layout has no temperature.
     void add(std::int64_t index, std::int32_t temperature_counts);
 
-    /// Adds a poll of the oven.
+    /// Adds a poll of the oven.  A poll without an answer, or with another number of registers
+    /// than expected, is ignored.
     /// @param after  time from the instant of sample `index`, the newest, to the poll.
     void add(std::int64_t index, Nanoseconds after, const OvenChunk& poll);
 
-    /// Closes records that are old at `now`.
+    /// Closes records that are old at `now`, which the stream may not show: the sensor may be
+    /// silent.
     void pass(UtcTime now);
 
-    /// Packs all known samples.
+    /// Packs all known samples.  The second in progress is kept, and so are samples and polls whose
+    /// times are not fixed.
+    /// @param ends_series  marks the last records as the end of the run.
     void close(bool ends_series);
 
+    /// Passes a record to the archive and, for the reference channel, computes LCE from it.
     void record(const std::string& channel, const PackedRecord& record,
                 std::int64_t last_index) override;
     [[nodiscard]] std::optional<std::size_t> samples_in_archive(const std::string& channel,

@@ -1,4 +1,6 @@
 #pragma once
+/// @file
+/// Last check of the times before records reach the archive.
 
 #include "protocol/archive/archiver.hpp"
 
@@ -6,6 +8,9 @@ namespace a351::record {
 
 /// Keeps records with impossible times out of the archive: those of a host that started without a
 /// clock.  Their data remain in the journal and can be re-timed if the host's clock was set later.
+///
+/// Archiver puts it between itself and its sink.  Samples pass in any case; only records are
+/// withheld and counted in records_withheld.  Times in the future are not checked.
 class TimeGate final : public ArchiveSink {
 public:
     /// Earliest plausible record: before the published survey with this sensor, of 2017.  A host
@@ -13,9 +18,10 @@ public:
     static constexpr UtcTime kEarliest =
         std::chrono::sys_days(std::chrono::year(2015) / std::chrono::January / 1);
 
-    /// Both must outlive this.
+    /// Sets the archive and the counters; both must outlive this.
     TimeGate(ArchiveSink& sink, ArchiverCounters& counters) : sink_(sink), counters_(counters) {}
 
+    /// Passes a record that begins at kEarliest or later; counts any other.
     void record(const std::string& channel, const PackedRecord& record,
                 std::int64_t last_index) override {
         if (record.start >= kEarliest)

@@ -1,4 +1,10 @@
 #pragma once
+/// @file
+/// Reading of recorded files as bytes, for code that decodes them.
+///
+/// Use it for journals, archives and state.  Settings and tables of a person are read by
+/// protocol/text, whose errors are InputError.  Reading needs no FileLayer, so a fault that a test
+/// puts into a FileLayer does not affect it.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +14,12 @@
 namespace a351::record {
 
 /// Reads a whole file, or `count` bytes from `offset` on.
+///
+/// All bytes are in memory at once.  Bytes that another process appends after the call are not
+/// included.
+/// @param offset  first byte, counted from 0.
+/// @param count   exact number of bytes; 0 gives none, but the file must open.
+/// @return as many bytes as requested, never fewer; none for an empty file.
 /// @throws std::system_error  the file is shorter or cannot be read; names the path.
 [[nodiscard]] std::vector<std::byte> read_bytes(const std::filesystem::path& file);
 [[nodiscard]] std::vector<std::byte> read_bytes(const std::filesystem::path& file,

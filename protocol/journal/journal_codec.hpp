@@ -2,6 +2,23 @@
 /// @file
 /// Chunks of the journal <-> bytes, shared by writer and reader.  No I/O.
 /// Layout: protocol/journal/journal-format.md.
+///
+/// Programs use JournalWriter and JournalReader; this header is for them, and for tools that check
+/// or make single chunks:
+///
+///     const auto bytes = encode_chunk(chunk, sequence);
+///     const ChunkHeader head = decode_chunk_header(std::span(bytes).first(kChunkHeaderSize));
+///     const auto payload = std::span(bytes).subspan(kChunkHeaderSize, head.length);
+///     if (chunk_crc(head, payload) == head.crc && is_known(head.type))
+///         const auto decoded = decode_payload(static_cast<ChunkType>(head.type), payload);
+///
+/// A reader has to make the checks in this order: length within the file and at most
+/// kMostPayloadBytes, checksum, sequence number, type, payload.
+///
+/// Integers are little-endian on every host.  The same chunk always gives the same bytes, also
+/// after it was encoded and decoded (journal_codec_test.cpp).  A change of these bytes requires a
+/// new kJournalVersion: journal_reader_test.cpp compares them with a reference file.  All functions
+/// may be called from any thread.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,12 +32,16 @@
 
 namespace a351::record {
 
+/// First bytes of each segment, without a terminating zero.
 inline constexpr std::string_view kJournalMagic = "A351JRNL";
+/// Version of the format.  A reader refuses any other; a further chunk type needs no new version,
+/// because readers skip types that they do not know.
 inline constexpr std::uint32_t kJournalVersion = 1;
 inline constexpr std::size_t kPreambleSize = 12;     ///< Magic and version.
 inline constexpr std::size_t kChunkHeaderSize = 13;  ///< length, type, sequence, CRC-32C.
 
 /// Code of a chunk on disk: its place among the alternatives of JournalChunk, counted from 1.
+/// The codes are part of the format: never change one, add new ones at the end.
 enum class ChunkType : std::uint8_t {
     head = 1,
     rx = 2,
@@ -37,42 +58,81 @@ static_assert(std::variant_size_v<JournalChunk> == static_cast<std::size_t>(Chun
 /// The fields before a payload.
 struct ChunkHeader {
     std::uint32_t length = 0;  ///< Bytes of payload.
+    /// ChunkType, or a number that this version does not know: ask is_known().
     std::uint8_t type = 0;
+    /// Number of the chunk in its segment: 0 for the header, then one more for each chunk.
     std::uint32_t sequence = 0;
+    /// chunk_crc() as stored.
     std::uint32_t crc = 0;
 };
 
 /// Returns magic and version, the first bytes of each segment.
 [[nodiscard]] std::vector<std::byte> encode_preamble();
 /// Returns true if `bytes` are encode_preamble().
+/// @param bytes  the first kPreambleSize bytes of a file; any other number gives false.
 [[nodiscard]] bool is_preamble(std::span<const std::byte> bytes) noexcept;
 
 /// Returns the bytes of a chunk, header and payload.
+///
+/// Only what the format cannot hold is refused.  Times, indices, station codes and the oven
+/// interval are not checked here: a chunk with values out of range is encoded, and decode_payload()
+/// refuses it.  SampleTime::is_host_synchronised of a ModelChunk is not stored.
+///
+/// @param sequence  number of the chunk in its segment; 0 for the JournalHeader and only for it,
+///                  which is not checked.
 /// @throws std::invalid_argument  the payload exceeds kMostPayloadBytes; the reads of an RxChunk do
 ///         not ascend to its last byte; a channel name exceeds 255 characters; an OvenChunk has
-///         registers without an answer, or more than 255.
+///         registers without an answer, an answer without registers, or more than 255 registers.
 [[nodiscard]] std::vector<std::byte> encode_chunk(const JournalChunk& chunk,
                                                   std::uint32_t sequence);
 
 /// Reads the header of a chunk; nothing is checked.
-/// @param bytes  kChunkHeaderSize bytes.
+/// @param bytes  kChunkHeaderSize bytes.  Fields that are cut off are 0; further bytes are ignored.
 [[nodiscard]] ChunkHeader decode_chunk_header(std::span<const std::byte> bytes) noexcept;
 
 /// Returns the CRC-32C (Castagnoli) over length, type, sequence and payload.
+///
+/// Polynomial 0x1EDC6F41, reflected, initial value and final exclusive-or 0xFFFFFFFF.  The values
+/// of RFC 3720, appendix B.4, are reproduced (journal_codec_test.cpp).
+///
+/// @param header   its `crc` is not used, so it may be 0 or the stored value.
+/// @param payload  its size is not compared with `header.length`.
 [[nodiscard]] std::uint32_t chunk_crc(const ChunkHeader& header,
                                       std::span<const std::byte> payload);
 
-/// Returns true if `type` is one of ChunkType.
+/// Returns true if `type` is one of ChunkType.  A chunk of another type, with a good checksum, was
+/// written by a later version: skip it.
 [[nodiscard]] bool is_known(std::uint8_t type) noexcept;
 
 /// Returns the payload of a header: one line of JSON.  Bytes that are not UTF-8 become U+FFFD.
+///
+/// The order of the keys is fixed.  Members with their default are left out if the format permits
+/// it: device_assumed, port, declared_rate_hz, oven_interval_s, leap and repeats.  A declared rate
+/// must be finite, because parse_header() refuses the `null` that JSON has instead.
 [[nodiscard]] std::string header_to_json(const JournalHeader& header);
 
 /// Reads the payload of a header.  Unknown fields are ignored.
-/// @return std::nullopt unless every required field is present, of its type and in range.
+///
+/// These are compared with their limits: session, station codes, clock, leap, oven_interval_s.
+/// Profile, filter, rates and burst_ctrl are not: find them in the profile before use.  A number
+/// that does not fit the type of its member is converted, not refused.
+///
+/// @param text  one JSON object in UTF-8; white space around it is permitted.
+/// @return std::nullopt unless the text is an object, every required field is present and
+///         convertible to its member, and those above are within their limits.
 [[nodiscard]] std::optional<JournalHeader> parse_header(std::string_view text);
 
 /// Reads the payload of a chunk.
+///
+/// It never throws because of the content.  A number of reads that the payload cannot hold is
+/// refused before memory is allocated for it.  The checksum is not computed: compare chunk_crc()
+/// first.
+///
+/// The limits are those of journal.hpp: instants, spans, clock errors and indices.  The text of an
+/// EventChunk is not parsed.
+///
+/// @param payload  exactly the payload.  Types of fixed size refuse a longer one; RX, TX, EVENT and
+///                 MARK extend to its end.
 /// @return std::nullopt if the payload is not valid for its type.
 [[nodiscard]] std::optional<JournalChunk> decode_payload(ChunkType type,
                                                          std::span<const std::byte> payload);

@@ -1,4 +1,11 @@
 #pragma once
+/// @file
+/// Compression of closed journal segments, and its inverse.  A compressed segment is one zstd frame
+/// that holds the segment byte for byte: protocol/journal/journal-format.md.
+///
+/// JournalReader reads both forms, so readers do not need this header.  Compress closed segments
+/// only: the writer appends to the newest one, and a program that listed the segments before would
+/// look for the old name.
 
 #include <cstddef>
 #include <filesystem>
@@ -10,12 +17,31 @@ namespace a351::record {
 
 /// Replaces `NAME.a351j` by `NAME.a351j.zst`.  The compressed file is written under a temporary
 /// name, synced, read back, compared and renamed; the directory is synced.  Only then the original
-/// is removed.
-/// @throws std::system_error   an operation failed; the original is kept.
-/// @throws std::runtime_error  the file read back differs; the original is kept.
+/// is removed, and the directory is synced again.
+///
+/// After any failure at least one of the two files holds the whole segment; journal_reader_test.cpp
+/// lets each file operation fail.  If both exist, journal_segments() lists the original; another
+/// call replaces the compressed file.  A failure may leave `NAME.a351j.zst.partial`, which the next
+/// call removes.
+///
+/// The content of the segment is not interpreted, so damage in it is kept as it is.  Memory: twice
+/// the segment and its compressed form.  Compression is at level 3, zstd's default.
+///
+/// @param segment  closed segment of at most 65 MiB.  The path must name its directory, because an
+///                 empty directory name cannot be synced.
+/// @throws std::system_error   a file operation failed.  The original is kept, unless only the last
+///                             sync of the directory failed: then it is removed and the compressed
+///                             file replaces it.  A power cut may still bring the original back.
+/// @throws std::runtime_error  the file read back differs, or zstd failed; the original is kept.
+///                             Catch std::system_error first, because it is derived from this type.
 void compress_segment(FileLayer& files, const std::filesystem::path& segment);
 
 /// Returns the bytes of a compressed segment.
+///
+/// The size is taken from the frame and checked before memory is allocated: at most 65 MiB.  The
+/// chunks inside are not checked; JournalReader does that.
+///
+/// @param segment  file with one zstd frame that states its size; its name does not matter.
 /// @throws std::system_error   it cannot be read.
 /// @throws std::runtime_error  it is not a whole zstd frame, or larger than any segment.
 [[nodiscard]] std::vector<std::byte> decompress_segment(const std::filesystem::path& segment);

@@ -1,4 +1,19 @@
 #pragma once
+/// @file
+/// Reads the journal: one segment, or all of them as one stream.  Repairs its end after a crash.
+/// Format: protocol/journal/journal-format.md.
+///
+/// Use JournalSequence to read what was recorded:
+///
+///     JournalSequence chunks(journal_segments(directory));
+///     while (const auto chunk = chunks.next()) std::visit(handle, *chunk);
+///     for (const JournalDamage& damage : chunks.damage()) report(damage);
+///
+/// Use JournalReader for a single segment; there, chunks may occur that another segment repeats.
+/// Before a JournalWriter is made, call repair_newest_segment().  Readers never change a file.
+///
+/// Damage is a value, not an exception, because a writer may die at any byte.  Only a file that
+/// cannot be opened is an exception.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,28 +30,52 @@
 namespace a351::record {
 
 /// Damage that ends a segment before its file ends.
+///
+/// In a compressed segment the positions count its bytes before compression.  If it cannot be
+/// unpacked at all, `offset` is 0 and `byte_count` is the size of the compressed file.
 struct JournalDamage {
     std::filesystem::path file;
     std::uint64_t offset = 0;      ///< First byte after the last good chunk.
     std::uint64_t byte_count = 0;  ///< From there to the end of the file.
+    /// Reason as text, "wrong checksum" or "torn chunk" for example, without file and position.
     std::string reason;
 };
 
 /// Reads one segment, compressed or not, chunk by chunk with bounded memory.  Chunks of an unknown
 /// type are skipped; bytes that are not a chunk end the segment.
+///
+/// An uncompressed segment needs the memory of one chunk.  A compressed one is unpacked as a whole,
+/// at most 65 MiB, in the constructor.
+///
+/// A segment that is still being written is read up to its size at construction.  Its last chunk
+/// may then be reported as torn; make a new reader later.
+///
+/// One flipped bit in any byte of a segment is detected.  A tail torn at any byte costs only the
+/// chunks from there on.  journal_reader_test.cpp shows both.
 class JournalReader {
 public:
-    /// @throws std::system_error  the file cannot be opened.
+    /// Opens a segment; `.zst` at the end of the name means that it is compressed.  Nothing is
+    /// decoded before next().
+    /// @throws std::system_error  the file cannot be opened.  A compressed file that exists but
+    ///         cannot be read or unpacked does not throw: it is damage.
     explicit JournalReader(std::filesystem::path segment);
 
     /// Returns the next good chunk; std::nullopt at the end or at the first damage.
+    ///
+    /// The first chunk is always the JournalHeader, and no later one is.  After std::nullopt every
+    /// call returns std::nullopt; ask damage() which of the two cases it is.
     [[nodiscard]] std::optional<JournalChunk> next();
 
-    /// Returns the sequence number of the last chunk that next() returned.
+    /// Returns the sequence number of the last chunk that next() returned.  It has no meaning
+    /// before the first chunk and after std::nullopt.  The header has 0; a skipped chunk leaves a
+    /// gap.
     [[nodiscard]] std::uint32_t sequence() const noexcept { return sequence_; }
 
     /// Returns the damage that next() found.  A torn tail is normal: the writer may die at any
     /// byte.
+    ///
+    /// Without a good header the whole file is damage, and `offset` is 0.  Chunks after the damage
+    /// are not searched for, because there are no marks to find them.
     [[nodiscard]] const std::optional<JournalDamage>& damage() const noexcept { return damage_; }
 
 private:
@@ -58,9 +97,17 @@ private:
 /// them there.  Some or all of them may still exist there, or in further attempts between the two.
 ///
 /// Segments must be read in order, each to its end or its first damage.
+///
+/// JournalSequence uses it.  A program needs it only if it reads the segments by itself:
+///
+///     while (const auto chunk = reader.next())
+///         if (!repetitions.is_repeated(number, reader.sequence(), *chunk)) use(*chunk);
+///
+/// Keep one object for all segments, and call it for every chunk, headers included.  If reading
+/// begins at a segment that repeats chunks, none of them is skipped.
 class Repetitions {
 public:
-    /// Returns true if the chunk was read before and must be skipped.
+    /// Returns true if the chunk was read before and must be skipped.  Headers are never repeated.
     /// @param segment   number of the segment.
     /// @param sequence  sequence number of the chunk within it.
     [[nodiscard]] bool is_repeated(std::uint64_t segment, std::uint32_t sequence,
@@ -75,15 +122,22 @@ private:
 };
 
 /// Reads segments one after the other, each chunk once: repeated chunks are skipped.
+///
+/// Every segment begins with its JournalHeader.  If its `session` is that of the header before, the
+/// stream continues.  Damage ends a segment, not the sequence: reading continues with the next
+/// segment.
 class JournalSequence {
 public:
+    /// Opens no file; next() opens them one by one.
     /// @param segments  result of journal_segments(), or the last of these.
     explicit JournalSequence(std::vector<std::filesystem::path> segments);
 
     /// Returns the next chunk; std::nullopt at the end.
+    /// @throws std::system_error  a segment cannot be opened, for example because it was compressed
+    ///         or removed after it was listed.  The next call continues with the segment after it.
     [[nodiscard]] std::optional<JournalChunk> next();
 
-    /// Returns the damage found in the segments read so far.
+    /// Returns the damage found in the segments read so far, in their order; at most one of each.
     [[nodiscard]] const std::vector<JournalDamage>& damage() const noexcept { return damage_; }
 
 private:
@@ -95,28 +149,55 @@ private:
     std::vector<JournalDamage> damage_;
 };
 
-/// Returns the header of a segment; std::nullopt if it cannot be read.
+/// Returns the header of a segment; std::nullopt if it is damaged.
+///
+/// An uncompressed segment is read only as far as its header.  A compressed one is unpacked as a
+/// whole.
+/// @throws std::system_error  the file cannot be opened.
 [[nodiscard]] std::optional<JournalHeader> segment_header(const std::filesystem::path& segment);
 
 /// Returns the newest MARK of a segment, if there is one.
+///
+/// The whole segment is read, up to its first damage.  Samples up to a mark are in the archive and
+/// synced; those of earlier sessions are too.
+/// @throws std::system_error  the file cannot be opened.
 [[nodiscard]] std::optional<MarkChunk> newest_mark(const std::filesystem::path& segment);
 
 /// Returns the host's UTC when the segment began, from the file name.  It is only a hint, but the
 /// file need not be read.
+///
+/// The host's clock may have been wrong, so never order segments by it.  Resolution: 1 s.
+/// @return std::nullopt if the name has no time after its first underscore.
 [[nodiscard]] std::optional<UtcTime> segment_time(const std::filesystem::path& file);
 
 /// Returns the counter in the name of a segment; a suffix of the name is ignored.  std::nullopt for
 /// other files.
+///
+/// Names of compressed, partial and torn segments have it too.  The file need not exist.  A counter
+/// has 8 to 18 digits.
 [[nodiscard]] std::optional<std::uint64_t> segment_number(const std::filesystem::path& file);
 
 /// Returns the segments of a directory, compressed or not, in the order of their counter; none if
 /// the directory does not exist.
+///
+/// If a segment exists in both forms, its original is listed.  Partial and torn files are not.
+/// Segments with damage are listed, because no file is opened.  Directories below are not searched.
+/// @throws std::system_error  the directory cannot be listed.
 [[nodiscard]] std::vector<std::filesystem::path> journal_segments(
     const std::filesystem::path& directory);
 
 /// Moves a damaged tail of the newest segment to a file `*.torn` beside it and syncs the rest.  A
 /// segment without a good header is renamed to `*.torn` as a whole.
-/// @return the damage, if there was any.
+///
+/// Call it at start, while no writer is open.  The tail is synced in its new file before it is cut,
+/// so a crash in between loses nothing.  An older `*.torn` of the same segment is replaced.
+///
+/// If there is no damage, the segment is only synced.  A compressed segment is left as it is.
+/// Damage in older segments is not repaired; a reader skips to the next segment.  Each call treats
+/// one segment: after it was renamed as a whole, a further call examines the one before it.
+///
+/// @return the damage, if there was any.  Positions are those before the repair.
+/// @throws std::system_error  a file cannot be read or written; call it again.
 std::optional<JournalDamage> repair_newest_segment(FileLayer& files,
                                                    const std::filesystem::path& directory);
 

@@ -1,4 +1,16 @@
 #pragma once
+/// @file
+/// Writes the journal so that synced chunks survive any crash, and failed writes lose nothing that
+/// memory still holds.  Format: protocol/journal/journal-format.md.
+///
+///     repair_newest_segment(files, directory);  // journal_reader.hpp; before the writer exists.
+///     JournalWriter writer(files, directory);
+///     writer.begin_segment(header);             // Once per session.
+///     writer.append(chunk, clock);              // Many times.
+///     writer.sync();                            // As often as data may be lost.
+///
+/// A chunk is safe after the sync() that follows it.  All errors of the disk are exceptions, and
+/// every call may simply be repeated after one.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,31 +29,64 @@ namespace a351::record {
 /// the data and report success the next time.  The segment is left as it is.  The chunks after its
 /// last good sync are kept in memory and written again into the next segment, whose header says so
 /// (`repeats`).
+///
+/// Every chunk appended since the last good sync() is therefore in memory.  Without sync() this
+/// memory grows without limit.
+///
+/// Whichever operation of the disk fails, once or twice, a reader finds every appended chunk once
+/// and in order (journal_writer_test.cpp).
+///
+/// There are no locks: use an object from one thread at a time.  No clock is read: all times are
+/// arguments.  The destructor closes the segment without a sync.
 class JournalWriter {
 public:
     /// Continues the segment counter found in `directory`, which is created when absent.
+    ///
+    /// Compressed, torn and partial segments count too, so no number is used twice.  No segment is
+    /// written before begin_segment().
+    ///
+    /// @param files  must outlive this object.
+    /// @throws std::system_error  the directory cannot be created or listed.
     JournalWriter(FileLayer& files, std::filesystem::path directory);
 
     /// Syncs and closes the current segment and begins a new one: writes and syncs its header, then
     /// syncs the directory.
+    ///
+    /// After an exception call it again.  Do not call append() until it succeeds: the chunks would
+    /// follow the previous header.  The number of a failed segment is not used again.
+    ///
+    /// @param header  header of this and of the following segments, up to the next call.  Its clock
+    ///                gives the file name and the begin of the hour; `repeats` is ignored.
     /// @throws std::system_error  the segment could not be begun.  A file without a header is
     ///         removed, if the disk permits it.
+    /// @throws std::invalid_argument  the header is larger than kMostPayloadBytes.
     void begin_segment(const JournalHeader& header);
 
     /// Appends a chunk by one write.  If the segment is older than one hour of raw time or larger
     /// than 64 MiB, a new one is begun first, with the same header and `clock`.
     /// Precondition: begin_segment() was called.
+    ///
+    /// The chunk is copied.  After std::system_error, append the same chunk again: it was not kept.
+    ///
+    /// @param chunk  any kind but JournalHeader, which would end the segment for every reader; this
+    ///               is not checked.  Use begin_segment() for a header.
+    /// @param clock  present reading of the host's clocks; used only if a new segment is begun.
     /// @return  the header of a segment that was begun so; a reader finds it before `chunk`.
     /// @throws std::system_error  `chunk` is not written; earlier chunks are kept.
-    /// @throws std::invalid_argument  the chunk is larger than kMostPayloadBytes.
+    /// @throws std::invalid_argument  the chunk is larger than kMostPayloadBytes, or violates the
+    ///         format in another way that encode_chunk() refuses.  The writer is not affected.
     std::optional<JournalHeader> append(const JournalChunk& chunk,
                                         const timing::ClockReading& clock);
 
     /// Syncs all chunks to disk.
+    ///
+    /// It waits for the disk; the time is not limited.  Before the first begin_segment() it does
+    /// nothing.
     /// @throws std::system_error  the unsynced chunks are kept; the next call writes them again.
     void sync();
 
-    /// Returns the number of bytes written to all segments since construction.
+    /// Returns the number of bytes written to all segments since construction.  Preambles, headers
+    /// and chunks that were written again are included.
     [[nodiscard]] std::uint64_t bytes_written() const noexcept { return bytes_written_; }
 
 private:

@@ -1,6 +1,9 @@
 #pragma once
 /// @file
 /// Normal matrix of least squares with priors.
+///
+/// Use it with Cholesky where every unknown has a prior: the matrix is then never singular.  Where
+/// an unknown has none, use PivotedQr on the rows, which keeps the accuracy that X'X loses.
 
 #include <Eigen/Core>
 
@@ -14,7 +17,12 @@ namespace a351::corrector {
 /// to the diagonal.  The matrix is symmetric, and positive definite if X is finite.  A NaN in
 /// column k of X gives NaN in row and column k.
 ///
-/// Accuracy: rounding (linear_algebra_test.cpp, "a normal matrix has unit priors on its diagonal").
+/// With y (n) in the units of the rows and priors of mean 0, the estimate is (X'X + I)^-1 X'y.  Its
+/// covariance is (X'X + I)^-1.  Multiply row and column k of it by the deviation of prior k to get
+/// back the unit of the unknown.
+///
+/// Accuracy: rounding (linear_algebra_test.cpp, "a normal matrix includes a unit prior for each
+/// unknown on its diagonal").  Cost: about 2 n p^2 operations; it allocates the result.
 ///
 /// @param columns  X (n, p), rows in units of the standard deviation of their noise; n = 0 gives I.
 /// @return (p, p), dimensionless.

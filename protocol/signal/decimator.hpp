@@ -1,6 +1,9 @@
 #pragma once
 /// @file
 /// Decimation of a series that arrives in pieces; memory does not grow with its length.
+///
+/// Use it for a file that is too long for memory, or for live data.  For a series in memory
+/// decimate() is shorter to write.
 
 #include <array>
 #include <cstddef>
@@ -18,6 +21,10 @@ namespace a351::corrector {
 ///     for (const auto& block : blocks) decimator.push(block, output);
 ///     decimator.finish(output);
 ///
+/// A stream of n samples gives ceil(n / M) outputs after each stage, finish() included.  A
+/// decimator serves one stream; use a new one for the next.  Memory also grows with the largest
+/// block, so cut a long stream.  Not thread-safe.
+///
 /// Method: polyphase.  Sample i is kept in row i mod M, so that outputs k, k + 1, ... read
 /// neighbouring columns of each row.  They are computed side by side, each in the order of terms of
 /// the definition.  Memory per stage: about 100 x factor numbers.
@@ -30,6 +37,7 @@ namespace a351::corrector {
 /// 1983, section 3.3 (polyphase structures).
 class Decimator {
 public:
+    /// Begins a stream.  The taps are copied, so `filter` need not outlive this.
     /// @param filter  from design_decimation(); not checked.
     /// @param stages  >= 1; the output of one stage is the input of the next.
     /// @throws std::invalid_argument  `stages` is below 1.
@@ -37,11 +45,16 @@ public:
 
     /// Takes the next samples (n >= 0) and appends every output that is complete with them: an
     /// output comes with the last sample it needs.
+    ///
+    /// The first outputs are NaN, because they need samples before the begin.  A NaN or infinite
+    /// sample makes those outputs NaN that use it.  Cost: O(n).
+    /// @param input   x (n), any unit, magnitude at most 1e307.
+    /// @param output  grows at its end; earlier elements are unchanged.
     /// @throws std::logic_error  called after finish().
     void push(std::span<const double> input, std::vector<double>& output);
 
     /// Ends the input and appends the remaining outputs, which are NaN because they need samples
-    /// after the end.
+    /// after the end.  Leave it out if these outputs are not needed.
     /// @throws std::logic_error  called twice.
     void finish(std::vector<double>& output);
 

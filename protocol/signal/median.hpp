@@ -1,4 +1,11 @@
 #pragma once
+/// @file
+/// Median, and the factor from a median absolute deviation to a standard deviation.
+///
+/// A robust scale of residuals r is kGaussianPerMad * median(|r|): outliers hardly change it.
+///
+///     for (double& r : residuals) r = std::abs(r);
+///     const double sigma = kGaussianPerMad * median(residuals);
 
 #include <algorithm>
 #include <cstddef>
@@ -11,8 +18,11 @@ namespace a351::corrector {
 inline constexpr double kGaussianPerMad = 1.4826;
 
 /// Returns the middle value, in the unit of the input; for an even number of values, the upper of
-/// the two middle ones, not their mean.
-/// @param values  (n), n >= 1, without NaN; not checked.  The order does not matter.
+/// the two middle ones, not their mean.  The result is always one of the values.
+///
+/// Cost: O(n) on average.  The vector is taken by value: a caller that needs it no more moves it.
+/// @param values  (n), n >= 1, without NaN; not checked.  The order does not matter.  Infinite
+///                values are allowed.
 [[nodiscard]] inline double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());

@@ -1,4 +1,12 @@
 #pragma once
+/// @file
+/// The list of benchmarks and stations of a survey: position and reference gravity.
+///
+///     const std::vector<Site> sites = read_sites("sites.csv");
+///     if (const Site* const base = find_site(sites, "No.0")) use(base->gravity);
+///
+/// The table has the five columns that Site names, in any order; other columns are not used.  Its
+/// rules are in corrector/result/table-format.md.
 
 #include <filesystem>
 #include <optional>
@@ -12,9 +20,11 @@ namespace a351::text {
 
 /// Benchmark, a row of `sites.csv`: site,longitude_deg,latitude_deg,altitude_m,gravity_mgal.
 struct Site {
+    /// Name, not empty and unique in its table.  Upper and lower case are different.
     std::string name;
     Degrees longitude;  ///< East, -180 to 360.
     Degrees latitude;   ///< Geodetic, north.
+    /// Altitude, -500 to 9000 m.
     Metres altitude;
     std::optional<MilliGal> gravity;  ///< Reference value; absent for an unknown station.
     /// False if longitude, latitude or altitude was empty and is now the mean of the other sites.
@@ -24,11 +34,21 @@ struct Site {
 };
 
 /// Reads a table of sites; empty coordinates become the mean of the other sites.
+///
+/// Each column has a mean of its own, over the sites that give a number there.  It does not depend
+/// on the order of the rows (sites_test.cpp).  Sites on both sides of the 180th meridian get a mean
+/// between them, which can be below -180 degrees.
+///
+/// Limits: gravity 976 000 to 984 000 mGal, which finds a value in m/s2 or Gal; longitude, latitude
+/// and altitude as in Site.  An empty gravity is an unknown station.
+/// @return the sites in the order of the file.  A header without rows gives an empty list, and its
+///         columns are not checked.
 /// @throws InputError  a column is missing, a number is not one or out of range, a coordinate is
 ///                     empty for every site, a site has no name or appears twice.
 [[nodiscard]] std::vector<Site> read_sites(const std::filesystem::path& file);
 
-/// Returns the site of that name, or null.
+/// Returns the site of that name, or null.  The pointer is into `sites` and valid as long as the
+/// list does not change.  The names are compared in turn, exactly.
 [[nodiscard]] const Site* find_site(const std::vector<Site>& sites, std::string_view name);
 
 }  // namespace a351::text

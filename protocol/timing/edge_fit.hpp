@@ -1,6 +1,10 @@
 #pragma once
 /// @file
 /// The line that bounds arrivals from below, and its uncertainty.
+///
+/// ArrivalEdge collects the blocks and calls fit_edge(); other code uses ArrivalEdge.  A
+/// least-squares line would be of no use here: it lies in the middle of the delays, which change
+/// with the host.
 
 #include <cstdint>
 #include <optional>
@@ -10,9 +14,10 @@
 
 namespace a351::timing {
 
-/// Summary of 2 s of data; y = arrival - due, due = index / rate.
+/// Summary of 2 s of data; y = arrival - due, due = index / rate.  The zero of y is the caller's
+/// choice, the same for all blocks.
 struct ArrivalBlock {
-    std::int64_t number = 0;               ///< Number of the block, counted from index 0.
+    std::int64_t number = 0;               ///< Number of the block from index 0; not used here.
     Nanoseconds due{0};                    ///< Due time of the sample with the least y.
     Nanoseconds least_y{0};                ///< Least y of the block.
     std::optional<Nanoseconds> spacing{};  ///< Largest step in the sorted y, latest tenth excluded.
@@ -24,6 +29,8 @@ struct RateLimits {
     /// specifications) + host crystal 100 ppm, twice the usual specification of PC crystals.
     static constexpr double kLargest = 110e-6;
 
+    /// Least and largest skew that the line may have, dimensionless.  The default knows nothing of
+    /// the two oscillators but their specifications.
     double least = -kLargest;
     double largest = kLargest;
 };
@@ -69,10 +76,13 @@ struct EdgeFit {
 /// Source: E. Olson, "A passive solution to the sensor synchronization problem", IROS 2010 (the
 /// bound from one side).  The bound from the other side is this project's.
 ///
+/// Cost: O(n) for n blocks; allocates O(n).  Deterministic, no state.
+///
 /// @param blocks         at least one, in rising order of `due`; not checked.
 /// @param at             due time at which the line is given; may lie outside the blocks.
 /// @param sample_period  nominal time from sample to sample.
 /// @param limits         finite, least <= largest; not checked.
+/// @return the line at `at`.  With one block, its slope is the middle of `limits`.
 [[nodiscard]] EdgeFit fit_edge(std::span<const ArrivalBlock> blocks, Nanoseconds at,
                                Nanoseconds sample_period, RateLimits limits);
 

@@ -152,7 +152,7 @@ std::optional<SampleTime> SampleClock::time_of(std::int64_t index) const {
 }
 
 std::optional<std::int64_t> SampleClock::index_at(UtcTime utc) const {
-    if (pieces_.empty()) return std::nullopt;
+    if (pieces_.empty() || !first_) return std::nullopt;
     const std::int64_t oldest = std::max(*first_, pieces_.front().first);
     if (utc < published(oldest) || utc > published(*last_)) return std::nullopt;
     std::int64_t low = oldest;

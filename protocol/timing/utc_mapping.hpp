@@ -1,6 +1,13 @@
 #pragma once
 /// @file
 /// The host's raw clock -> UTC, from readings of both clocks.
+///
+/// SampleClock uses it for times while samples arrive.  UtcHistory does the same in hindsight.
+///
+///     UtcMapping mapping;
+///     if (mapping.observe(reading)) note_jump();   // about once per second
+///     const UtcTime utc = mapping.at(raw);
+///     const Nanoseconds error = mapping.error_at(raw);
 
 #include <deque>
 #include <optional>
@@ -30,24 +37,32 @@ namespace a351::timing {
 ///
 /// Accuracy (utc_mapping_test.cpp): a slew of 500 ppm is followed to 1 ms, 1.5 s after a reading.
 /// While a step after such a slew is doubted for an hour, the stated error covers the true one.
+///
+/// All functions are O(1), because only the readings of the last 3 s are kept.  No clock is read,
+/// and the result depends only on the readings.  Not thread-safe.
 class UtcMapping {
 public:
     /// Adds a reading.
-    /// @param reading  later than the one before; not checked.
+    /// @param reading  later than the one before; not checked.  Its `raw` must include the time
+    ///                 that the host slept, see SampleClock::awake().
     /// @return  the step of the host's clock, positive if it was set ahead, if the mapping follows
     ///          a step from this reading on; else std::nullopt.
     std::optional<Nanoseconds> observe(const ClockReading& reading);
 
-    /// Notes that the host slept between the last reading and the next one.
+    /// Notes that the host slept between the last reading and the next one.  Call it before the
+    /// reading that shows the sleep.
     void woke_up() { has_slept_ = true; }
 
     /// Returns true before the first reading.
     [[nodiscard]] bool is_empty() const noexcept { return recent_.empty(); }
-    /// Returns the UTC of a raw time; exact at a followed reading.  Precondition: not is_empty().
+    /// Returns the UTC of a raw time; exact at the newest followed reading.  Other times lie on the
+    /// line of the last 3 s, so the past is not kept.  Precondition: not is_empty().
     [[nodiscard]] UtcTime at(RawTime raw) const;
-    /// Returns the error of at(), see above.  Precondition: not is_empty().
+    /// Returns the error of at(), see above.  Precondition: not is_empty().  It does not grow for
+    /// times before the newest readings.
     [[nodiscard]] Nanoseconds error_at(RawTime raw) const;
-    /// Returns true if the host was synchronised before and is_synchronised() is false now.
+    /// Returns true if the host was synchronised before and is_synchronised() is false now.  A
+    /// sample clock with 60 s of data is then in the state `holdover`.
     [[nodiscard]] bool is_held() const noexcept;
     /// Returns true if the host reports synchronisation, no step is doubted, and the host has been
     /// awake for a minute.

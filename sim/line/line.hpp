@@ -36,8 +36,8 @@ struct LineReport {
     std::int64_t lost_by_overrun = 0;   ///< Part of frames_lost: the terminal was full.
     std::int64_t lost_unplugged = 0;    ///< Part of frames_lost: the port was pulled out.
     std::int64_t frames_pending = 0;    ///< No byte of them had arrived at the end.
-    std::int64_t frames_repeated = 0;   ///< Part of frames_sent.
-    std::int64_t frames_misplaced = 0;  ///< Part of frames_sent.
+    std::int64_t frames_repeated = 0;   ///< In frames_sent: COUNT of the frame before.
+    std::int64_t frames_misplaced = 0;  ///< In frames_sent: COUNT does not follow.
     std::int64_t frames_flagged = 0;    ///< Part of frames_sent: EA, ALIASI_ERR or alarm in FLAG.
     std::int64_t bytes_handed_over = 0;
     std::int64_t bytes_of_answers = 0;  ///< Part of bytes_handed_over.

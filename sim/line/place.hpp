@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Checks that something can be put at a path, before anything is made.
+/// Checks of the paths that an emulator will write to, before it creates any file or link.
 
 #include <filesystem>
 #include <string>
@@ -8,7 +8,7 @@
 namespace a351::sim {
 
 /// Checks that the directory of `path` exists.
-/// @param what  what is to be put there, with its article: "a link".
+/// @param what  noun with article for the message, such as "a link".
 /// @return the status of the path itself (a link is not followed); file_type::not_found if nothing
 ///         is there.
 /// @throws InputError  an empty path; its directory does not exist; its status cannot be read.

@@ -33,8 +33,8 @@ public:
     void watch(std::vector<pollfd>& descriptors) const override;
     [[nodiscard]] Nanoseconds patience(const Instant& now, const ClockScale& clock) const override;
 
-    /// Returns true when the device has no more to send, and the host has read everything or 2 s
-    /// more have passed.
+    /// Returns true when the device has nothing more to send, and the host has read everything.
+    /// If the host reads nothing, returns true 2 s after the device's last byte.
     [[nodiscard]] bool is_finished() const noexcept { return is_finished_; }
 
     /// Ends the port: gives the host up to 200 ms to read, then settles the rest.

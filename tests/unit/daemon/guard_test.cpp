@@ -43,7 +43,8 @@ TEST_CASE("under DNS rebinding Host and Origin agree, and the request is still r
     CHECK(refused_with(guard, request) == 421);
 }
 
-TEST_CASE("a change from a foreign Origin is forbidden", "[daemon][page]") {
+TEST_CASE("a request that changes something is refused if its Origin is another site",
+          "[daemon][page]") {
     const Guard guard(8351, {"gravbox"}, kToken);
     for (const char* origin : {"http://127.0.0.1:8351", "http://localhost:8351",
                                "http://[::1]:8351", "http://gravbox:8351"}) {

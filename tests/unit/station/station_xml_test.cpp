@@ -94,7 +94,7 @@ TEST_CASE("other station codes and axis names are read back", "[record][station_
     CHECK(metadata.channels[1].code == "BNZ");
 }
 
-TEST_CASE("the metadata contain everything that a reader of the data must know",
+TEST_CASE("StationXML has filter, firmware, serial number, rate, orientation, position and epoch",
           "[record][station_xml]") {
     const auto text = to_station_xml(description());
     for (const char* part :

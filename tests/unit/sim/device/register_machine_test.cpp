@@ -107,7 +107,7 @@ TEST_CASE("identity registers have the first character in the low byte",
     CHECK(bench.read("W1:74") == "3057");
 }
 
-TEST_CASE("a device can lack the ID register", "[sim][register_machine]") {
+TEST_CASE("an emulated device without an ID register reads 0 there", "[sim][register_machine]") {
     Bench bench("A351", {"A351AU10", "00000001", 1, false});
     CHECK(bench.read("W0:4C") == "0000");
 }
