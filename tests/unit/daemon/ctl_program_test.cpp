@@ -1,0 +1,144 @@
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
+
+#include "daemon/page/server.hpp"
+#include "protocol/core/input_error.hpp"
+#include "tests/unit/daemon/fake_recorder.hpp"
+
+using namespace a351;
+using namespace a351::daemon;
+
+namespace {
+
+struct Run {
+    int exit = -1;
+    std::string text;  ///< stdout and stderr.
+};
+
+Run run(const std::string& arguments) {
+    const std::string command = std::string(A351CTL) + " " + arguments + " 2>&1";
+    Run result;
+    FILE* pipe = popen(command.c_str(), "r");
+    REQUIRE(pipe);
+    char bytes[4096];
+    while (const auto got = std::fread(bytes, 1, sizeof bytes, pipe)) {
+        result.text.append(bytes, got);
+    }
+    const int status = pclose(pipe);
+    result.exit = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    CAPTURE(arguments, result.text);
+    CHECK(result.exit >= 0);
+    return result;
+}
+
+/// The HTTP interface of a daemon without the rest of the daemon.
+struct FakeDaemon {
+    explicit FakeDaemon(Status::Level level = Status::Level::good) {
+        status.level = level;
+        status.now = status.last_sample.emplace(minute(60));
+        server.start();
+    }
+    Run ctl(const std::string& arguments) const {
+        return run("--url http://127.0.0.1:" + std::to_string(server.port()) + " " + arguments);
+    }
+
+    FakeRecorder recorder;
+    Occupations occupations{recorder, two_sites(), {}};
+    LiveRecord live{*wire::find_profile("A351"), 50, {}};
+    Status status;
+    Server server{{.listen = {.port = 0}},
+                  {.status = [this] { return status; },
+                   .occupations = occupations,
+                   .live = live,
+                   .events = [this] { return recorder.log; }}};
+};
+
+bool has(const Run& result, const std::string& text) {
+    CAPTURE(result.exit, result.text);
+    return result.text.find(text) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("the exit code of status is that of a monitoring plugin", "[daemon][ctl]") {
+    for (const auto& [level, exit] :
+         {std::pair(Status::Level::good, 0), std::pair(Status::Level::warning, 1),
+          std::pair(Status::Level::fault, 2)}) {
+        const FakeDaemon daemon(level);
+        CHECK(daemon.ctl("status").exit == exit);
+        const auto raw = daemon.ctl("status --json");
+        CHECK(raw.exit == exit);
+        CHECK(nlohmann::json::parse(raw.text).at("timing").at("state") == "unlocked");
+    }
+    CHECK(run("--url http://127.0.0.1:1 status").exit == 3);
+    CHECK(run("status --bogus").exit == 3);
+    CHECK(run("--url ftp://127.0.0.1 status").exit == 3);
+}
+
+TEST_CASE("other commands exit with 0 if done, 1 if refused, 2 for wrong usage, 3 without a daemon",
+          "[daemon][ctl]") {
+    FakeDaemon daemon;
+    const auto started =
+        daemon.ctl("start No.0 --at 2026-03-14T08:10:00Z --operator 'M. Ito' --note windy");
+    CHECK(started.exit == 0);
+    CHECK(has(started, "started No.0 at 2026-03-14T08:10:00.0Z"));
+    const auto again = daemon.ctl("start No.1");
+    CHECK(again.exit == 1);
+    CHECK(has(again, "a351ctl: No.0 (stay 1) has been running"));
+    CHECK(daemon.ctl("setup --at 2026-03-14T08:20:00Z").exit == 0);
+    CHECK(daemon.ctl("note 'a lorry passed'").exit == 0);
+    CHECK(daemon.ctl("rename No.1").exit == 0);
+    CHECK(has(daemon.ctl("status"), "No.1, stay 1, since 2026-03-14T08:10:00.000Z"));
+    CHECK(daemon.ctl("stop --at 2026-03-14T08:30:00Z").exit == 0);
+    CHECK(daemon.ctl("stop").exit == 1);
+    CHECK(has(daemon.ctl("list"), "2026-03-14T08:30:00.000Z"));
+    CHECK(daemon.ctl("discard").exit == 0);
+    CHECK_FALSE(has(daemon.ctl("list"), "No.1"));
+    CHECK(has(daemon.ctl("sites"), "979948.000"));
+
+    for (const char* wrong : {"", "start", "stop --at noon", "fly", "note", "--clock fast stop",
+                              "start No.0 --bogus", "--url nowhere stop"}) {
+        const auto result = run(wrong);
+        CAPTURE(wrong, result.text);
+        CHECK(result.exit == 2);
+        CHECK(std::count(result.text.begin(), result.text.end(), '\n') == 1);
+    }
+    const auto nobody = run("--url http://127.0.0.1:1 stop");
+    CHECK(nobody.exit == 3);
+    CHECK(has(nobody, "a351ctl: no daemon answers at http://127.0.0.1:1"));
+    CHECK(std::count(nobody.text.begin(), nobody.text.end(), '\n') == 1);
+    CHECK(run("--help").exit == 0);
+    CHECK(has(run("--version"), A351_VERSION));
+    CHECK(daemon.ctl("--clock scaled:60@2026-03-14T08:00:00Z sites").exit == 0);
+}
+
+TEST_CASE("options of the command line are in the recorded event", "[daemon][ctl]") {
+    FakeDaemon daemon;
+    daemon.ctl("start No.0 --at 2026-03-14T08:10:00Z --operator 'M. Ito' --note windy");
+    daemon.server.stop();
+    REQUIRE(daemon.recorder.log.size() == 1);
+    CHECK(daemon.recorder.log.front().utc == minute(10));
+    CHECK(daemon.recorder.log.front().details.at("operator") == "M. Ito");
+    CHECK(daemon.recorder.log.front().details.at("note") == "windy");
+}
+
+TEST_CASE("a command with a wrong token is refused", "[daemon][ctl]") {
+    const FakeDaemon daemon;
+    CHECK(daemon.ctl("--token 0123456789abcdef discard").exit == 1);
+}
+
+TEST_CASE("watch runs until it is interrupted, even without a daemon", "[daemon][ctl]") {
+    const FakeDaemon daemon;
+    const auto url = "http://127.0.0.1:" + std::to_string(daemon.server.port());
+    const auto seen = run("--url " + url + " watch & sleep 0.6; kill -INT $!; wait $!");
+    CHECK(seen.exit == 0);
+    CHECK(has(seen, "occupation   none running"));
+    CHECK(seen.text.find('\x1b') == std::string::npos);
+    const auto lonely = run("--url http://127.0.0.1:1 watch & sleep 0.6; kill -INT $!; wait $!");
+    CHECK(lonely.exit == 0);
+    CHECK(has(lonely, "no daemon answers"));
+}
