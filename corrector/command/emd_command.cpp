@@ -97,9 +97,8 @@ void write_modes(const EmdCommandOptions& options) {
     const text::CsvTable table = text::read_csv(options.input);
     std::vector<double> signal;
     signal.reserve(table.row_count());
-    for (std::size_t row = 0; row < table.row_count(); ++row) {
+    for (std::size_t row = 0; row < table.row_count(); ++row)
         signal.push_back(table.number(row, options.column, -1e300, 1e300));
-    }
     ProgressBar bar(options.column);
     eemd_options.progress = [&bar](int done, int members) {
         bar(static_cast<std::size_t>(done), static_cast<std::size_t>(members));

@@ -88,9 +88,8 @@ void SampleColumn::check_time() {
     if (!time) reader_.refuse(column, "not a time", "an instant (RFC 3339), or seconds");
     if (last_time_) {
         const Nanoseconds step = *time - *last_time_;
-        if (step <= Nanoseconds(0)) {
+        if (step <= Nanoseconds(0))
             reader_.refuse(column, "not after the row before it", "times that ascend");
-        }
         // The first step may span a missing row, so each step is compared with the mean of all
         // before.
         const Nanoseconds mean =

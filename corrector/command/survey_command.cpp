@@ -46,12 +46,10 @@ SurveyFile with_overrides(SurveyFile survey, const SurveyCommandOptions& options
     if (!options.model.empty()) survey.survey.model = options.model;
     if (!options.flags.empty()) survey.survey.use_flags = options.flags == "use";
     if (!options.tide.empty()) set_tide_option(survey.tide, options.tide);
-    if (!options.trend.empty()) {
+    if (!options.trend.empty())
         survey.trend = options.trend == "eemd" ? TrendMethod::eemd : TrendMethod::smoother;
-    }
-    if (!options.curve.empty()) {
+    if (!options.curve.empty())
         survey.curve = options.curve == "paper" ? TrendCurve::paper : TrendCurve::slow;
-    }
     if (!options.calibration.empty()) use_calibration(survey, options.calibration);
     if (!options.from.empty()) survey.from = instant_option("--from", options.from);
     if (!options.to.empty()) survey.to = instant_option("--to", options.to);
@@ -131,9 +129,8 @@ Day correct_day(const SurveyFile& survey, const std::vector<std::string>& pictur
          read.inputs, read.warnings, picture_formats});
     std::move(report.files.begin(), report.files.end(), std::back_inserter(day.files));
     read.warnings.insert(read.warnings.end(), report.warnings.begin(), report.warnings.end());
-    for (const std::string& warning : read.warnings) {
+    for (const std::string& warning : read.warnings)
         std::cerr << "a351-correct: " << survey.name << ": " << warning << '\n';
-    }
     return day;
 }
 

@@ -119,9 +119,8 @@ constexpr LaneTable make_behind_flags() {
     for (std::uint64_t flags = 0; flags <= kAllFlags; ++flags) {
         std::size_t before = 0;
         for (std::size_t j = 0; j < kLanes; ++j) {
-            for (std::size_t part = 0; part < kParts; ++part) {
+            for (std::size_t part = 0; part < kParts; ++part)
                 table.rows[flags][kParts * j + part] = static_cast<Index>(kParts * before + part);
-            }
             before += flags >> j & 1;
         }
     }

@@ -216,9 +216,8 @@ inline void solve_few(const double* x, std::size_t a, std::size_t n, SplineArray
         knots == 3
             ? 0.0
             : ((slope[a + 4] - slope[a + 2]) / (x[a + 6] - x[a + 2]) - second) / (x[a + 6] - x[a]);
-    for (std::size_t k = a; k < n; k += 2) {
+    for (std::size_t k = a; k < n; k += 2)
         c[k] = second + third * ((x[k] - x[a]) + (x[k] - x[a + 2]) + (x[k] - x[a + 4]));
-    }
 }
 
 /// Computes the cubics first <= k < last of the mean of both envelopes.  Each is half the sum of

@@ -23,9 +23,8 @@ public:
     TemporaryFolder() {
         std::string name =
             (std::filesystem::temp_directory_path() / "a351-figures-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) {
+        if (::mkdtemp(name.data()) == nullptr)
             throw std::system_error(errno, std::generic_category(), "folder for figures");
-        }
         path_ = name;
     }
     TemporaryFolder(const TemporaryFolder&) = delete;
@@ -40,9 +39,8 @@ public:
     void write(const std::string& name, const std::string& content) const {
         std::ofstream out(path_ / name, std::ios::binary);
         out << content;
-        if (!out.flush()) {
+        if (!out.flush())
             throw std::system_error(EIO, std::generic_category(), "folder for figures: " + name);
-        }
     }
 
 private:
@@ -131,9 +129,7 @@ Drawing draw(const std::vector<Figure>& figures, const std::vector<std::string>&
             if (!figure.data.empty()) folder.write(figure.name + ".dat", figure.data);
         }
         draw_format(folder, names, "svg", drawing);
-        for (const std::string& format : formats) {
-            draw_format(folder, names, format, drawing);
-        }
+        for (const std::string& format : formats) draw_format(folder, names, format, drawing);
     } catch (const std::system_error& error) {
         // Tables and text are useful without pictures.
         drawing.troubles.push_back(error.code().message());

@@ -37,9 +37,8 @@ void remove_titles(pugi::xml_node node) {
 
 std::optional<std::string> inline_svg(const std::string& svg, const std::string& prefix) {
     pugi::xml_document document;
-    if (!document.load_buffer(svg.data(), svg.size(), pugi::parse_default, pugi::encoding_utf8)) {
+    if (!document.load_buffer(svg.data(), svg.size(), pugi::parse_default, pugi::encoding_utf8))
         return std::nullopt;
-    }
     pugi::xml_node root = document.child("svg");
     if (!root || !root.attribute("viewBox")) return std::nullopt;
     root.remove_attribute("width");

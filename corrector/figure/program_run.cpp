@@ -64,9 +64,8 @@ std::vector<std::string> environment_of_child() {
     std::vector<std::string> variables{"LC_ALL=C.UTF-8", "TZ=UTC0", "CAIRO_DEBUG_PDF=1"};
     for (char** variable = environ; *variable != nullptr; ++variable) {
         const std::string_view given = *variable;
-        if (!given.starts_with("LC_ALL=") && !given.starts_with("TZ=")) {
+        if (!given.starts_with("LC_ALL=") && !given.starts_with("TZ="))
             variables.emplace_back(given);
-        }
     }
     return variables;
 }

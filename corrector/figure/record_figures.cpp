@@ -163,9 +163,8 @@ Figure panels_figure(const SurveyCorrection& result, const std::vector<ReadingRe
     const std::size_t n = records.size();
     const std::size_t lines = (n + kColumns - 1) / kColumns;
     double longest_min = 0.0;
-    for (const ReadingRecord& record : records) {
+    for (const ReadingRecord& record : records)
         longest_min = std::max(longest_min, length_min(*record.value));
-    }
     const int height_px = 70 + 120 * static_cast<int>(lines);
     // Margins for the labels, in pixels, as a fraction of the height.
     const auto share = [height_px](double px) { return px / height_px; };

@@ -68,9 +68,8 @@ std::optional<Line> line_through(const SurveyCorrection& result, const PointOf& 
 
 std::string line_lines(const Line& line) {
     std::string lines;
-    for (const double x : {line.least_x, line.greatest_x}) {
+    for (const double x : {line.least_x, line.greatest_x})
         lines += datum(x, 4) + datum(line.fit.at(Eigen::VectorXd::Constant(1, x)), 4) + '\n';
-    }
     return lines;
 }
 

@@ -102,11 +102,11 @@ void use_calibration(SurveyFile& survey, const std::filesystem::path& file) {
 }
 
 TrendMethod trend_method_of(const SurveyFile& survey) noexcept {
-    return survey.survey.model == paper_model().name() ? TrendMethod::eemd : survey.trend;
+    return survey.survey.model == kPaper ? TrendMethod::eemd : survey.trend;
 }
 
 TrendCurve trend_curve_of(const SurveyFile& survey) {
-    if (survey.survey.model == paper_model().name()) return TrendCurve::paper;
+    if (survey.survey.model == kPaper) return TrendCurve::paper;
     return survey.curve.value_or(RepresentativeOptions().curve);
 }
 

@@ -56,7 +56,7 @@ SurveyOptions with_sites_of(OccupationRows& read, SurveyOptions options) {
     const auto is_absent = [&read](const std::string& site) {
         return std::ranges::find(read.rows, site, &SurveyRow::site) == read.rows.end();
     };
-    if (!options.base.empty() && is_absent(options.base) && options.model != paper_model().name()) {
+    if (!options.base.empty() && is_absent(options.base) && options.model != kPaper) {
         read.warnings.push_back("base " + options.base +
                                 " has no occupation with a value: the first site is used instead");
         options.base.clear();

@@ -185,7 +185,7 @@ SurveyCorrection correct_with_calibration(const std::vector<SurveyRow>& rows,
 std::string_view calibration_in(const SurveyCorrection& result, const ModelScore& score) {
     const std::optional<Calibration>& calibration = result.options.calibration;
     if (!helps_to_correct_day(calibration)) return "none";
-    if (score.model == whole_day_model().name()) return "prior";
+    if (score.model == kWholeDay) return "prior";
     return calibration->axis_bias ? "fixed" : "none";
 }
 

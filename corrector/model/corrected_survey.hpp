@@ -56,7 +56,8 @@ struct SurveyOptions {
 
 /// Values of a row that only `paper` gives: in every row.
 struct PaperRow {
-    MilliGal corrected1;  ///< Corrected (1), before the drift step.
+    MilliGal corrected1;                ///< Corrected (1), before the drift step.
+    std::optional<MilliGal> residual1;  ///< reference - corrected1, the publication's Error (1).
 };
 
 /// Values of a row that only `robust` gives: in the rows in use.

@@ -1,4 +1,4 @@
-#include <memory>
+#include <functional>
 
 #include "corrector/model/applied_fit.hpp"
 #include "corrector/model/row_doubts.hpp"
@@ -20,58 +20,37 @@ std::optional<Interval> loo_interval(const ModelFit& result, std::uint64_t seed)
     return bootstrap_rms_interval(errors, stations, seed);
 }
 
-class Linear final : public Model {
-public:
-    Linear(const LinearModel& terms, bool is_always_scored)
-        : terms_(terms), is_always_scored_(is_always_scored) {}
+ModelScore score(const LinearModel& terms, const SurveyProblem& problem, const RowChoice& choice) {
+    return score_linear_model(terms, chosen_rows(problem.rows, choice.in_use), problem.origin(),
+                              problem.options.priors);
+}
 
-    [[nodiscard]] std::string_view name() const override { return terms_.name; }
-    [[nodiscard]] bool is_always_scored() const override { return is_always_scored_; }
-
-    [[nodiscard]] std::variant<ModelFit, Refusal> fit(const SurveyProblem& problem,
-                                                      const RowChoice& choice) const override {
-        const ModelPriors& priors = problem.options.priors;
-        auto applied = apply_model(terms_, problem, choice, priors);
-        if (auto* const refusal = std::get_if<Refusal>(&applied)) return std::move(*refusal);
-        const auto& fit = std::get<AppliedFit>(applied);
-        ModelFit result;
-        result.rows = uncorrected(problem, choice);
-        result.score = *score(problem, choice);
-        correct_rows(result, terms_, fit);
-        result.own = LinearPart{loo_interval(result, problem.options.seed)};
-        result.stations = average_stations(result, choice.accepted, fit, result.score.s_mgal);
-        doubt_by_linear_fit(result.rows, terms_, priors);
-        return result;
-    }
-
-    [[nodiscard]] std::optional<ModelScore> score(const SurveyProblem& problem,
-                                                  const RowChoice& choice) const override {
-        return score_linear_model(terms_, chosen_rows(problem.rows, choice.in_use),
-                                  problem.origin(), problem.options.priors);
-    }
-
-private:
-    const LinearModel& terms_;
-    bool is_always_scored_;
-};
+FitResult fit(const LinearModel& terms, const SurveyProblem& problem, const RowChoice& choice) {
+    const ModelPriors& priors = problem.options.priors;
+    auto applied = apply_model(terms, problem, choice, priors);
+    if (auto* const refusal = std::get_if<Refusal>(&applied)) return std::move(*refusal);
+    const auto& linear = std::get<AppliedFit>(applied);
+    ModelFit result;
+    result.rows = uncorrected(problem, choice);
+    result.score = score(terms, problem, choice);
+    correct_rows(result, terms, linear);
+    result.own = LinearPart{loo_interval(result, problem.options.seed)};
+    result.stations = average_stations(result, choice.accepted, linear, result.score.s_mgal);
+    doubt_by_linear_fit(result.rows, terms, priors);
+    return result;
+}
 
 }  // namespace
 
-const std::vector<const Model*>& linear_models() {
-    static const std::vector<std::unique_ptr<const Model>> owned = [] {
-        std::vector<std::unique_ptr<const Model>> list;
-        for (const LinearModel& terms : kLinearModels)
-            list.push_back(std::make_unique<Linear>(terms, true));
-        for (const LinearModel& terms : kModelsOnRequest)
-            list.push_back(std::make_unique<Linear>(terms, false));
-        return list;
-    }();
-    static const std::vector<const Model*> all = [] {
-        std::vector<const Model*> list;
-        for (const auto& model : owned) list.push_back(model.get());
-        return list;
-    }();
-    return all;
+std::vector<Model> linear_models() {
+    std::vector<Model> list;
+    const auto add = [&list](const LinearModel& terms, bool is_always_scored) {
+        list.push_back({terms.name, is_always_scored, std::bind_front(fit, terms),
+                        std::bind_front(score, terms)});
+    };
+    for (const LinearModel& terms : kLinearModels) add(terms, true);
+    for (const LinearModel& terms : kModelsOnRequest) add(terms, false);
+    return list;
 }
 
 }  // namespace a351::corrector

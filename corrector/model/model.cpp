@@ -6,11 +6,11 @@
 
 namespace a351::corrector {
 
-const std::vector<const Model*>& models() {
-    static const std::vector<const Model*> all = [] {
-        std::vector<const Model*> list{&paper_model(), &whole_day_model()};
-        list.insert(list.end(), linear_models().begin(), linear_models().end());
-        list.insert(list.end(), {&network_model(), &robust_model()});
+const std::vector<Model>& models() {
+    static const std::vector<Model> all = [] {
+        std::vector<Model> list{paper_model(), whole_day_model()};
+        for (Model& model : linear_models()) list.push_back(std::move(model));
+        list.insert(list.end(), {network_model(), robust_model()});
         return list;
     }();
     return all;
@@ -18,12 +18,12 @@ const std::vector<const Model*>& models() {
 
 const Model* find_model(std::string_view name) {
     const auto found = std::ranges::find(models(), name, &Model::name);
-    return found == models().end() ? nullptr : *found;
+    return found == models().end() ? nullptr : &*found;
 }
 
 std::vector<std::string> model_names() {
     std::vector<std::string> names{std::string(kAutomatic)};
-    for (const Model* const model : models()) names.emplace_back(model->name());
+    for (const Model& model : models()) names.emplace_back(model.name);
     return names;
 }
 

@@ -2,7 +2,7 @@
 /// @file
 /// The interface of all models of the instrument, and their list.
 ///
-/// A new model is a class in a file of its own, with a function in this header and a line in
+/// A new model is a Model in a file of its own, with a function in this header and a line in
 /// models().  Values that it alone gives are a new type of CorrectedRow::own or ModelFit::own.
 ///
 /// Programs call correct_survey(), which chooses the rows, fits and scores.  Use this interface to
@@ -15,6 +15,7 @@
 /// Models have no state.  They exist as long as the program, and any number of threads may call
 /// them.  Equal arguments give equal results.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,48 +53,39 @@ struct RowChoice {
     [[nodiscard]] bool operator==(const RowChoice&) const = default;
 };
 
+/// A fit, or the reason why the rows do not allow one.
+using FitResult = std::variant<ModelFit, Refusal>;
+
 /// A model of the instrument.
-class Model {
-public:
-    Model() = default;
-    Model(const Model&) = delete;
-    Model& operator=(const Model&) = delete;
-    virtual ~Model() = default;
-
-    /// Returns the name in options and tables.
-    ///
-    /// It is unique in models() and refers to a constant.
-    [[nodiscard]] virtual std::string_view name() const = 0;
-
-    /// Returns true if every survey is scored with this model, whichever is applied.
-    [[nodiscard]] virtual bool is_always_scored() const { return false; }
+struct Model {
+    std::string_view name;          ///< Name in options and tables; unique in models().
+    bool is_always_scored = false;  ///< True: scored in every survey, whichever model is applied.
 
     /// Fits the model and corrects all rows.  The studentised residuals are tested row by row
     /// (row_doubts.hpp); physical doubts are not set.
     ///
     /// The score is that of score() for the same rows.  ModelFit::calibration is set by `day` only.
-    /// @return the fit, or why these rows do not allow one.
     /// @throws InputError  the model needs the means of the axes and a row has none.
-    [[nodiscard]] virtual std::variant<ModelFit, Refusal> fit(const SurveyProblem& problem,
-                                                              const RowChoice& choice) const = 0;
+    std::function<FitResult(const SurveyProblem&, const RowChoice&)> fit;
 
     /// Returns the score; nullopt if such rows are not scored.
     ///
     /// A score without rms_mgal means that the rows do not determine the model, or that it refuses
     /// them.  The cost is up to one fit without each station and one without each row.
     /// @throws InputError  as fit().
-    [[nodiscard]] virtual std::optional<ModelScore> score(const SurveyProblem& problem,
-                                                          const RowChoice& choice) const = 0;
+    std::function<std::optional<ModelScore>(const SurveyProblem&, const RowChoice&)> score;
 };
 
-/// Returns all models, in the order of model_names().  The pointers are never null.
-[[nodiscard]] const std::vector<const Model*>& models();
+/// Returns all models, in the order of model_names().
+[[nodiscard]] const std::vector<Model>& models();
 
 /// Returns the model of this name; null if there is none.  kAutomatic is no model.
 [[nodiscard]] const Model* find_model(std::string_view name);
 
 /// Name of the choice between the whole-day model and kLinearModels.
 inline constexpr std::string_view kAutomatic = "auto";
+/// Names of the publication's correction and of the whole-day model.
+inline constexpr std::string_view kPaper = "paper", kWholeDay = "day";
 
 /// Returns the names that SurveyOptions::model may have: kAutomatic and the names of models().
 [[nodiscard]] std::vector<std::string> model_names();
@@ -112,13 +104,13 @@ inline constexpr std::string_view kAutomatic = "auto";
 ///
 /// Use it to reproduce the publication.  Its drift depends on two readings only, which makes the
 /// result of the published rows worse.  No row has a studentised residual or a statistical doubt.
-[[nodiscard]] const Model& paper_model();
+[[nodiscard]] Model paper_model();
 
 /// The models of kLinearModels and kModelsOnRequest (model_fit.hpp), in this order.
 ///
 /// Those of kLinearModels are always scored.  They refuse rows that do not determine the
 /// coefficients.  Priors count: with a prior on a slope, fewer rows are enough.
-[[nodiscard]] const std::vector<const Model*>& linear_models();
+[[nodiscard]] std::vector<Model> linear_models();
 
 /// The MM estimate (robust_fit.hpp) of the linear model SurveyOptions::robust_terms.
 ///
@@ -128,7 +120,7 @@ inline constexpr std::string_view kAutomatic = "auto";
 ///
 /// The statistical doubts come from least squares of the same terms, doubt_by_linear_fit().  The
 /// weights of the robust fit are in RobustRow; a weight near 0 marks a bad row as well.
-[[nodiscard]] const Model& robust_model();
+[[nodiscard]] Model robust_model();
 
 /// The network adjustment (network.hpp).
 ///
@@ -150,6 +142,6 @@ inline constexpr std::string_view kAutomatic = "auto";
 ///   left_out, which ModelFit::rows does not have.
 ///
 /// It refuses as adjust_network().
-[[nodiscard]] const Model& network_model();
+[[nodiscard]] Model network_model();
 
 }  // namespace a351::corrector

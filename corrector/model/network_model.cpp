@@ -10,9 +10,11 @@
 namespace a351::corrector {
 namespace {
 
+constexpr const char* kName = "network";
+
 ModelScore score_of(const NetworkAdjustment& network, double reading_sd_mgal) {
     ModelScore score;
-    score.model = "network";
+    score.model = kName;
     score.row_count = network.reading_count;
     score.parameter_count = static_cast<std::size_t>(network.unknowns.size());
     score.dof = network.dof;
@@ -159,17 +161,7 @@ NetworkResult adjust(const std::vector<SurveyRow>& rows, const std::vector<bool>
     return adjust_network(rows, in_use, options.datum, options.priors, options.network);
 }
 
-class Network final : public Model {
-public:
-    [[nodiscard]] std::string_view name() const override { return "network"; }
-    [[nodiscard]] std::variant<ModelFit, Refusal> fit(const SurveyProblem& problem,
-                                                      const RowChoice& choice) const override;
-    [[nodiscard]] std::optional<ModelScore> score(const SurveyProblem& problem,
-                                                  const RowChoice& choice) const override;
-};
-
-std::variant<ModelFit, Refusal> Network::fit(const SurveyProblem& problem,
-                                             const RowChoice& choice) const {
+FitResult fit_network(const SurveyProblem& problem, const RowChoice& choice) {
     const SurveyOptions& options = problem.options;
     const double sd = options.priors.reading_sd_mgal;
     NetworkResult adjusted = adjust(problem.rows, choice.accepted, options);
@@ -204,21 +196,17 @@ std::variant<ModelFit, Refusal> Network::fit(const SurveyProblem& problem,
     return result;
 }
 
-std::optional<ModelScore> Network::score(const SurveyProblem& problem,
-                                         const RowChoice& choice) const {
+ModelScore score_network(const SurveyProblem& problem, const RowChoice& choice) {
     const NetworkResult adjusted = adjust(problem.rows, choice.accepted, problem.options);
     if (adjusted.adjustment)
         return score_of(*adjusted.adjustment, problem.options.priors.reading_sd_mgal);
     ModelScore none;
-    none.model = name();
+    none.model = kName;
     return none;
 }
 
 }  // namespace
 
-const Model& network_model() {
-    static const Network model;
-    return model;
-}
+Model network_model() { return {kName, false, fit_network, score_network}; }
 
 }  // namespace a351::corrector

@@ -13,20 +13,11 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-class Paper final : public Model {
-public:
-    [[nodiscard]] std::string_view name() const override { return "paper"; }
-    [[nodiscard]] bool is_always_scored() const override { return true; }
-    [[nodiscard]] std::variant<ModelFit, Refusal> fit(const SurveyProblem& problem,
-                                                      const RowChoice& choice) const override;
-    [[nodiscard]] std::optional<ModelScore> score(const SurveyProblem& problem,
-                                                  const RowChoice& choice) const override {
-        return score_paper_model(problem.rows, choice.in_use, problem.options.base);
-    }
-};
+ModelScore score_paper(const SurveyProblem& problem, const RowChoice& choice) {
+    return score_paper_model(problem.rows, choice.in_use, problem.options.base);
+}
 
-std::variant<ModelFit, Refusal> Paper::fit(const SurveyProblem& problem,
-                                           const RowChoice& choice) const {
+FitResult fit_paper(const SurveyProblem& problem, const RowChoice& choice) {
     const std::vector<SurveyRow>& rows = problem.rows;
     // The publication's line has no priors.
     auto line_fit = apply_model(kLinearModels.front(), problem, choice, {});
@@ -43,11 +34,12 @@ std::variant<ModelFit, Refusal> Paper::fit(const SurveyProblem& problem,
     ModelFit result;
     result.own = PaperPart{};
     result.rows = uncorrected(problem, choice);
-    result.score = *score(problem, choice);
+    result.score = score_paper(problem, choice);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         CorrectedRow& out = result.rows[i];
         const MilliGal first(corrected1[i]);
-        out.own = PaperRow{first};
+        PaperRow& own = out.own.emplace<PaperRow>(PaperRow{first, std::nullopt});
+        if (rows[i].reference) own.residual1 = *rows[i].reference - first;
         out.corrected = MilliGal(corrected2[i]);
         out.temperature_correction = first - (rows[i].acceleration - rows[i].tide);
         out.drift_correction = step.drift->at(rows[i].time);
@@ -163,9 +155,6 @@ MilliGal rms(const std::vector<double>& errors_mgal, const std::vector<bool>& in
     return MilliGal(n == 0 ? kUnknown : std::sqrt(sum / n));
 }
 
-const Model& paper_model() {
-    static const Paper model;
-    return model;
-}
+Model paper_model() { return {kPaper, true, fit_paper, score_paper}; }
 
 }  // namespace a351::corrector

@@ -9,25 +9,16 @@
 namespace a351::corrector {
 namespace {
 
-class Robust final : public Model {
-public:
-    [[nodiscard]] std::string_view name() const override { return "robust"; }
-    [[nodiscard]] std::variant<ModelFit, Refusal> fit(const SurveyProblem& problem,
-                                                      const RowChoice& choice) const override;
-    [[nodiscard]] std::optional<ModelScore> score(const SurveyProblem& problem,
-                                                  const RowChoice& choice) const override {
-        return score_robust_model(terms_of(problem), chosen_rows(problem.rows, choice.in_use),
-                                  problem.origin(), problem.options.priors);
-    }
+const LinearModel& terms_of(const SurveyProblem& problem) {
+    return *find_linear_model(problem.options.robust_terms);
+}
 
-private:
-    static const LinearModel& terms_of(const SurveyProblem& problem) {
-        return *find_linear_model(problem.options.robust_terms);
-    }
-};
+ModelScore score_robust(const SurveyProblem& problem, const RowChoice& choice) {
+    return score_robust_model(terms_of(problem), chosen_rows(problem.rows, choice.in_use),
+                              problem.origin(), problem.options.priors);
+}
 
-std::variant<ModelFit, Refusal> Robust::fit(const SurveyProblem& problem,
-                                            const RowChoice& choice) const {
+FitResult fit_robust_rows(const SurveyProblem& problem, const RowChoice& choice) {
     const LinearModel& terms = terms_of(problem);
     const ModelPriors& priors = problem.options.priors;
     auto applied = apply_model(terms, problem, choice, priors);
@@ -45,7 +36,7 @@ std::variant<ModelFit, Refusal> Robust::fit(const SurveyProblem& problem,
     ModelFit result;
     result.own = RobustPart{std::string(terms.name)};
     result.rows = uncorrected(problem, choice);
-    result.score = *score(problem, choice);
+    result.score = score_robust(problem, choice);
     correct_rows(result, terms, fit);
     Eigen::Index at = 0;
     for (CorrectedRow& row : result.rows) {
@@ -65,9 +56,6 @@ std::variant<ModelFit, Refusal> Robust::fit(const SurveyProblem& problem,
 
 }  // namespace
 
-const Model& robust_model() {
-    static const Robust model;
-    return model;
-}
+Model robust_model() { return {"robust", false, fit_robust_rows, score_robust}; }
 
 }  // namespace a351::corrector

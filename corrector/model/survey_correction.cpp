@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "corrector/model/model.hpp"
 #include "corrector/model/outlier_tests.hpp"
-#include "corrector/model/whole_day_model.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
 
@@ -34,7 +34,7 @@ RowChoice choose_rows(const std::vector<SurveyRow>& rows, const std::vector<std:
 /// A model, its fit, and how it was chosen.
 struct Chosen {
     const Model* model = nullptr;
-    std::variant<ModelFit, Refusal> fit;
+    FitResult fit;
     std::optional<ModelChoice> choice;
     std::optional<double> choice_loso_mgal;
     std::vector<std::string> remarks;
@@ -51,7 +51,7 @@ Chosen choose_and_fit(const SurveyProblem& problem, const RowChoice& rows) {
         chosen.fit = chosen.model->fit(problem, rows);
         return chosen;
     }
-    chosen.model = &whole_day_model();
+    chosen.model = find_model(kWholeDay);
     chosen.fit = chosen.model->fit(problem, rows);
     const auto* const refusal = std::get_if<Refusal>(&chosen.fit);
     if (refusal == nullptr) return chosen;
@@ -90,11 +90,11 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
     const RowChoice& in_fit = applied.use_flags ? unflagged : all;
     Chosen chosen = choose_and_fit(problem, in_fit);
     if (const auto* const refusal = std::get_if<Refusal>(&chosen.fit))
-        throw InputError(fmt::format("model = {}: {}; allowed: {}", chosen.model->name(),
+        throw InputError(fmt::format("model = {}: {}; allowed: {}", chosen.model->name,
                                      refusal->trouble, refusal->allowed));
     SurveyCorrection result;
     static_cast<ModelFit&>(result) = std::get<ModelFit>(std::move(chosen.fit));
-    result.model = chosen.model->name();
+    result.model = chosen.model->name;
     result.choice = chosen.choice;
     result.choice_loso_mgal = chosen.choice_loso_mgal;
     result.remarks.insert(result.remarks.begin(), chosen.remarks.begin(), chosen.remarks.end());
@@ -107,9 +107,9 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
                                    : model.score(problem, choice);
             if (score) set.scores.push_back(*score);
         };
-        for (const Model* const model : models())
-            if (model->is_always_scored()) add(*model);
-        if (!chosen.model->is_always_scored()) add(*chosen.model);
+        for (const Model& model : models())
+            if (model.is_always_scored) add(model);
+        if (!chosen.model->is_always_scored) add(*chosen.model);
         return set;
     };
     result.row_sets = {scores_of("used", unflagged), scores_of("all", all)};

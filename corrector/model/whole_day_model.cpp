@@ -97,7 +97,7 @@ DayFits fit_with_and_without(const SurveyProblem& problem, const RowChoice& choi
 ModelScore score_of(const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use,
                     const DayFits& fits) {
     ModelScore score;
-    score.model = "day";
+    score.model = kWholeDay;
     score.parameter_count = kDayTerms;
     double in_sample = 0.0, left_out = 0.0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -227,22 +227,14 @@ std::vector<StationValue> station_values(const std::vector<CorrectedRow>& rows, 
     return stations;
 }
 
-class WholeDay final : public Model {
-public:
-    [[nodiscard]] std::string_view name() const override { return "day"; }
-    [[nodiscard]] std::variant<ModelFit, Refusal> fit(const SurveyProblem& problem,
-                                                      const RowChoice& choice) const override;
-    [[nodiscard]] std::optional<ModelScore> score(const SurveyProblem& problem,
-                                                  const RowChoice& choice) const override {
-        if (count_of(choice.in_use) < kFewestRows) return std::nullopt;
-        return score_of(
-            problem.rows, choice.in_use,
-            fit_with_and_without(problem, choice, day_priors_of(problem.options.calibration)));
-    }
-};
+std::optional<ModelScore> score_day(const SurveyProblem& problem, const RowChoice& choice) {
+    if (count_of(choice.in_use) < kFewestRows) return std::nullopt;
+    return score_of(
+        problem.rows, choice.in_use,
+        fit_with_and_without(problem, choice, day_priors_of(problem.options.calibration)));
+}
 
-std::variant<ModelFit, Refusal> WholeDay::fit(const SurveyProblem& problem,
-                                              const RowChoice& choice) const {
+FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
     const std::vector<SurveyRow>& rows = problem.rows;
     const SurveyOptions& options = problem.options;
     auto refusal =
@@ -302,9 +294,6 @@ std::optional<std::string> day_refusal(const std::vector<SurveyRow>& rows,
     return std::nullopt;
 }
 
-const Model& whole_day_model() {
-    static const WholeDay model;
-    return model;
-}
+Model whole_day_model() { return {kWholeDay, false, fit_whole_day, score_day}; }
 
 }  // namespace a351::corrector

@@ -59,6 +59,6 @@ namespace a351::corrector {
 ///
 /// Cost: one search for the most likely noise and lags for each held station, on all cores, and one
 /// for all rows; twice as much with a calibration.
-[[nodiscard]] const Model& whole_day_model();
+[[nodiscard]] Model whole_day_model();
 
 }  // namespace a351::corrector

@@ -99,9 +99,8 @@ private:
         amendment.kind = kind;
         amendment.site = required_string(table, "site", "the site of an occupation");
         amendment.occupation = required_count(table, "occupation");
-        if (kind != "rename" && table.has("set_up")) {
+        if (kind != "rename" && table.has("set_up"))
             amendment.set_up = required_count(table, "set_up");
-        }
         amendment.reason = required_string(table, "reason", "the reason, in words");
         return amendment;
     }
@@ -170,16 +169,13 @@ std::vector<Amendment> amend(Windows& windows, const std::filesystem::path& file
     Amender amender(windows, sites);
     std::vector<Amendment> amendments;
     for (const std::string kind : {"exclude", "include"}) {
-        for (text::TomlTable& table : document.tables(kind)) {
+        for (text::TomlTable& table : document.tables(kind))
             amendments.push_back(amender.mark(table, kind));
-        }
     }
-    for (text::TomlTable& table : document.tables("retime")) {
+    for (text::TomlTable& table : document.tables("retime"))
         amendments.push_back(amender.retime(table));
-    }
-    for (text::TomlTable& table : document.tables("rename")) {
+    for (text::TomlTable& table : document.tables("rename"))
         amendments.push_back(amender.rename(table));
-    }
     document.require_all_read();
     return amendments;
 }

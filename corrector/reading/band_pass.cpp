@@ -62,9 +62,8 @@ std::vector<double> band_pass(const std::vector<double>& values, double step_s,
     std::vector<double> padded;
     for (std::size_t i = pad; i > 0; --i) padded.push_back(2.0 * values.front() - values[i]);
     padded.insert(padded.end(), values.begin(), values.end());
-    for (std::size_t i = 1; i <= pad; ++i) {
+    for (std::size_t i = 1; i <= pad; ++i)
         padded.push_back(2.0 * values.back() - values[values.size() - 1 - i]);
-    }
     const auto sections = design(step_s / longer_period_s, step_s / shorter_period_s);
     for (int pass = 0; pass < 2; ++pass) {
         for (const Section& section : sections) section.run(padded);

@@ -21,9 +21,8 @@ double median_of(std::span<const double> values) {
 double median_slope(std::span<const double> series) {
     const std::size_t half = series.size() / 2;
     std::vector<double> slopes;
-    for (std::size_t j = 0; j + half < series.size(); ++j) {
+    for (std::size_t j = 0; j + half < series.size(); ++j)
         slopes.push_back((series[j + half] - series[j]) / static_cast<double>(half));
-    }
     return half == 0 ? 0.0 : median(std::move(slopes));
 }
 
@@ -32,9 +31,8 @@ double median_slope(std::span<const double> series) {
 std::vector<double> line_through(std::span<const double> series) {
     const double slope = median_slope(series);
     std::vector<double> line;
-    for (std::size_t i = 0; i < series.size(); ++i) {
+    for (std::size_t i = 0; i < series.size(); ++i)
         line.push_back(series[0] + slope * static_cast<double>(i));
-    }
     return line;
 }
 
@@ -44,9 +42,8 @@ std::vector<double> running_median(std::span<const double> series) {
     std::vector<double> baseline(series.begin(), series.end());
     if (half == 0) return baseline;
     const std::size_t width = 2 * half + 1;
-    for (std::size_t i = half; i + half < n; ++i) {
+    for (std::size_t i = half; i + half < n; ++i)
         baseline[i] = median_of(series.subspan(i - half, width));
-    }
     const double first_slope = median_slope(series.first(width));
     const double last_slope = median_slope(series.last(width));
     const std::size_t last_centre = n - 1 - half;

@@ -15,9 +15,8 @@ constexpr double kMonotoneShare = 0.8;
 
 std::vector<double> block_means(std::span<const double> values, std::size_t block_size) {
     std::vector<double> means;
-    for (std::size_t i = 0; i + block_size <= values.size(); i += block_size) {
+    for (std::size_t i = 0; i + block_size <= values.size(); i += block_size)
         means.push_back(mean(values.subspan(i, block_size)));
-    }
     return means;
 }
 

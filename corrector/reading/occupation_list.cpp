@@ -56,9 +56,8 @@ void leave_out_overlapping(OccupationList& list) {
             leave_out(list.left_out, list.warnings, windows[i], "overlaps another",
                       ", " + named(*other));
         }
-        for (auto i = most.rbegin(); i != most.rend(); ++i) {
+        for (auto i = most.rbegin(); i != most.rend(); ++i)
             windows.erase(windows.begin() + static_cast<std::ptrdiff_t>(*i));
-        }
     }
 }
 
@@ -113,20 +112,17 @@ OccupationList read_occupation_table(const std::filesystem::path& file,
     for (std::size_t row = 0; row < table.row_count(); ++row) {
         OccupationWindow window;
         window.site = table.cell(row, "site");
-        if (text::find_site(sites, window.site) == nullptr) {
+        if (text::find_site(sites, window.site) == nullptr)
             table.refuse(row, "site", "unknown", "a name of the table of sites");
-        }
         const double number = table.number(row, "occupation", 1.0, 1e6);
         window.number = static_cast<int>(number);
-        if (static_cast<double>(window.number) != number) {
+        if (static_cast<double>(window.number) != number)
             table.refuse(row, "occupation", "not whole", "1, 2, ...");
-        }
         window.start = instant(table, row, "start_utc");
         window.end = instant(table, row, "end_utc");
         const std::string used = table.has_column("used") ? table.cell(row, "used") : "";
-        if (!used.empty() && used != "0" && used != "1") {
+        if (!used.empty() && used != "0" && used != "1")
             table.refuse(row, "used", "not a mark", "1, 0 or empty");
-        }
         window.is_flagged = used == "0";
         if (table.has_column("earth_tide_mgal")) {
             const auto tide = table.number_if_given(row, "earth_tide_mgal", -1.0, 1.0);

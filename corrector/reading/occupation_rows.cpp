@@ -206,9 +206,8 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
             source.path.string(), source.root.string(), result.warnings.back()));
     }
     std::ranges::stable_sort(result.left_out, {}, &LeftOut::start);
-    for (std::string& warning : position_warnings(result.rows, sites)) {
+    for (std::string& warning : position_warnings(result.rows, sites))
         result.warnings.push_back(std::move(warning));
-    }
     result.temperature_course =
         temperature_course(samples.temperature.segments, channels.temperature);
     result.inputs = inputs_of(source, stays);

@@ -121,9 +121,8 @@ std::vector<double> place_on_grid(const std::vector<record::Segment>& segments,
 SurveyChannels find_channels(const record::StationMetadata& station,
                              const std::filesystem::path& file) {
     SurveyChannels channels;
-    for (std::size_t k = 0; k < channels.axes.size(); ++k) {
+    for (std::size_t k = 0; k < channels.axes.size(); ++k)
         channels.axes[k] = channel_with(station, "N" + station.codes.axes[k], "m/s**2", file);
-    }
     channels.temperature = channel_with(station, "K1", "degC", file);
     return channels;
 }

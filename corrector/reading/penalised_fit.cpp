@@ -57,9 +57,8 @@ PenalisedFit::PenalisedFit(std::span<const double> weights, double penalty)
 bool PenalisedFit::returns_line() const {
     const std::size_t n = weights_.size();
     std::vector<double> line(n);
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < n; ++i)
         line[i] = 1.0 + static_cast<double>(i) / static_cast<double>(n - 1);
-    }
     std::vector<double> right_side = line;
     for (std::size_t i = 0; i < n; ++i) right_side[i] *= weights_[i];
     const std::vector<double> fitted = substitute(std::move(right_side));

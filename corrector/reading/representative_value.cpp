@@ -80,9 +80,8 @@ SampleCounts count_samples(const std::vector<std::size_t>& present, std::size_t 
 TimeSeries<DegC> decimate_temperature(const OccupationRecord& record,
                                       const DecimationFilter& filter) {
     const TimeSeries<DegC>& all = record.temperature;
-    if (all.rate() != record.x.rate()) {
+    if (all.rate() != record.x.rate())
         throw std::invalid_argument("representative_value: temperature and axes differ in rate");
-    }
     const double shift = seconds_between(all.start(), record.x.start()) * all.rate().value();
     if (std::abs(shift - std::round(shift)) > 0.01) {
         throw std::invalid_argument(
@@ -95,9 +94,8 @@ TimeSeries<DegC> decimate_temperature(const OccupationRecord& record,
                                std::numeric_limits<double>::quiet_NaN());
     for (std::size_t i = 0; i < around.size(); ++i) {
         const std::ptrdiff_t source = origin + static_cast<std::ptrdiff_t>(i);
-        if (source >= 0 && source < static_cast<std::ptrdiff_t>(all.size())) {
+        if (source >= 0 && source < static_cast<std::ptrdiff_t>(all.size()))
             around[i] = all.values()[static_cast<std::size_t>(source)];
-        }
     }
     const TimeSeries<DegC> decimated =
         decimate(TimeSeries<DegC>(record.x.start(), all.rate(), std::move(around)), filter,

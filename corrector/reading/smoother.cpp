@@ -38,9 +38,8 @@ void require(bool condition, const std::string& trouble) {
 
 std::vector<double> weighted(std::span<const double> weights, std::span<const double> values) {
     std::vector<double> product(values.size());
-    for (std::size_t i = 0; i < product.size(); ++i) {
+    for (std::size_t i = 0; i < product.size(); ++i)
         product[i] = weights[i] == 0.0 ? 0.0 : weights[i] * values[i];
-    }
     return product;
 }
 
@@ -143,9 +142,8 @@ SmoothTrend smooth(std::span<const double> series, double cutoff_period) {
         std::vector<double> next = weights_about(departure, curve, kSampleRounding * largest);
         converged = largest_change(next, weights) <= kSettled;
         if (converged) break;
-        for (std::size_t i = 0; round >= kPlainRounds && i < next.size(); ++i) {
+        for (std::size_t i = 0; round >= kPlainRounds && i < next.size(); ++i)
             next[i] = 0.5 * (next[i] + weights[i]);
-        }
         weights = std::move(next);
         fit = PenalisedFit(weights, penalty);
         curve = fit.solve(weighted(weights, departure));

@@ -53,9 +53,8 @@ int whole_number(const text::CsvTable& table, std::size_t row, std::string_view 
                  int high) {
     const double value = table.number(row, column, low, high);
     const int whole = static_cast<int>(value);
-    if (static_cast<double>(whole) != value) {
+    if (static_cast<double>(whole) != value)
         table.refuse(row, column, "not whole", "a whole number");
-    }
     return whole;
 }
 
@@ -88,9 +87,8 @@ std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
         // Gravity on Earth is 976000-984000 mGal, biases are some thousands.
         row.acceleration = MilliGal(table.number(i, "acceleration_mgal", 900e3, 1100e3));
         row.temperature = DegC(table.number(i, "temperature_degc", -60.0, 100.0));
-        if (std::ranges::find(rows, row.time, &SurveyRow::time) != rows.end()) {
+        if (std::ranges::find(rows, row.time, &SurveyRow::time) != rows.end())
             table.refuse(i, column.name, "appears twice", "one row per instant");
-        }
         rows.push_back(std::move(row));
     }
     if (rows.empty()) throw InputError(file.string() + ": no rows; allowed: at least one");
@@ -116,9 +114,8 @@ std::vector<std::string> position_warnings(const std::vector<SurveyRow>& rows,
         if (site == nullptr || site->is_placed) continue;
         std::string warning = row.site;
         warning += ": no position in the table of sites; the mean of the others is used";
-        if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) {
+        if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
             warnings.push_back(std::move(warning));
-        }
     }
     return warnings;
 }

@@ -16,9 +16,8 @@ std::vector<double> paper_curve(const EemdResult& components) {
     const Component* slowest = nullptr;
     for (const Component& mode : components.modes) {
         if (std::ranges::all_of(mode.values, [](double value) { return value == 0.0; })) continue;
-        if (slowest == nullptr || mode.mean_period_samples >= slowest->mean_period_samples) {
+        if (slowest == nullptr || mode.mean_period_samples >= slowest->mean_period_samples)
             slowest = &mode;
-        }
     }
     std::vector<double> curve = components.residue.values;
     if (slowest == nullptr) return curve;

@@ -21,9 +21,8 @@ Closure close_pair(const std::vector<CorrectedRow>& rows, std::size_t earlier, s
     pair.after_rate = pair.after_temperature + (b.rate_correction - a.rate_correction) +
                       (b.tilt_correction_or_zero() - a.tilt_correction_or_zero());
     pair.after_all = b.corrected - a.corrected;
-    if (a.row.occupation != b.row.occupation) {
+    if (a.row.occupation != b.row.occupation)
         pair.drift_mgal_per_h = pair.after_rate.value() / pair.hours;
-    }
     return pair;
 }
 

@@ -109,9 +109,8 @@ std::string html_list(const std::vector<std::string>& items) {
 
 std::string figures_html(const std::vector<Figure>& figures, const Drawing& drawing) {
     std::string large, small;
-    for (const Figure& figure : figures) {
+    for (const Figure& figure : figures)
         (figure.is_small ? small : large) += figure_html(figure, drawing);
-    }
     return large + (small.empty() ? "" : "<div class=\"small\">\n" + small + "</div>\n");
 }
 

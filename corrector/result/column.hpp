@@ -24,6 +24,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -58,6 +59,19 @@ using Cell = std::variant<std::monostate, bool, std::int64_t, double, std::strin
 [[nodiscard]] inline Cell cell(UtcTime time) { return time; }
 [[nodiscard]] inline Cell cell(const std::optional<UtcTime>& time) {
     return time ? Cell(*time) : Cell();
+}
+
+/// Returns a function that gives a member of a row as its cell.
+template <class Row, class Value>
+[[nodiscard]] std::function<Cell(const Row&)> of(Value Row::*member) {
+    return [member](const Row& row) -> Cell {
+        if constexpr (std::is_same_v<Value, std::size_t>)
+            return cell_of_count(row.*member);
+        else if constexpr (std::is_same_v<Value, bool> || std::is_same_v<Value, std::string>)
+            return row.*member;
+        else
+            return cell(row.*member);
+    };
 }
 
 /// How people see a column.  A default-constructed one hides it from them.

@@ -22,8 +22,14 @@ Column<CorrectedRow> of_shape(std::string_view key, TemperatureShape shape) {
             }};
 }
 
-Column<CorrectedRow> of_day(std::string_view key, Cell (*value)(const WholeDayRow&), Shown shown) {
-    return {key, [value](const CorrectedRow& row) { return value(*row.as<WholeDayRow>()); }, shown};
+/// Returns a column of what only one model gives; its cells are empty for other models.
+template <class Part, class Value>
+Column<CorrectedRow> of_model(std::string_view key, Value Part::*member, Shown shown = {}) {
+    const auto cell_of = [member](const CorrectedRow& row) {
+        const auto* const own = row.as<Part>();
+        return own != nullptr ? cell(own->*member) : Cell();
+    };
+    return {key, cell_of, shown};
 }
 
 Columns columns_of_records() {
@@ -56,36 +62,15 @@ Columns columns_of_records() {
 }
 
 Column<CorrectedRow> tilt_column() {
-    return {"tilt_correction_mgal",
-            [](const CorrectedRow& row) { return cell(row.tilt_correction); },
-            {"Tilt corr."}};
+    return {"tilt_correction_mgal", of(&CorrectedRow::tilt_correction), {"Tilt corr."}};
 }
 
 Columns columns_of_day() {
-    using D = const WholeDayRow&;
-    return {of_day("averaged_s", [](D day) { return cell(day.averaged_s); }, {"s", 0}),
-            of_day("fast_rate_degc_per_h", [](D day) { return cell(day.fast_rate_degc_per_h); },
-                   {"degC/h"}),
-            tilt_column(),
-            of_day("flicker_correction_mgal", [](D day) { return cell(day.flicker_correction); },
-                   {"Flicker corr."}),
-            of_day("left_out_mgal", [](D day) { return cell(day.left_out); }, {"Left out"})};
-}
-
-Cell corrected1(const CorrectedRow& row) {
-    const auto* const own = row.as<PaperRow>();
-    return own != nullptr ? cell(own->corrected1) : Cell();
-}
-
-Cell residual1(const CorrectedRow& row) {
-    const auto* const own = row.as<PaperRow>();
-    return own != nullptr && row.row.reference ? cell(*row.row.reference - own->corrected1)
-                                               : Cell();
-}
-
-Cell weight(const CorrectedRow& row) {
-    const auto* const own = row.as<RobustRow>();
-    return own != nullptr ? cell(own->weight) : Cell();
+    using Day = WholeDayRow;
+    return {of_model("averaged_s", &Day::averaged_s, {"s", 0}),
+            of_model("fast_rate_degc_per_h", &Day::fast_rate_degc_per_h, {"degC/h"}), tilt_column(),
+            of_model("flicker_correction_mgal", &Day::flicker_correction, {"Flicker corr."}),
+            of_model("left_out_mgal", &Day::left_out, {"Left out"})};
 }
 
 }  // namespace
@@ -100,29 +85,25 @@ std::vector<Column<CorrectedRow>> occupation_columns(const SurveyCorrection& res
         {"time_utc", [](Row row) { return cell(row.row.time); }, {"Time UTC", 0, 'n'}},
         {"start_utc", [](Row row) { return cell(row.row.start); }},
         {"end_utc", [](Row row) { return cell(row.row.end); }},
-        {"used", [](Row row) { return row.is_used; }, {"In fit", 0, 'l'}},
+        {"used", of(&CorrectedRow::is_used), {"In fit", 0, 'l'}},
         {"flags", [&result](Row row) { return flags_of(row, result.options); }, {"Flags", 0, 'l'}},
         {"acceleration_mgal", [](Row row) { return cell(row.row.acceleration); }, {"Acceleration"}},
         {"temperature_degc", [](Row row) { return row.row.temperature.value(); }, {"T degC"}},
         {"rate_degc_per_h", [](Row row) { return row.row.rate_degc_per_h; }, {"degC/h"}},
         {"tide_mgal", [](Row row) { return cell(row.row.tide); }, {"Tide"}},
-        {"difference_mgal", [](Row row) { return cell(row.difference); }, {"Difference"}},
-        {"temperature_correction_mgal",
-         [](Row row) { return cell(row.temperature_correction); },
-         {"T corr."}},
-        {"rate_correction_mgal", [](Row row) { return cell(row.rate_correction); }, {"Rate corr."}},
-        {"drift_correction_mgal",
-         [](Row row) { return cell(row.drift_correction); },
-         {"Drift corr."}},
-        {"corrected_mgal", [](Row row) { return cell(row.corrected); }, {"Corrected"}},
+        {"difference_mgal", of(&CorrectedRow::difference), {"Difference"}},
+        {"temperature_correction_mgal", of(&CorrectedRow::temperature_correction), {"T corr."}},
+        {"rate_correction_mgal", of(&CorrectedRow::rate_correction), {"Rate corr."}},
+        {"drift_correction_mgal", of(&CorrectedRow::drift_correction), {"Drift corr."}},
+        {"corrected_mgal", of(&CorrectedRow::corrected), {"Corrected"}},
         {"reference_mgal", [](Row row) { return cell(row.row.reference); }, {"Reference"}},
-        {"residual_mgal", [](Row row) { return cell(row.residual); }, {"Residual"}},
-        {"leverage", [](Row row) { return cell(row.leverage); }},
-        {"u_corrected_mgal", [](Row row) { return cell(row.u_corrected); }, {"u", 2}},
-        {"studentised_residual", [](Row row) { return cell(row.studentised_residual); }, {"t", 2}},
-        {"corrected1_mgal", [](Row row) { return corrected1(row); }},
+        {"residual_mgal", of(&CorrectedRow::residual), {"Residual"}},
+        {"leverage", of(&CorrectedRow::leverage)},
+        {"u_corrected_mgal", of(&CorrectedRow::u_corrected), {"u", 2}},
+        {"studentised_residual", of(&CorrectedRow::studentised_residual), {"t", 2}},
+        of_model("corrected1_mgal", &PaperRow::corrected1),
         // The publication's Error (1) (Table 2); residual_mgal is its Error (2).
-        {"residual1_mgal", [](Row row) { return residual1(row); }},
+        of_model("residual1_mgal", &PaperRow::residual1),
     };
     const CorrectedRow& first = result.rows.front();
     if (first.row.record) append(columns, columns_of_records());
@@ -130,30 +111,23 @@ std::vector<Column<CorrectedRow>> occupation_columns(const SurveyCorrection& res
         append(columns, columns_of_day());
     else if (first.tilt_correction)
         columns.push_back(tilt_column());
-    append(columns, {{"weight", [](Row row) { return weight(row); }},
-                     {"doubt_physical", [](Row row) { return row.doubt_physical; }},
-                     {"doubt_statistical", [](Row row) { return row.doubt_statistical; }}});
+    append(columns, {of_model("weight", &RobustRow::weight),
+                     {"doubt_physical", of(&CorrectedRow::doubt_physical)},
+                     {"doubt_statistical", of(&CorrectedRow::doubt_statistical)}});
     return columns;
 }
 
 std::vector<Column<StationValue>> station_columns() {
-    using Station = const StationValue&;
     return {
-        {"site", [](Station station) { return station.site; }, {"Station", 0, 'n'}},
-        {"n", [](Station station) { return cell_of_count(station.row_count); }, {"n"}},
-        {"gravity_mgal", [](Station station) { return cell(station.gravity); }, {"Gravity mGal"}},
-        {"u_gravity_mgal", [](Station station) { return cell(station.u_gravity); }, {"u mGal", 2}},
-        {"reference_mgal",
-         [](Station station) { return cell(station.reference); },
-         {"Reference mGal"}},
-        {"residual_mgal",
-         [](Station station) { return cell(station.residual); },
-         {"Residual mGal"}},
-        {"redundancy", [](Station station) { return cell(station.redundancy); }, {"Redundancy", 2}},
-        {"flagged_only",
-         [](Station station) { return station.is_flagged_only; },
-         {"Flagged only", 0, 'l'}},
-        {"u_a_posteriori_mgal", [](Station station) { return cell(station.u_a_posteriori); }},
+        {"site", of(&StationValue::site), {"Station", 0, 'n'}},
+        {"n", of(&StationValue::row_count), {"n"}},
+        {"gravity_mgal", of(&StationValue::gravity), {"Gravity mGal"}},
+        {"u_gravity_mgal", of(&StationValue::u_gravity), {"u mGal", 2}},
+        {"reference_mgal", of(&StationValue::reference), {"Reference mGal"}},
+        {"residual_mgal", of(&StationValue::residual), {"Residual mGal"}},
+        {"redundancy", of(&StationValue::redundancy), {"Redundancy", 2}},
+        {"flagged_only", of(&StationValue::is_flagged_only), {"Flagged only", 0, 'l'}},
+        {"u_a_posteriori_mgal", of(&StationValue::u_a_posteriori)},
     };
 }
 

@@ -49,19 +49,14 @@ std::vector<JointStation> join_days(const std::vector<SurveyCorrection>& days) {
 }
 
 const std::vector<Column<JointStation>>& joint_columns() {
-    using Station = const JointStation&;
     static const std::vector<Column<JointStation>> columns{
-        {"site", [](Station station) { return station.site; }, {"Station", 0, 'n'}},
-        {"days", [](Station station) { return cell_of_count(station.day_count); }, {"Days"}},
-        {"n", [](Station station) { return cell_of_count(station.row_count); }, {"n"}},
-        {"gravity_mgal", [](Station station) { return cell(station.gravity); }, {"Gravity mGal"}},
-        {"u_gravity_mgal", [](Station station) { return cell(station.u_gravity); }, {"u mGal", 2}},
-        {"reference_mgal",
-         [](Station station) { return cell(station.reference); },
-         {"Reference mGal"}},
-        {"residual_mgal",
-         [](Station station) { return cell(station.residual); },
-         {"Residual mGal"}},
+        {"site", of(&JointStation::site), {"Station", 0, 'n'}},
+        {"days", of(&JointStation::day_count), {"Days"}},
+        {"n", of(&JointStation::row_count), {"n"}},
+        {"gravity_mgal", of(&JointStation::gravity), {"Gravity mGal"}},
+        {"u_gravity_mgal", of(&JointStation::u_gravity), {"u mGal", 2}},
+        {"reference_mgal", of(&JointStation::reference), {"Reference mGal"}},
+        {"residual_mgal", of(&JointStation::residual), {"Residual mGal"}},
     };
     return columns;
 }

@@ -30,9 +30,8 @@ ReferenceCheck check_references(const SurveyCorrection& result, const NetworkAdj
         ++check.station_count;
         squares += station.residual->value() * station.residual->value();
     }
-    if (check.station_count > 0) {
+    if (check.station_count > 0)
         check.rms_mgal = std::sqrt(squares / static_cast<double>(check.station_count));
-    }
     return check;
 }
 

@@ -13,7 +13,7 @@ using nlohmann::json;
 const char* name(timing::TimingState state) {
     // In the order of the enumerators.
     constexpr std::array kTexts{"unlocked", "coarse", "locked", "holdover"};
-    return kTexts[static_cast<std::size_t>(state)];
+    return kTexts.at(static_cast<std::size_t>(state));
 }
 
 template <class Number>
@@ -114,7 +114,7 @@ json counters_of(const Status& status) {
 std::string_view to_text(Status::Level level) noexcept {
     // In the order of the enumerators.
     constexpr std::array kTexts{"good", "warning", "fault"};
-    return kTexts[static_cast<std::size_t>(level)];
+    return kTexts.at(static_cast<std::size_t>(level));
 }
 
 json to_json(const Status& status, const Occupations& occupations, const FieldStatus& field,

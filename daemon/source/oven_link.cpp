@@ -38,7 +38,7 @@ OvenLinkStatus::State state_after(OvenOutcome outcome) {
 const char* to_text(OvenLinkStatus::State state) noexcept {
     // In the order of the enumerators.
     constexpr std::array kTexts{"searching", "silent", "disturbed", "answering"};
-    return kTexts[static_cast<std::size_t>(state)];
+    return kTexts.at(static_cast<std::size_t>(state));
 }
 
 std::map<std::string, std::uint64_t> polls_by_outcome(const OvenLinkStatus& status) {

@@ -44,7 +44,7 @@ record::SessionId random_session() {
 const char* to_text(LinkStatus::State state) noexcept {
     // In the order of the enumerators.
     constexpr std::array kTexts{"searching", "handshake", "sampling", "waiting", "stopped"};
-    return kTexts[static_cast<std::size_t>(state)];
+    return kTexts.at(static_cast<std::size_t>(state));
 }
 
 SensorLink::SensorLink(LinkOptions options, const HostClock& clock, ReadQueue& queue)

@@ -135,9 +135,8 @@ std::optional<std::size_t> TtyPort::read(std::span<std::byte> into,
     if (ready < 0) return std::nullopt;
     const ssize_t count = ::read(descriptor_, into.data(), into.size());
     if (count > 0) return static_cast<std::size_t>(count);
-    if (count < 0 && (errno == EAGAIN || errno == EINTR) && (waited.revents & POLLHUP) == 0) {
+    if (count < 0 && (errno == EAGAIN || errno == EINTR) && (waited.revents & POLLHUP) == 0)
         return 0;
-    }
     return std::nullopt;
 }
 

@@ -61,7 +61,7 @@ SpaceReserve::Status SpaceReserve::status() const {
 const char* to_text(SpaceReserve::State state) {
     // In the order of the enumerators.
     constexpr std::array kTexts{"present", "given_up", "unavailable"};
-    return kTexts[static_cast<std::size_t>(state)];
+    return kTexts.at(static_cast<std::size_t>(state));
 }
 
 }  // namespace a351::daemon

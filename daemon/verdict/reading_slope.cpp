@@ -34,9 +34,8 @@ void ReadingSlope::close_minute() {
     if (count_ >= kLeastInMinute) {
         minutes_.push_back({begun_ + from_seconds(0.5 * kSecondsPerMinute), sum_mgal_ / count_});
         const double kept_s = std::max(kKeptSeconds, kSecondsPerMinute * options_.history_min);
-        while (seconds_between(minutes_.front().time, minutes_.back().time) >= kept_s) {
+        while (seconds_between(minutes_.front().time, minutes_.back().time) >= kept_s)
             minutes_.pop_front();
-        }
         slope_ = fit();
     }
     sum_mgal_ = 0.0;

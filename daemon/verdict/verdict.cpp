@@ -20,7 +20,7 @@ constexpr double kWatchedHours = 1.0;  ///< Time in which a box that was switche
 std::string_view to_text(VerdictState state) noexcept {
     // In the order of the enumerators.
     constexpr std::array kTexts{"no data", "warming up", "disturbed", "settling", "stable"};
-    return kTexts[static_cast<std::size_t>(state)];
+    return kTexts.at(static_cast<std::size_t>(state));
 }
 
 std::string Reason::to_text() const {

@@ -237,9 +237,8 @@ RecordHeader header_of(std::span<const std::byte> bytes, const MSRecord& record)
 
 PackedRecord pack_record(const RecordHeader& header, std::span<const std::int32_t> samples) {
     if (samples.empty()) throw std::invalid_argument("pack_record: no samples");
-    if (header.sequence < 1 || header.sequence > 999'999) {
+    if (header.sequence < 1 || header.sequence > 999'999)
         throw std::invalid_argument("pack_record: sequence outside 1 ... 999999");
-    }
     const auto lock = lock_libmseed();
     const std::unique_ptr<MSRecord, FreeRecord> record(msr_init(nullptr));
     if (!record) throw std::bad_alloc();
@@ -284,9 +283,8 @@ PackedRecord pack_record(const RecordHeader& header, std::span<const std::int32_
     const int record_count =
         msr_pack(record.get(), keep_first_record, &packed, &sample_count, kFlush, 0);
     record->datasamples = nullptr;  // Borrowed.
-    if (record_count < 1) {
+    if (record_count < 1)
         throw std::invalid_argument("pack_record: libmseed refuses a record of " + header.channel);
-    }
     if (header.declared_rate_hz) {
         // libmseed sets both rates from one number; here the fixed header keeps the nominal rate.
         put_float(packed.bytes, kBlockette100At + 4, static_cast<float>(*header.declared_rate_hz));

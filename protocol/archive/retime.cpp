@@ -158,9 +158,8 @@ RetimeReport retime(FileLayer& files, const fs::path& root, const fs::path& out_
         Archives archives(files, partial / "archive");
         write(segments, retiming, archives, report);
         write_events(files, root, partial, retiming);
-        if (fs::exists(root / "metadata")) {
+        if (fs::exists(root / "metadata"))
             fs::copy(root / "metadata", partial / "metadata", fs::copy_options::recursive);
-        }
         files.rename(partial, out);
         files.sync_directory(fs::absolute(out).parent_path());
     } catch (...) {

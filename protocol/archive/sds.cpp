@@ -27,9 +27,8 @@ std::vector<fs::path> station_directories(const fs::path& archive, const Station
     if (!fs::is_directory(archive)) return directories;
     for (const auto& year : fs::directory_iterator(archive)) {
         const auto station = year.path() / codes.network / codes.station;
-        if (has_shape(year.path().filename().string(), "####") && fs::is_directory(station)) {
+        if (has_shape(year.path().filename().string(), "####") && fs::is_directory(station))
             directories.push_back(station);
-        }
     }
     std::ranges::sort(directories);
     return directories;
@@ -88,9 +87,8 @@ namespace {
 /// last whole record.
 std::uint64_t end_of_whole_records(const fs::path& day_file) {
     std::uint64_t whole = fs::file_size(day_file) / kRecordSize * kRecordSize;
-    while (whole > 0 && !decode_record(read_bytes(day_file, whole - kRecordSize, kRecordSize))) {
+    while (whole > 0 && !decode_record(read_bytes(day_file, whole - kRecordSize, kRecordSize)))
         whole -= kRecordSize;
-    }
     return whole;
 }
 

@@ -85,9 +85,8 @@ public:
         if (!path.has_filename()) path = path.parent_path();
         for (; !std::filesystem::exists(path); path = path.parent_path()) missing.push_back(path);
         for (; !missing.empty(); missing.pop_back()) {
-            if (::mkdir(missing.back().c_str(), 0755) != 0 && errno != EEXIST) {
+            if (::mkdir(missing.back().c_str(), 0755) != 0 && errno != EEXIST)
                 fail("create directory", missing.back(), errno);
-            }
             sync_directory(missing.back().parent_path());
         }
     }
@@ -120,9 +119,8 @@ public:
         if (::fstat(opened.get(), &status) != 0) fail("stat", file, errno);
         // A file system that compresses zeros away has reserved nothing.
         constexpr std::uint64_t kStatBlock = 512;  // stat(2), st_blocks.
-        if (static_cast<std::uint64_t>(status.st_blocks) * kStatBlock < size) {
+        if (static_cast<std::uint64_t>(status.st_blocks) * kStatBlock < size)
             fail("allocate", file, EOPNOTSUPP);
-        }
     }
 
     [[nodiscard]] std::optional<std::uint64_t> free_bytes(

@@ -21,9 +21,8 @@ template <class Int>
 void put(std::vector<std::byte>& out, std::type_identity_t<Int> value) {
     using Bits = std::make_unsigned_t<Int>;
     const auto bits = static_cast<Bits>(value);
-    for (std::size_t i = 0; i < sizeof(Int); ++i) {
+    for (std::size_t i = 0; i < sizeof(Int); ++i)
         out.push_back(static_cast<std::byte>(bits >> (8 * i) & 0xFFU));
-    }
 }
 
 void put(std::vector<std::byte>& out, std::string_view text) {
@@ -110,9 +109,8 @@ struct PayloadWriter {
 
     void operator()(const JournalHeader& header) const { put(out, header_to_json(header)); }
     void operator()(const RxChunk& rx) const {
-        if (!do_reads_fit(rx)) {
+        if (!do_reads_fit(rx))
             throw std::invalid_argument("RxChunk: reads must ascend and end at the last byte");
-        }
         const RawTime first = rx.reads.front().time;
         put<std::int64_t>(out, first.time_since_epoch().count());
         put<std::uint32_t>(out, static_cast<std::uint32_t>(rx.reads.size()));
@@ -146,9 +144,8 @@ struct PayloadWriter {
     void operator()(const MarkChunk& mark) const {
         for (const std::uint8_t byte : mark.session.bytes) put<std::uint8_t>(out, byte);
         for (const ChannelMark& channel : mark.channels) {
-            if (channel.channel.size() > 255) {
+            if (channel.channel.size() > 255)
                 throw std::invalid_argument("ChannelMark: channel longer than 255 characters");
-            }
             put<std::uint8_t>(out, static_cast<std::uint8_t>(channel.channel.size()));
             put(out, channel.channel);
             put<std::int64_t>(out, channel.index);
@@ -156,9 +153,8 @@ struct PayloadWriter {
         }
     }
     void operator()(const OvenChunk& poll) const {
-        if (!has_registers_by_outcome(poll) || poll.registers.size() > 255) {
+        if (!has_registers_by_outcome(poll) || poll.registers.size() > 255)
             throw std::invalid_argument("OvenChunk: 1-255 registers if answered, else none");
-        }
         put<std::int64_t>(out, poll.time.time_since_epoch().count());
         put<std::uint8_t>(out, static_cast<std::uint8_t>(poll.outcome));
         put<std::uint8_t>(out, poll.decimals);

@@ -53,7 +53,17 @@ enum class ChunkType : std::uint8_t {
     oven = 8,
 };
 
+/// True if `Chunk` is the alternative of JournalChunk with this code.
+template <ChunkType kType, class Chunk>
+inline constexpr bool kIsCoded =
+    std::is_same_v<std::variant_alternative_t<static_cast<std::size_t>(kType) - 1, JournalChunk>,
+                   Chunk>;
 static_assert(std::variant_size_v<JournalChunk> == static_cast<std::size_t>(ChunkType::oven));
+static_assert(kIsCoded<ChunkType::head, JournalHeader> && kIsCoded<ChunkType::rx, RxChunk> &&
+              kIsCoded<ChunkType::tx, TxChunk> &&
+              kIsCoded<ChunkType::clock, timing::ClockReading> &&
+              kIsCoded<ChunkType::model, ModelChunk> && kIsCoded<ChunkType::event, EventChunk> &&
+              kIsCoded<ChunkType::mark, MarkChunk> && kIsCoded<ChunkType::oven, OvenChunk>);
 
 /// The fields before a payload.
 struct ChunkHeader {

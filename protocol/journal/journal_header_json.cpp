@@ -56,9 +56,8 @@ JournalHeader header_from_json(const Json& json) {
     header.filter = json.at("filter").get<std::string>();
     header.burst_ctrl = json.at("burst_ctrl").get<std::uint16_t>();
     header.baud = json.at("baud").get<int>();
-    if (json.contains("declared_rate_hz")) {
+    if (json.contains("declared_rate_hz"))
         header.declared_rate_hz = json.at("declared_rate_hz").get<double>();
-    }
     header.oven_interval = std::chrono::seconds(json.value("oven_interval_s", 1));
     if (header.oven_interval < kShortestOvenInterval || header.oven_interval > kLongestOvenInterval)
         throw std::invalid_argument("oven_interval_s");

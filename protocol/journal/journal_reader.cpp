@@ -68,9 +68,8 @@ std::optional<JournalChunk> JournalReader::next() {
         if (chunk_crc(chunk, payload_) != chunk.crc) return stop("wrong checksum");
         if (chunk.sequence != next_sequence_) return stop("wrong sequence number");
         const bool is_head = chunk.type == static_cast<std::uint8_t>(ChunkType::head);
-        if (is_head != (chunk.sequence == 0)) {
+        if (is_head != (chunk.sequence == 0))
             return stop(is_head ? "header inside the segment" : "no header");
-        }
         std::optional<JournalChunk> decoded;
         if (is_known(chunk.type)) {
             decoded = decode_payload(static_cast<ChunkType>(chunk.type), payload_);
@@ -163,9 +162,8 @@ std::vector<std::filesystem::path> journal_segments(const std::filesystem::path&
     if (std::filesystem::exists(directory)) {
         for (const auto& entry : std::filesystem::directory_iterator(directory)) {
             const auto number = segment_number(entry.path());
-            if (number && (entry.path().extension() == ".a351j" || is_compressed(entry.path()))) {
+            if (number && (entry.path().extension() == ".a351j" || is_compressed(entry.path())))
                 numbered.emplace_back(*number, entry.path());
-            }
         }
     }
     // Sorted by number; an original precedes its compressed copy, which a crash may have left.

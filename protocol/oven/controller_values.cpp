@@ -24,9 +24,8 @@ std::optional<ControllerValues> controller_values(std::span<const std::uint16_t>
     };
     ControllerValues values;
     values.status = value(Monitor::status);
-    if (!has_input_error(values.status)) {
+    if (!has_input_error(values.status))
         values.process_value = DegC(scaled(value(Monitor::process_value), decimals));
-    }
     values.set_point = DegC(scaled(value(Monitor::set_point), decimals));
     values.heating = Percent(scaled(value(Monitor::heating), 1));
     return values;

@@ -28,9 +28,8 @@ DecimationFilter design_decimation(int factor) {
     }
     DecimationFilter filter;
     filter.factor = static_cast<std::size_t>(factor);
-    for (int n = 0; n <= order; ++n) {
+    for (int n = 0; n <= order; ++n)
         filter.taps.push_back(right[static_cast<std::size_t>(std::abs(n - half))] / sum);
-    }
     return filter;
 }
 

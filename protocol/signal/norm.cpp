@@ -15,9 +15,8 @@ bool same_grid(const TimeSeries<StandardGravity>& a, const TimeSeries<StandardGr
 TimeSeries<StandardGravity> norm(const TimeSeries<StandardGravity>& x,
                                  const TimeSeries<StandardGravity>& y,
                                  const TimeSeries<StandardGravity>& z) {
-    if (!same_grid(x, y) || !same_grid(x, z)) {
+    if (!same_grid(x, y) || !same_grid(x, z))
         throw std::invalid_argument("norm: the axes must agree in start, rate and length");
-    }
     std::vector<double> values(x.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
         const double a = x.values()[i];

@@ -44,9 +44,8 @@ ChannelScale read_scale(const std::filesystem::path& file, pugi::xml_node channe
         return scale;
     }
     std::vector<double> coefficients;
-    for (const auto node : polynomial.children("Coefficient")) {
+    for (const auto node : polynomial.children("Coefficient"))
         coefficients.push_back(number_in(file, scale.code, node));
-    }
     if (coefficients.size() != 2) {
         refuse(file, fmt::format("channel {}: {} polynomial coefficients; allowed: 2", scale.code,
                                  coefficients.size()));

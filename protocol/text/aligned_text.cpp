@@ -10,9 +10,8 @@ std::string fixed(double value, int decimals) {
     std::string text(digits, std::to_chars(digits, digits + sizeof digits, value,
                                            std::chars_format::fixed, decimals)
                                  .ptr);
-    if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos) {
+    if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos)
         text.erase(0, 1);
-    }
     return text;
 }
 

@@ -35,9 +35,8 @@ const std::string& CsvTable::cell(std::size_t row, std::string_view column) cons
 double CsvTable::number(std::size_t row, std::string_view column, double low, double high) const {
     const std::optional<double> value = parse_number(cell(row, column));
     if (!value) refuse(row, column, "not a number", "a finite number with a decimal point");
-    if (!(*value >= low && *value <= high)) {
+    if (!(*value >= low && *value <= high))
         refuse(row, column, "out of range", shortest(low) + " to " + shortest(high));
-    }
     return *value;
 }
 

@@ -33,9 +33,8 @@ void split(std::string_view line, std::vector<std::string_view>& cells) {
 
 CsvReader::CsvReader(std::istream& in, std::filesystem::path origin)
     : in_(in), origin_(std::move(origin)) {
-    if (!next_line()) {
+    if (!next_line())
         throw InputError(origin_.string() + ":1: no header line; allowed: column names");
-    }
     for (auto cell = cells_.begin(); cell != cells_.end(); ++cell) {
         if (std::find(cells_.begin(), cell, *cell) != cell) {
             throw InputError(fmt::format("{}:{}: column {} appears twice; allowed: once",
@@ -60,9 +59,8 @@ bool CsvReader::next_line() {
     while (std::getline(in_, text_)) {
         std::string_view content = text_;
         constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-        if (++line_ == 1 && content.starts_with(kByteOrderMark)) {
+        if (++line_ == 1 && content.starts_with(kByteOrderMark))
             content.remove_prefix(kByteOrderMark.size());
-        }
         if (trimmed(content).empty() &&
             (columns_.size() != 1 || in_.eof() || in_.peek() == std::istream::traits_type::eof()))
             continue;

@@ -60,9 +60,8 @@ std::vector<Site> read_sites(const std::filesystem::path& file) {
     for (std::size_t row = 0; row < table.row_count(); ++row) {
         const std::string& name = table.cell(row, "site");
         if (name.empty()) table.refuse(row, "site", "empty", "a name");
-        if (find_site(sites, name) != nullptr) {
+        if (find_site(sites, name) != nullptr)
             table.refuse(row, "site", "appears twice", "each site once");
-        }
         Site site{name,
                   Degrees(longitudes[row]),
                   Degrees(latitudes[row]),
@@ -70,9 +69,8 @@ std::vector<Site> read_sites(const std::filesystem::path& file) {
                   std::nullopt,
                   is_placed[row]};
         // Gravity on the Earth's surface: 976 400 (Huascaran) to 983 400 mGal (Arctic Ocean).
-        if (const auto gravity = table.number_if_given(row, "gravity_mgal", 976000.0, 984000.0)) {
+        if (const auto gravity = table.number_if_given(row, "gravity_mgal", 976000.0, 984000.0))
             site.gravity = MilliGal(*gravity);
-        }
         sites.push_back(std::move(site));
     }
     return sites;

@@ -54,9 +54,8 @@ void TomlTable::refuse(std::string_view key, std::string_view trouble,
     std::string message = position(document_->origin, source) + ": ";
     if (!name_.empty()) message += name_ + ".";
     message += key;
-    if (node != nullptr && !node->is_table() && !node->is_array_of_tables()) {
+    if (node != nullptr && !node->is_table() && !node->is_array_of_tables())
         message += " = " + as_written(*node);
-    }
     throw InputError(fmt::format("{}: {}; allowed: {}", message, trouble, allowed));
 }
 
@@ -159,9 +158,8 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
     const toml::node* node = find(key);
     if (node == nullptr) return tables;
     if (!node->is_array_of_tables()) refuse(key, "wrong type", "an array of tables");
-    for (const toml::node& item : *node->as_array()) {
+    for (const toml::node& item : *node->as_array())
         tables.push_back(TomlTable(document_, item.as_table(), std::string(key)));
-    }
     return tables;
 }
 

@@ -4,37 +4,37 @@
 
 namespace a351::corrector {
 
+namespace {
+
+constexpr double kDayLagFactor = 1.5;
+
+/// Priors in the order of ThermalTerm.
+using Priors = std::array<ThermalPrior, kThermalTerms>;
+
+ThermalPrior of_lag(double median_s, double factor) {
+    return {std::log(median_s), std::log(factor)};
+}
+
+ThermalPrior as_large(double mean) { return {mean, std::abs(mean)}; }
+
+}  // namespace
+
 ThermalPrior day_prior(ThermalTerm term) {
-    constexpr double kLagFactor = 1.5;
-    const auto as_large = [](double mean) { return ThermalPrior{mean, std::abs(mean)}; };
-    switch (term) {
-        case ThermalTerm::level:
-            return as_large(kTypicalUnit.level_mgal_per_degc);
-        case ThermalTerm::slow:
-            return as_large(kTypicalUnit.slow_mgal_per_degc);
-        case ThermalTerm::fast:
-            return as_large(kTypicalUnit.fast_mgal_per_degc_per_h);
-        case ThermalTerm::fast_lag:
-            return {std::log(kTypicalUnit.fast_lag_s), std::log(kLagFactor)};
-        case ThermalTerm::slow_lag:
-            break;
-    }
-    return {std::log(kTypicalUnit.slow_lag_s), std::log(kLagFactor)};
+    static const Priors priors{as_large(kTypicalUnit.level_mgal_per_degc),
+                               as_large(kTypicalUnit.slow_mgal_per_degc),
+                               as_large(kTypicalUnit.fast_mgal_per_degc_per_h),
+                               of_lag(kTypicalUnit.fast_lag_s, kDayLagFactor),
+                               of_lag(kTypicalUnit.slow_lag_s, kDayLagFactor)};
+    return priors.at(static_cast<std::size_t>(term));
 }
 
 ThermalPrior record_prior(ThermalTerm term) {
-    switch (term) {
-        case ThermalTerm::level:
-        case ThermalTerm::slow:
-            return {0.0, kRecordSlopeDeviation_mgal_per_degc};
-        case ThermalTerm::fast:
-            return {0.0, kRecordFastDeviation_mgal_per_degc_per_h};
-        case ThermalTerm::fast_lag:
-            return {std::log(kTypicalUnit.fast_lag_s), std::log(kRecordLagFactor)};
-        case ThermalTerm::slow_lag:
-            break;
-    }
-    return {std::log(kTypicalUnit.slow_lag_s), std::log(kRecordLagFactor)};
+    static const Priors priors{ThermalPrior{0.0, kRecordSlopeDeviation_mgal_per_degc},
+                               {0.0, kRecordSlopeDeviation_mgal_per_degc},
+                               {0.0, kRecordFastDeviation_mgal_per_degc_per_h},
+                               of_lag(kTypicalUnit.fast_lag_s, kRecordLagFactor),
+                               of_lag(kTypicalUnit.slow_lag_s, kRecordLagFactor)};
+    return priors.at(static_cast<std::size_t>(term));
 }
 
 std::vector<double> lagged(const TimeSeries<DegC>& series, double tau_s) {

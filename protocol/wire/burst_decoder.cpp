@@ -32,9 +32,8 @@ std::optional<Reason> find_fault(const BurstLayout& layout, Bytes frame) noexcep
     if (frame.back() != kEndByte) return Reason::bad_end_byte;
     if (layout.has_checksum()) {
         const std::size_t at = frame.size() - tail_size(layout);
-        if (word_at(frame, at) != burst_checksum(frame.subspan(1, at - 1))) {
+        if (word_at(frame, at) != burst_checksum(frame.subspan(1, at - 1)))
             return Reason::bad_checksum;
-        }
     }
     return std::nullopt;
 }

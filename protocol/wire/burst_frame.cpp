@@ -13,9 +13,8 @@ constexpr std::uint16_t kDefinedBits =
 template <class Integer>
 void append_big_endian(Integer value, std::vector<std::byte>& out) {
     const auto bits = static_cast<std::make_unsigned_t<Integer>>(value);
-    for (int shift = 8 * (static_cast<int>(sizeof(Integer)) - 1); shift >= 0; shift -= 8) {
+    for (int shift = 8 * (static_cast<int>(sizeof(Integer)) - 1); shift >= 0; shift -= 8)
         out.push_back(static_cast<std::byte>((bits >> shift) & 0xFFU));
-    }
 }
 
 }  // namespace
@@ -53,14 +52,12 @@ void append_frame(const BurstLayout& layout, const BurstValues& values,
     if (layout.has_flag()) append_big_endian(values.flag, out);
     if (layout.has_temperature()) append_big_endian(values.temperature, out);
     for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
-        if (layout.has_axis(axis)) {
+        if (layout.has_axis(axis))
             append_big_endian(values.axes[static_cast<std::size_t>(axis)], out);
-        }
     }
     if (layout.has_count()) append_big_endian(values.count, out);
-    if (layout.has_checksum()) {
+    if (layout.has_checksum())
         append_big_endian(burst_checksum(std::span(out).subspan(start + 1)), out);
-    }
     out.push_back(kEndByte);
 }
 

@@ -83,9 +83,8 @@ HandshakeStep Handshake::next(std::span<const std::byte> answer) {
     }
     assert(!queue_.empty());
     HandshakeStep step = queue_.front();
-    if (std::holds_alternative<Sampling>(step) || std::holds_alternative<HandshakeFailure>(step)) {
+    if (std::holds_alternative<Sampling>(step) || std::holds_alternative<HandshakeFailure>(step))
         return step;
-    }
     queue_.pop_front();
     is_waiting_for_answer_ = std::holds_alternative<Receive>(step);
     return step;
@@ -170,9 +169,8 @@ void Handshake::take_diagnosis(std::uint16_t value) {
     identity_.diag_stat = value;
     const std::string found = mismatch(kDiagStat, 0, value, kDiagHardError | kDiagFlashError);
     if ((value & kDiagHardError) != 0) return fail(found + ": HARD_ERR, the sensor is faulty");
-    if ((value & kDiagFlashError) != 0) {
+    if ((value & kDiagFlashError) != 0)
         return fail(found + ": FLASH_ERR, the sensor could not read its calibration");
-    }
     ask(&Handshake::take_identity, *register_at(Window::w1, kFirstIdentityAddress));
 }
 
@@ -231,9 +229,8 @@ void Handshake::take_aliasing(std::uint16_t value) {
 }
 
 void Handshake::take_window(std::uint16_t value) {
-    if ((value & kWinCtrl.defined_bits) != 0) {
+    if ((value & kWinCtrl.defined_bits) != 0)
         return retry(mismatch(kWinCtrl, 0, value, kWinCtrl.defined_bits));
-    }
     send(std::exchange(config_, std::nullopt).value().start_sampling().second);
     queue_.push_back(Sampling{identity_});
 }

@@ -82,9 +82,8 @@ void run(const DeviceCommand& command, const std::function<bool()>& should_stop)
     FaultRules rules{profile, clock.factor};
     if (!command.oven_link.empty()) rules.oven_kinds = OvenPort::fault_kinds();
     FaultScript script;
-    if (!command.faults.empty()) {
+    if (!command.faults.empty())
         script = read_fault_script(command.faults, scenario.start(), rules);
-    }
 
     Pty pty(command.link);
     std::optional<TruthWriter> truth;

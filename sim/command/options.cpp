@@ -60,9 +60,8 @@ ClockScale clock_of(const std::string& clock, double factor, UtcTime start) {
     const UtcTime now = host_now();
     if (clock.empty()) return {factor, start, now};
     const auto scale = parse_clock_scale(clock, now);
-    if (!scale) {
+    if (!scale)
         throw InputError("--clock " + clock + ": not a clock; allowed: scaled:FACTOR@UTC[,HOST]");
-    }
     return *scale;
 }
 

@@ -28,9 +28,8 @@ double factor_of(const std::string& speed) {
     double factor = 0.0;
     const char* const end = speed.data() + speed.size();
     const auto parsed = std::from_chars(speed.data(), end, factor);
-    if (parsed.ec != std::errc() || parsed.ptr != end || factor < kSlowest || factor > kFastest) {
+    if (parsed.ec != std::errc() || parsed.ptr != end || factor < kSlowest || factor > kFastest)
         throw InputError("--speed " + speed + ": not a speed; allowed: max, or 0.001 ... 1000000");
-    }
     return factor;
 }
 

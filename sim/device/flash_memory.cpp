@@ -43,9 +43,8 @@ void read_coefficients(text::TomlTable& table, FlashMemory& memory) {
     }
     for (std::size_t i = 0; i < digits.size(); i += 2) {
         const char* end = digits.data() + i + 2;
-        if (std::from_chars(digits.data() + i, end, memory.coefficients[i / 2], 16).ptr != end) {
+        if (std::from_chars(digits.data() + i, end, memory.coefficients[i / 2], 16).ptr != end)
             table.refuse("bytes", "not hexadecimal: " + digits.substr(i, 2), "0 ... 9, A ... F");
-        }
     }
 }
 
@@ -65,14 +64,12 @@ FlashMemory read_flash_file(const std::filesystem::path& file, const wire::Devic
         if (!registers.has(reg.name)) registers.refuse(reg.name, "missing", "0 ... 0xFFFF");
         const auto value =
             static_cast<std::uint16_t>(registers.integer_or(reg.name, 0, 0, wire::kBothBytes));
-        if ((value & ~reg.defined_bits) != 0 || !may_hold(profile, reg, value)) {
+        if ((value & ~reg.defined_bits) != 0 || !may_hold(profile, reg, value))
             registers.refuse(reg.name, "reserved", "a value that the device accepts");
-        }
         memory.settings[i++] = held.at(reg) = value;
     }
-    if (!has_rate_for_long_filter(profile, held)) {
+    if (!has_rate_for_long_filter(profile, held))
         registers.refuse(kLongFilter.name, "SMPL_CTRL is too fast for it", "up to 500 samples/s");
-    }
     registers.require_all_read();
     text::TomlTable user_filter = document.table("user_filter");
     read_coefficients(user_filter, memory);

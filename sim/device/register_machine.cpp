@@ -97,9 +97,8 @@ void RegisterMachine::pass_time(Nanoseconds now) {
 void RegisterMachine::end_start_up() {
     is_starting_ = is_soft_reset_ = false;
     raise_diagnostics(failing_ & (wire::kDiagHardError | wire::kDiagFlashError));
-    if (has(wire::kUartCtrl, wire::kUartAutoStart) && has(wire::kUartCtrl, wire::kUartAuto)) {
+    if (has(wire::kUartCtrl, wire::kUartAutoStart) && has(wire::kUartCtrl, wire::kUartAuto))
         start_sampling();
-    }
 }
 
 /// Answers a read.  While the device starts up or wakes, only GLOB_CMD answers.
@@ -153,9 +152,8 @@ void RegisterMachine::write(std::uint8_t address, std::uint8_t value,
     if (reg == &wire::kGlobCmd) return write_command(value);
     if (reg == &kBurst) {
         const bool is_manual = !has(wire::kUartCtrl, wire::kUartAuto);
-        if (const auto shape = layout(); value == 0 && is_sampling_ && is_manual && shape) {
+        if (const auto shape = layout(); value == 0 && is_sampling_ && is_manual && shape)
             wire::append_frame(*shape, take_values(*shape), frames);
-        }
         return;
     }
     if (!is_sampling_) write_register(*reg, is_high_byte, value);

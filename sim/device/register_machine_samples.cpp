@@ -100,9 +100,8 @@ std::optional<wire::BurstValues> RegisterMachine::sample(const SensorSample& sam
                                                          std::vector<std::byte>& frames) {
     latest_ = sample;
     if (!begin_sample()) return std::nullopt;
-    if (has(wire::kMscCtrl, wire::kMscExternalTrigger) && !std::exchange(is_triggered_, false)) {
+    if (has(wire::kMscCtrl, wire::kMscExternalTrigger) && !std::exchange(is_triggered_, false))
         return std::nullopt;
-    }
     store(sample);
     const auto shape = layout();
     if (!has(wire::kUartCtrl, wire::kUartAuto) || !shape) return std::nullopt;
@@ -142,9 +141,8 @@ void RegisterMachine::store(const SensorSample& sample) {
             registers_.put32(
                 kTilt, is_invalid ? kAliasedCounts : tilt_counts(acceleration, profile_), axis);
         }
-        if (output.is_alarmed && !is_invalid) {
+        if (output.is_alarmed && !is_invalid)
             alarms_ = static_cast<std::uint16_t>(alarms_ | kAlarmX >> axis);
-        }
     }
     new_data_ = registers_.at(wire::kSigCtrl) & wire::kSigNewDataEnables;
 }
@@ -164,9 +162,8 @@ wire::BurstValues RegisterMachine::take_values(const wire::BurstLayout& layout) 
     values.count = registers_.at(kCount);
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
         values.axes[axis] = registers_.get32(sends_tilt(axis) ? kTilt : kAcceleration, axis);
-        if (layout.has_axis(static_cast<wire::Axis>(axis))) {
+        if (layout.has_axis(static_cast<wire::Axis>(axis)))
             new_data_ = without(new_data_, kNewX >> axis);
-        }
     }
     if (layout.has_temperature()) new_data_ = without(new_data_, kNewTemperature);
     if (layout.has_flag()) alarms_ = 0;
@@ -178,9 +175,8 @@ void RegisterMachine::clear_after_read(std::uint8_t address) {
     if (address == wire::kDiagStat.address) clear_diagnostics();
     if (address == wire::kFlag.address) alarms_ = 0;
     constexpr unsigned kBytesPerValue = 4;
-    if (address - unsigned{kTemperature.address} < kBytesPerValue) {
+    if (address - unsigned{kTemperature.address} < kBytesPerValue)
         new_data_ = without(new_data_, kNewTemperature);
-    }
     // Three axes of acceleration, then three of tilt.
     const unsigned value = (address - unsigned{kAcceleration.address}) / kBytesPerValue;
     if (value < 2 * kAxes) new_data_ = without(new_data_, kNewX >> value % kAxes);

@@ -48,9 +48,8 @@ double constant_gain(std::span<const std::uint8_t> coefficients, int taps) {
     std::int64_t sum = 0;
     for (std::size_t tap = 0; tap < static_cast<std::size_t>(taps); ++tap) {
         std::uint32_t bits = 0;
-        for (std::size_t i = kBytesPerCoefficient; i-- > 0;) {
+        for (std::size_t i = kBytesPerCoefficient; i-- > 0;)
             bits = (bits << 8U) | coefficients[tap * kBytesPerCoefficient + i];
-        }
         sum += static_cast<std::int32_t>(bits);
     }
     return std::ldexp(static_cast<double>(sum), -kFractionBits);

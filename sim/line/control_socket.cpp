@@ -51,9 +51,8 @@ bool has_stale_socket(const fs::path& path) {
     const fs::file_status status = require_directory(path, "a socket");
     const sockaddr_un address = address_of(path);
     if (!fs::exists(status)) return false;
-    if (!fs::is_socket(status)) {
+    if (!fs::is_socket(status))
         throw InputError(path.string() + ": exists and is no socket; allowed: a new path");
-    }
     if (is_listened_to(address)) {
         throw InputError(path.string() +
                          ": another program listens on this socket; allowed: a new path");
@@ -90,9 +89,8 @@ ControlSocket::~ControlSocket() {
     for (const Client& client : clients_) ::close(client.descriptor);
     ::close(listener_);
     struct stat file {};
-    if (::lstat(path_.c_str(), &file) == 0 && file.st_dev == device_ && file.st_ino == inode_) {
+    if (::lstat(path_.c_str(), &file) == 0 && file.st_dev == device_ && file.st_ino == inode_)
         ::unlink(path_.c_str());
-    }
 }
 
 void ControlSocket::serve(const Instant&) {

@@ -62,16 +62,14 @@ void read_settings(text::TomlTable& table, const FaultRules& rules, Fault& fault
                      "FLAG_OUT 0x8000, TEMP_OUT 0x4000, an axis of "
                      "0x0700, COUNT_OUT 0x0002, CHKSM_OUT 0x0001");
     }
-    if (fault.output_rate_hz == 0 && fault.filter.empty() && fault.burst_ctrl == 0) {
+    if (fault.output_rate_hz == 0 && fault.filter.empty() && fault.burst_ctrl == 0)
         table.refuse("kind", "changes nothing", "with output_rate_hz, filter or burst_ctrl");
-    }
 }
 
 void read_serial_number(text::TomlTable& table, Fault& fault) {
     fault.serial_number = table.string_or("serial_number", "");
-    if (fault.serial_number.size() != 8) {
+    if (fault.serial_number.size() != 8)
         table.refuse("serial_number", "not a serial number", "eight characters");
-    }
     fault.when_unplugged = table.boolean_or("when_unplugged", false);
 }
 
@@ -112,9 +110,8 @@ Fault read_fault(text::TomlTable& table, const std::string& kind, const FaultRul
     if (is(flip_bit)) fault.bits = integer(table, "bits", 1, 1, 16);
     if (is(drop_bytes, insert_bytes)) fault.bytes = integer(table, "bytes", 1, 1, kMostBytes);
     if (is(garbage)) fault.bytes = integer(table, "bytes", 100, 1, kMostBytes);
-    if (fault.kind <= lose_frames || is(counter_jump, counter_stuck, error_flags)) {
+    if (fault.kind <= lose_frames || is(counter_jump, counter_stuck, error_flags))
         fault.count = integer(table, "count", 1, 1, kMostFrames);
-    }
     if (is(oven)) fault.count = integer(table, "count", 1, -1, kMostFrames);  // -1: see OvenPort.
     if (is(counter_jump)) fault.ticks = integer(table, "ticks", 0, 1, 0xFFFF);
     if (is(error_flags, failing_tests)) {
@@ -128,9 +125,8 @@ Fault read_fault(text::TomlTable& table, const std::string& kind, const FaultRul
         table.refuse("kind", "the emulator runs too fast for it",
                      "up to 50 simulated seconds per second");
     }
-    if (is(silence, stall, hang_up, overrun)) {
+    if (is(silence, stall, hang_up, overrun))
         fault.seconds = table.number_or("seconds", is(overrun) ? 0.0 : 5.0, 0.0, kLongest_s);
-    }
     if (is(hang_up)) fault.loses_power = table.boolean_or("loses_power", false);
     return fault;
 }
@@ -147,9 +143,8 @@ Fault parse_fault(std::string_view words, const FaultRules& rules) {
     while (in >> word) {
         const std::size_t equals = std::min(word.find('='), word.size());
         const std::string key = word.substr(0, equals);
-        if (!is_plain(word) || key.empty() || equals + 1 >= word.size()) {
+        if (!is_plain(word) || key.empty() || equals + 1 >= word.size())
             throw InputError("control: " + word + ": not a setting; allowed: key=value");
-        }
         toml += as_toml(key, word.substr(equals + 1));
     }
     text::TomlTable table = text::parse_toml(toml, "control");

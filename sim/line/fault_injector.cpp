@@ -114,9 +114,8 @@ void FaultInjector::send_frame(std::span<const std::byte> bytes, UtcTime leaves,
     for (std::size_t i = 0; i < waiting_.size() && !held_frame_; ++i) {
         const Fault fault = waiting_[i].fault;
         if (fault.kind == FaultKind::bad_checksum && !has_right_checksum(bytes)) continue;
-        if (--waiting_[i].frames == 0) {
+        if (--waiting_[i].frames == 0)
             waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(i));
-        }
         count(fault.kind);
         return spoil(fault, bytes, leaves, truth);
     }
@@ -181,9 +180,8 @@ void FaultInjector::put_other_unit() {
 }
 
 void FaultInjector::apply(const Fault& fault, UtcTime simulated) {
-    if (fault.kind == FaultKind::oven && !(oven_ && oven_(fault.name, fault.count))) {
+    if (fault.kind == FaultKind::oven && !(oven_ && oven_(fault.name, fault.count)))
         throw InputError(fault.name + ": no oven takes this fault; allowed: with --oven-link");
-    }
     report_.applied.push_back({fault.name, simulated, frames_made_});
     const UtcTime end = later_by(fault.seconds, simulated);
     if (fault.kind <= FaultKind::lose_frames) {  // Faults of frames come first.

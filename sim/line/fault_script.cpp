@@ -26,9 +26,8 @@ PlannedFault read_planned(text::TomlTable& table, UtcTime start, const FaultRule
         table.refuse("kind", instants == 0 ? "no instant" : "several instants",
                      "one of at_s, at_utc, at_frame");
     }
-    if (const auto seconds = table.number("at_s", 0.0, kLatest_s)) {
+    if (const auto seconds = table.number("at_s", 0.0, kLatest_s))
         planned.at = later_by(*seconds, start);
-    }
     if (const std::string text = table.string_or("at_utc", ""); table.has("at_utc")) {
         planned.at = parse_rfc3339(text);
         if (!planned.at)
@@ -47,9 +46,8 @@ FaultScript parse_fault_script(std::string_view toml, const std::filesystem::pat
     text::TomlTable root = text::parse_toml(toml, origin);
     FaultScript script;
     script.answers_cut_frames = root.boolean_or("answers_cut_frames", false);
-    for (text::TomlTable& table : root.tables("fault")) {
+    for (text::TomlTable& table : root.tables("fault"))
         script.planned.push_back(read_planned(table, start, rules));
-    }
     text::TomlTable random = root.table("random");
     script.seed = static_cast<std::uint64_t>(random.integer_or("seed", 1, 0, kMost));
     const auto read_rate = [&](std::string_view kind) {

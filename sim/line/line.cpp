@@ -110,9 +110,8 @@ void Line::put(std::span<const std::byte> bytes, UtcTime leaves, Mark mark) {
 void Line::carry(std::size_t byte_count, UtcTime leaves) {
     if (!parameters_.is_paced) return transport_.carry(byte_count, leaves);
     const int baud = device_baud_ > 0 ? device_baud_ : kUsualBaud;
-    for (std::size_t left = byte_count; left > 0; --left) {
+    for (std::size_t left = byte_count; left > 0; --left)
         transport_.carry(1, leaves - wire_time(left - 1, baud));
-    }
 }
 
 std::span<const std::byte> Line::shown(UtcTime now) const {
@@ -139,9 +138,8 @@ void Line::remove(std::size_t byte_count, Way way, UtcTime simulated) {
     const std::uint64_t end = gone_ + byte_count;
     while (!marks_.empty() && marks_.front().begin <= end) {
         Mark& front = marks_.front();
-        if (way != Way::handed_over) {
+        if (way != Way::handed_over)
             front.bytes_lost += std::min(front.end, end) - std::max(front.begin, gone_);
-        }
         if (front.end > end) break;
         Mark mark = front;
         marks_.pop_front();

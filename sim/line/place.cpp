@@ -48,9 +48,8 @@ fs::file_status require_directory(const fs::path& path, const std::string& what)
 void require_file_place(const fs::path& path) {
     const bool is_new = !fs::exists(require_directory(path, "a file"));
     std::error_code error;
-    if (!is_new && (!fs::exists(path, error) || fs::is_directory(path, error))) {
+    if (!is_new && (!fs::exists(path, error) || fs::is_directory(path, error)))
         throw InputError(path.string() + ": exists and is no file; allowed: a file");
-    }
     error = try_to_write(path, is_new);
     if (error) refuse(path, error, "a file that can be written");
 }

@@ -67,9 +67,7 @@ void SensorPort::take_commands(const Instant& now) {
 void SensorPort::hand_over(const Instant& now) {
     const std::int64_t sent_before = line_.report().frames_sent;
     is_blocked_ = false;
-    while (!is_blocked_ && !line_.shown(now.simulated).empty()) {
-        is_blocked_ = !hand_over_some(now);
-    }
+    while (!is_blocked_ && !line_.shown(now.simulated).empty()) is_blocked_ = !hand_over_some(now);
     if (line_.report().frames_sent == sent_before) return;
     if (sent_before == 0) first_sent_ = now.steady;
     last_sent_ = now.steady;

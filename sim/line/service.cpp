@@ -15,9 +15,8 @@ constexpr Nanoseconds kLongestPatience = 100ms;  ///< Longest wait: a signal is 
 void wait(std::vector<pollfd>& descriptors, Nanoseconds timeout) {
     const auto seconds = std::chrono::floor<std::chrono::seconds>(timeout);
     const timespec limit{seconds.count(), (timeout - seconds).count()};
-    if (::ppoll(descriptors.data(), descriptors.size(), &limit, nullptr) < 0 && errno != EINTR) {
+    if (::ppoll(descriptors.data(), descriptors.size(), &limit, nullptr) < 0 && errno != EINTR)
         throw std::system_error(errno, std::generic_category(), "wait for the ports");
-    }
 }
 
 }  // namespace

@@ -54,9 +54,8 @@ void Transport::carry(std::size_t byte_count, UtcTime arrives) {
             if (!packets_.empty()) last_shown_ = packets_.back().shown;
             Packet packet;
             packet.closes = next_on_grid(start_, arrives, timer_s, timer_phase_);
-            if (parameters_.jitter_ms > 0.0) {
+            if (parameters_.jitter_ms > 0.0)
                 packet.jitter = from_seconds(1e-3 * jitter_.uniform(0.0, parameters_.jitter_ms));
-            }
             packets_.push_back(packet);
         }
         Packet& packet = packets_.back();

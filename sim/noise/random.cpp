@@ -66,9 +66,7 @@ constexpr Coefficients kF = {1.0,
 
 RandomStream::RandomStream(std::uint64_t seed, std::string_view name) noexcept
     : state_(mix(seed + kGolden)) {
-    for (const char c : name) {
-        state_ = mix((state_ ^ static_cast<unsigned char>(c)) + kGolden);
-    }
+    for (const char c : name) state_ = mix((state_ ^ static_cast<unsigned char>(c)) + kGolden);
 }
 
 std::uint64_t RandomStream::bits() noexcept {

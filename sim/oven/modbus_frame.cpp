@@ -8,9 +8,8 @@ std::uint16_t modbus_crc(std::span<const std::byte> bytes) noexcept {
     std::uint16_t crc = 0xFFFF;
     for (const std::byte byte : bytes) {
         crc = static_cast<std::uint16_t>(crc ^ std::to_integer<std::uint16_t>(byte));
-        for (int bit = 0; bit < 8; ++bit) {
+        for (int bit = 0; bit < 8; ++bit)
             crc = static_cast<std::uint16_t>((crc & 1U) != 0 ? crc >> 1 ^ 0xA001 : crc >> 1);
-        }
     }
     return crc;
 }
@@ -36,9 +35,8 @@ std::optional<std::size_t> request_length(std::span<const std::byte> begin) noex
     if (begin.size() < 2) return std::nullopt;
     const std::byte function = begin[1];
     if (function == kReadRegisters || function == kWriteRegister || function == kEcho) return 8;
-    if (function == kWriteRegisters && begin.size() > 6) {
+    if (function == kWriteRegisters && begin.size() > 6)
         return 9 + std::to_integer<std::size_t>(begin[6]);
-    }
     return std::nullopt;
 }
 

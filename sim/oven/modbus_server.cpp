@@ -74,9 +74,8 @@ void ModbusServer::receive(std::span<const std::byte> bytes, Nanoseconds now) {
     last_byte_ = now;
     if (is_restarting_ && now - restarted_at_ >= kRestartTime) is_restarting_ = false;
     if (is_ignoring_) return;
-    if (answer_ || is_restarting_ || !controller_.speaks_modbus()) {
+    if (answer_ || is_restarting_ || !controller_.speaks_modbus())
         return ignore_run(report_.ignored);
-    }
     received_.insert(received_.end(), bytes.begin(), bytes.end());
     take_requests(now);
 }
@@ -104,9 +103,8 @@ void ModbusServer::take_requests(Nanoseconds now) {
     while (!received_.empty()) {
         const std::optional<std::size_t> length = request_length(received_);
         if (received_.size() < length.value_or(kLongestRequest)) return;
-        if (!length || !is_sealed(std::span(received_).first(*length))) {
+        if (!length || !is_sealed(std::span(received_).first(*length)))
             return ignore_run(report_.unreadable);
-        }
         const auto end = received_.begin() + static_cast<std::ptrdiff_t>(*length);
         const std::vector<std::byte> request(received_.begin(), end);
         received_.erase(received_.begin(), end);
@@ -170,9 +168,8 @@ std::vector<std::byte> ModbusServer::answer_to(std::span<const std::byte> reques
     } else if (function == kWriteRegisters) {
         const std::size_t byte_count = std::to_integer<std::size_t>(request[6]);
         std::vector<std::uint16_t> words;
-        for (std::size_t i = 0; i + 1 < byte_count; i += 2) {
+        for (std::size_t i = 0; i + 1 < byte_count; i += 2)
             words.push_back(word_at(request, 7 + i));
-        }
         if (find_variable(address) != nullptr && byte_count != std::size_t{2} * second) {
             refusal = Refusal::data;
         } else {

@@ -211,9 +211,7 @@ std::optional<Refusal> OvenController::write(std::uint16_t address,
 }
 
 void OvenController::put_in_force(const Settings& next) {
-    if (next.set_point != settings_.set_point) {
-        plant_.set_set_point(DegC(next.set_point / 10.0));
-    }
+    if (next.set_point != settings_.set_point) plant_.set_set_point(DegC(next.set_point / 10.0));
     if (next.proportional_band != settings_.proportional_band ||
         next.integral_time_s != settings_.integral_time_s) {
         plant_.set_tuning({next.proportional_band / 10.0, double(next.integral_time_s)});
@@ -237,9 +235,8 @@ void OvenController::restart() {
 
 std::optional<Refusal> OvenController::operate(std::uint8_t command, std::uint8_t parameter) {
     if (!is_known(command, parameter)) return Refusal::data;
-    if (command != kCommunicationWriting && !settings_.is_writing_enabled) {
+    if (command != kCommunicationWriting && !settings_.is_writing_enabled)
         return Refusal::operation;
-    }
     return execute(command, parameter);
 }
 

@@ -24,12 +24,10 @@ ThermalPlant::ThermalPlant(const OvenParameters& parameters, DegC ambient)
 
 ControllerTuning ThermalPlant::tuning() const noexcept {
     ControllerTuning tuning;
-    if (p_.proportional_per_degc > 0.0) {
+    if (p_.proportional_per_degc > 0.0)
         tuning.proportional_band_degc = 1.0 / p_.proportional_per_degc;
-    }
-    if (p_.integral_per_degc_s > 0.0) {
+    if (p_.integral_per_degc_s > 0.0)
         tuning.integral_time_s = p_.proportional_per_degc / p_.integral_per_degc_s;
-    }
     return tuning;
 }
 

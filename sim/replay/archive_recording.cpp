@@ -222,9 +222,8 @@ void ArchiveRecording::send_next(RegisterMachine& machine, UtcTime leaves, LineS
         values = machine.sample(sample.values, bytes_);
     } else {
         run_ = machine.sampling_run();
-        for (int i = 0; i <= kMostSuppressed && !values; ++i) {
+        for (int i = 0; i <= kMostSuppressed && !values; ++i)
             values = machine.sample(sample.values, bytes_);
-        }
     }
     next_index_ = sample.index + 1;
     is_session_over_ = source_->begins_run();

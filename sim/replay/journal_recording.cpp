@@ -70,9 +70,8 @@ JournalRecording::JournalRecording(std::vector<std::filesystem::path> segments,
         require_known_settings(segment.file, segment.header);
         const timing::ClockReading& clock = segment.header.clock;
         segment.utc_minus_raw = clock.realtime.time_since_epoch() - clock.raw.time_since_epoch();
-        if (!segments_.empty() && is_same_boot(segments_.back().header, segment.header)) {
+        if (!segments_.empty() && is_same_boot(segments_.back().header, segment.header))
             segment.utc_minus_raw = segments_.back().utc_minus_raw;
-        }
         segments_.push_back(std::move(segment));
     }
     open(0);

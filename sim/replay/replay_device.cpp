@@ -54,9 +54,8 @@ void ReplayDevice::begin_sampling(UtcTime now) {
     const std::string objection = recording_->objection(*machine_);
     if (!objection.empty()) throw std::runtime_error(objection);
     if (is_over_) return;
-    if (report_.sessions == 0 && timing_ == ReplayTiming::from_host_start) {
+    if (report_.sessions == 0 && timing_ == ReplayTiming::from_host_start)
         shift_ = now - *recording_->next_due(*machine_);
-    }
     if (!has_begun_) ++report_.sessions;
     has_begun_ = true;
 }

@@ -37,9 +37,8 @@ void require_below_set_point(const text::TomlTable& table, std::string_view key,
 
 std::string read_site_name(text::TomlTable& table, const Scenario& scenario) {
     std::string name = table.string_or("site", "");
-    if (text::find_site(scenario.sites, name) == nullptr) {
+    if (text::find_site(scenario.sites, name) == nullptr)
         table.refuse("site", "no such site", "the name of a [[site]]");
-    }
     return name;
 }
 
@@ -68,16 +67,14 @@ ListedOccupation read_occupation(text::TomlTable& table, const Scenario& scenari
     occupation.centre = required_instant(table, "centre_utc");
     occupation.length_s = table.number("length_s", 60.0, 1e6);
     occupation.ambient_degc = table.number("ambient_degc", kColdestDegC, kWarmestDegC);
-    if (occupation.ambient_degc) {
+    if (occupation.ambient_degc)
         require_below_set_point(table, "ambient_degc", *occupation.ambient_degc, scenario);
-    }
     occupation.is_outlier = table.boolean_or("outlier", false);
     occupation.levelling = read_levelling(table);
     table.require_all_read();
     for (const ListedOccupation& other : scenario.occupations) {
-        if (other.site == occupation.site && other.number == occupation.number) {
+        if (other.site == occupation.site && other.number == occupation.number)
             table.refuse("number", "given twice for this site", "each number once");
-        }
     }
     return occupation;
 }
@@ -86,9 +83,8 @@ void read_sites(text::TomlTable& document, Scenario& scenario) {
     if (document.has("site")) scenario.sites.clear();
     for (text::TomlTable& table : document.tables("site")) {
         const text::Site site = read_site(table);
-        if (text::find_site(scenario.sites, site.name) != nullptr) {
+        if (text::find_site(scenario.sites, site.name) != nullptr)
             table.refuse("name", "given twice", "each site once");
-        }
         scenario.sites.push_back(site);
     }
     if (scenario.fixed_record && scenario.sites.size() != 1) {
@@ -132,9 +128,8 @@ void read_ambient(text::TomlTable& document, Scenario& scenario) {
     for (text::TomlTable& table : document.tables("ambient")) {
         ListedAmbient knot;
         knot.hours = table.number("at_h", 0.0, 10'000.0);
-        if (table.has("at_utc") == knot.hours.has_value()) {
+        if (table.has("at_utc") == knot.hours.has_value())
             table.refuse("at_h", "not one instant", "either at_h or at_utc");
-        }
         if (!knot.hours) knot.utc = required_instant(table, "at_utc");
         knot.degc = required_number(table, "degc", kColdestDegC, kWarmestDegC);
         require_below_set_point(table, "degc", knot.degc, scenario);
@@ -186,12 +181,10 @@ void read_open_lids(text::TomlTable& document, Scenario& scenario) {
 /// schedule.
 void require_warm_oven(text::TomlTable& document, const Scenario& scenario) {
     double warmest_degc = kColdestDegC;
-    for (const AmbientKnot& knot : scenario.ambient_knots()) {
+    for (const AmbientKnot& knot : scenario.ambient_knots())
         warmest_degc = std::max(warmest_degc, knot.degc);
-    }
-    for (const ListedOpenLid& lid : scenario.open_lids) {
+    for (const ListedOpenLid& lid : scenario.open_lids)
         warmest_degc = std::max(warmest_degc, lid.outside_degc);
-    }
     if (warmest_degc < scenario.oven.set_point_degc) return;
     document.table("oven").refuse("set_point_degc", "the oven only heats",
                                   fmt::format("above the warmest air around the oven, {} degC",
@@ -210,9 +203,8 @@ void require_room_for_set_ups(text::TomlTable& document, const Scenario& scenari
         const ListedOccupation& one = scenario.occupations[i];
         const bool is_listed = !one.levelling.empty();
         const auto parts = is_listed ? one.levelling.size() : static_cast<std::size_t>(p.set_ups);
-        if (shortest_length_s(one, p) >= kShortestSetUpSeconds * static_cast<double>(parts)) {
+        if (shortest_length_s(one, p) >= kShortestSetUpSeconds * static_cast<double>(parts))
             continue;
-        }
         const std::string trouble =
             fmt::format("leaves less than 60 s for a set-up of {} ({})", one.site, one.number);
         if (is_listed && document.has("occupation")) {
@@ -233,12 +225,10 @@ void require_fit(text::TomlTable& document, const Scenario& scenario) {
         return 0.5 * one.length_s.value_or(p.length_s);
     };
     const text::TomlTable schedule = document.table("schedule");
-    if (3600.0 * p.lead_in_h < half_s(scenario.occupations.front())) {
+    if (3600.0 * p.lead_in_h < half_s(scenario.occupations.front()))
         schedule.refuse("lead_in_h", "shorter than half the first occupation", "a longer one");
-    }
-    if (60.0 * p.lead_out_min < half_s(scenario.occupations.back())) {
+    if (60.0 * p.lead_out_min < half_s(scenario.occupations.back()))
         schedule.refuse("lead_out_min", "shorter than half the last occupation", "a longer one");
-    }
     require_room_for_set_ups(document, scenario);
 }
 

@@ -31,9 +31,8 @@ public:
         require(key);
         if (!table_.has(key)) return;
         const std::vector<double> ends = table_.numbers(key, low, high);
-        if (ends.size() != 2 || ends[0] > ends[1]) {
+        if (ends.size() != 2 || ends[0] > ends[1])
             table_.refuse(key, "not a range", "two ascending numbers");
-        }
         value = {ends[0], ends[1]};
     }
 
@@ -85,9 +84,8 @@ void read_schedule(Section& s, ScheduleParameters& p) {
 FixedRecord read_fixed_record(text::TomlTable table, const std::optional<FixedRecord>& base) {
     FixedRecord record = base.value_or(FixedRecord{});
     if (!base || table.has("start_utc")) record.start = required_instant(table, "start_utc");
-    if (!base || table.has("duration_h")) {
+    if (!base || table.has("duration_h"))
         record.duration_h = required_number(table, "duration_h", 0.01, 10'000.0);
-    }
     table.require_all_read();
     return record;
 }
@@ -176,9 +174,8 @@ void read_slow_noise(Section& s, SlowNoiseParameters& p) {
     s.number("flicker_mgal", p.flicker_mgal, 0.0, 1000.0);
     s.number("flicker_shortest_s", p.flicker_shortest_s, 10.0, 1e6);
     s.number("flicker_longest_s", p.flicker_longest_s, 10.0, 1e7);
-    if (p.flicker_shortest_s >= p.flicker_longest_s) {
+    if (p.flicker_shortest_s >= p.flicker_longest_s)
         s.refuse("flicker_longest_s", "not above flicker_shortest_s", "a longer period");
-    }
     s.number("resonant_mgal", p.resonant_mgal, 0.0, 1000.0);
     s.number("resonant_period_s", p.resonant_period_s, 10.0, 1e5);
     s.number("resonant_quality", p.resonant_quality, 0.5, 1000.0);
@@ -198,9 +195,8 @@ void read_vibration(Section& s, VibrationParameters& p) {
     s.number("ground_mgal", p.ground_mgal, 0.0, 1e5);
     s.number("ground_low_hz", p.ground_low_hz, 0.1, 20.0);
     s.number("ground_high_hz", p.ground_high_hz, 0.1, 20.0);
-    if (p.ground_low_hz >= p.ground_high_hz) {
+    if (p.ground_low_hz >= p.ground_high_hz)
         s.refuse("ground_high_hz", "not above ground_low_hz", "a higher frequency");
-    }
     s.number("vehicles_per_h", p.vehicles_per_h, 0.0, 60.0);
     s.range("vehicle_s", p.vehicle_s, 0.1, 60.0);
     s.range("vehicle_hz", p.vehicle_hz, 0.1, 20.0);
@@ -283,9 +279,8 @@ Scenario parse_scenario(std::string_view toml, const std::filesystem::path& orig
 }
 
 Scenario load_scenario(const std::string& name_or_file) {
-    if (const EmbeddedScenario* found = find_embedded(name_or_file)) {
+    if (const EmbeddedScenario* found = find_embedded(name_or_file))
         return parse_scenario(found->toml, name_or_file + ".toml");
-    }
     if (!std::filesystem::is_regular_file(name_or_file)) {
         throw InputError(
             fmt::format("--scenario {}: neither a scenario nor a file; allowed: {}, or a file",

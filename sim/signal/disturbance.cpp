@@ -91,9 +91,8 @@ std::vector<Burst> draw_bursts(const Scenario& scenario, const std::vector<Plann
 Disturbances::Disturbances(std::vector<Burst> bursts) : bursts_(std::move(bursts)) {}
 
 void Disturbances::add_to(std::array<double, 3>& axes_mgal, double elapsed_s) {
-    while (next_ < bursts_.size() && bursts_[next_].start_s <= elapsed_s) {
+    while (next_ < bursts_.size() && bursts_[next_].start_s <= elapsed_s)
         active_.push_back(bursts_[next_++]);
-    }
     if (active_.empty()) return;
     std::erase_if(active_, [elapsed_s](const Burst& burst) {
         return elapsed_s >= burst.start_s + burst.length_s;

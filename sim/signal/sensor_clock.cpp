@@ -21,9 +21,8 @@ void SensorClock::begin_second(DegC temperature) {
         1e-6 * (p_.error_ppm + walk_ppm_ +
                 p_.temperature_ppm_per_degc * (temperature.value() - reference_degc_));
     longer_s_ = -fast / (1.0 + fast);
-    if (p_.wander_ppm_per_sqrt_h > 0.0) {
+    if (p_.wander_ppm_per_sqrt_h > 0.0)
         walk_ppm_ += p_.wander_ppm_per_sqrt_h / std::sqrt(kSecondsPerHour) * walk_.normal();
-    }
 }
 
 UtcTime SensorClock::at(double share) const {
@@ -50,9 +49,8 @@ std::vector<PlannedSetUp> by_true_time(const Scenario& scenario,
     double second = 0.0;
     for (UtcTime* limit : limits) {
         const double counted_s = seconds_between(scenario.start(), *limit);
-        for (; second + 1.0 <= counted_s; second += 1.0) {
+        for (; second + 1.0 <= counted_s; second += 1.0)
             clock.begin_second(slow.next().temperature);
-        }
         *limit = clock.at(counted_s - second);
     }
     return turned;

@@ -107,9 +107,8 @@ std::vector<SetUpTruth> set_up_truth(const Scenario& scenario,
     std::vector<SetUpTruth> truth = slow_means(scenario, plan, seed);
     const Vector bias_mgal = axis_bias_mgal(scenario, seed);
     Disturbances disturbances(draw_bursts(scenario, plan, seed));
-    for (std::size_t i = 0; i < plan.size(); ++i) {
+    for (std::size_t i = 0; i < plan.size(); ++i)
         add_vector_terms(scenario, plan[i], bias_mgal, disturbances, truth[i]);
-    }
     return truth;
 }
 

@@ -110,9 +110,8 @@ TimedSample SignalSource::next() {
 
     const double counts_per_mgal =
         std::ldexp(1.0, profile_.acceleration_fraction_bits) / kMilliGalPerStandardGravity;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
         sample.values.axes_counts[axis] = to_counts(axes_mgal[axis] * counts_per_mgal);
-    }
     const double temperature_degc = from_.temperature.value() +
                                     share * (to_.temperature - from_.temperature).value() +
                                     scenario_.sensor.temperature_white_degc * temperature_.normal();

@@ -57,9 +57,8 @@ record::JournalHeader journal_header(const Scenario& scenario, const wire::Devic
     // Different days with the same seed get different sessions and different hosts.
     RandomStream session(seed, fmt::format("session of {} at {} by {}", scenario.name,
                                            to_rfc3339(scenario.start(), 3), profile.name));
-    for (std::uint8_t& byte : header.session.bytes) {
+    for (std::uint8_t& byte : header.session.bytes)
         byte = static_cast<std::uint8_t>(session.bits() >> 56U);
-    }
     header.boot_id = fmt::format("00000000-0000-4000-8000-{:012x}", session.bits() >> 16U);
     header.program_version = A351_VERSION;
     header.profile = profile.name;
@@ -279,9 +278,8 @@ DirectSurvey write_day(const Scenario& scenario, const wire::DeviceProfile& prof
 
     write_plan(scenario, seed, root);
     write_station_xml(scenario, profile, header, root);
-    for (const record::Event& event : collected.events()) {
+    for (const record::Event& event : collected.events())
         record::append_event(files, root / "events", event);
-    }
     write_survey_file(scenario, root);
     return {collected.frames(), static_cast<std::int64_t>(archive.records_written())};
 }

@@ -19,9 +19,8 @@ constexpr std::size_t kRecordSize = 40;
 template <class Integer>
 void put(char*& at, Integer value) {
     const auto bits = static_cast<std::make_unsigned_t<Integer>>(value);
-    for (std::size_t i = 0; i < sizeof(Integer); ++i) {
+    for (std::size_t i = 0; i < sizeof(Integer); ++i)
         *at++ = static_cast<char>((bits >> (8 * i)) & 0xFFU);
-    }
 }
 
 }  // namespace

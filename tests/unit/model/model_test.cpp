@@ -25,9 +25,9 @@ SurveyOptions options_for(const std::vector<SurveyRow>& rows) {
 
 TEST_CASE("every model has a name of its own, by which it is found", "[survey][model]") {
     std::set<std::string_view> names{kAutomatic};
-    for (const Model* const model : models()) {
-        CHECK(names.insert(model->name()).second);
-        CHECK(find_model(model->name()) == model);
+    for (const Model& model : models()) {
+        CHECK(names.insert(model.name).second);
+        CHECK(find_model(model.name) == &model);
     }
     CHECK(names.size() == model_names().size());
     CHECK(find_model("kriging") == nullptr);
@@ -60,10 +60,10 @@ TEST_CASE("every model refuses a single row, and says what would help", "[survey
     rows.front().reference.reset();
     const SurveyOptions options = options_for(rows);
     const RowChoice none{{true}, {false}};
-    for (const Model* const model : models()) {
-        CAPTURE(model->name());
-        if (model->name() == "t-rate-drift-axes") continue;  // needs the means of the axes
-        const auto fit = model->fit({rows, options, nullptr}, none);
+    for (const Model& model : models()) {
+        CAPTURE(model.name);
+        if (model.name == "t-rate-drift-axes") continue;  // needs the means of the axes
+        const auto fit = model.fit({rows, options, nullptr}, none);
         const Refusal& refusal = std::get<Refusal>(fit);
         CHECK_FALSE(refusal.trouble.empty());
         CHECK_FALSE(refusal.allowed.empty());
@@ -82,4 +82,17 @@ TEST_CASE("the whole-day model refuses priors that it would ignore", "[survey][m
     }
     const auto fit = find_model("day")->fit({rows, options, &day}, all_of(rows));
     CHECK_THAT(std::get<Refusal>(fit).trouble, ContainsSubstring("`prior` would be ignored"));
+}
+
+TEST_CASE("the publication's Error (1) is given only with a reference", "[survey][model]") {
+    auto rows = made_up::day();
+    rows[4].reference.reset();
+    const SurveyOptions options = options_for(rows);
+    RowChoice choice = all_of(rows);
+    choice.in_use[4] = false;
+    const auto fit = std::get<ModelFit>(paper_model().fit({rows, options, nullptr}, choice));
+    CHECK_FALSE(fit.rows[4].as<PaperRow>()->residual1);
+    const PaperRow& known = *fit.rows[3].as<PaperRow>();
+    CHECK(known.residual1->value() ==
+          Approx((*rows[3].reference - known.corrected1).value()).margin(1e-9));
 }

@@ -24,7 +24,7 @@ SurveyCorrection one_row() {
     CorrectedRow& row = result.rows.emplace_back();
     row.row.site = "No.0";
     row.is_used = true;
-    row.own = PaperRow{MilliGal(979859.533)};
+    row.own = PaperRow{MilliGal(979859.533), std::nullopt};
     return result;
 }
 
@@ -61,16 +61,6 @@ TEST_CASE(
     CHECK(csv_text(cell(std::optional<MilliGal>())).empty());
     CHECK(json_value(cell(std::optional<double>())).is_null());
     CHECK(csv_text(cell(UtcTime{})) == "1970-01-01T00:00:00.000Z");
-}
-
-TEST_CASE("the publication's Error (1) is given only with a reference", "[result][columns]") {
-    SurveyCorrection result = one_row();
-    const auto error1 = [&] {
-        return json_object(occupation_columns(result), result.rows.front())["residual1_mgal"];
-    };
-    CHECK(error1().is_null());
-    result.rows.front().row.reference = MilliGal(979860.210);
-    CHECK(error1().get<double>() == Approx(0.677).margin(1e-9));
 }
 
 TEST_CASE("a table for people has headings, decimals, and only columns with a value",
