@@ -27,7 +27,7 @@ std::variant<AppliedFit, Refusal> apply_model(const LinearModel& model,
 
 void set_uncertainty(CorrectedRow& out, const AppliedFit& applied, std::size_t row,
                      std::optional<double> s_mgal) {
-    const double leverage = applied.fit.leverage_at(applied.at(row));
+    const double leverage = applied.fit.leverage_at(applied.regressors_of(row));
     out.leverage = leverage;
     // u = s sqrt(1 + h)
     if (s_mgal) out.u_corrected = MilliGal(*s_mgal * std::sqrt(1.0 + leverage));
@@ -37,7 +37,7 @@ void correct_rows(ModelFit& result, const LinearModel& model, const AppliedFit& 
     const LinearFit& fit = applied.fit;
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         CorrectedRow& out = result.rows[i];
-        const Eigen::VectorXd x = applied.at(i);
+        const Eigen::VectorXd x = applied.regressors_of(i);
         const auto effect = [&](Eigen::Index k) {
             return MilliGal(fit.coefficients(k + 1) * x(k));
         };
@@ -90,7 +90,7 @@ std::vector<StationValue> average_stations(const ModelFit& result,
             if (!station.is_flagged_only && !accepted[i]) continue;
             ++station.row_count;
             sum += rows[i].corrected.value();
-            x += applied.at(i);
+            x += applied.regressors_of(i);
         }
         const auto n = static_cast<double>(station.row_count);
         station.gravity = MilliGal(sum / n);

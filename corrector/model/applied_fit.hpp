@@ -17,6 +17,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "corrector/model/model.hpp"
@@ -34,7 +35,7 @@ struct AppliedFit {
 
     /// Returns the regressors of a row (p - 1).
     /// @param row  number in SurveyProblem::rows, below n; not checked.
-    [[nodiscard]] Eigen::VectorXd at(std::size_t row) const {
+    [[nodiscard]] Eigen::VectorXd regressors_of(std::size_t row) const {
         return columns.row(static_cast<Eigen::Index>(row)).transpose();
     }
 };

@@ -197,7 +197,8 @@ struct ModelFit {
     /// correct_with_calibration().
     std::optional<CalibrationUse> calibration;
     /// Values that only one model gives.
-    std::variant<LinearPart, PaperPart, RobustPart, NetworkAdjustment, WholeDayPart> own;
+    std::variant<std::monostate, LinearPart, PaperPart, RobustPart, NetworkAdjustment, WholeDayPart>
+        own;
 
     /// Returns the values of one model; null if another model was fitted.  The pointer is into this
     /// object.

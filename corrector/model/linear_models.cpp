@@ -1,6 +1,7 @@
 #include <functional>
 
 #include "corrector/model/applied_fit.hpp"
+#include "corrector/model/model.hpp"
 #include "corrector/model/row_doubts.hpp"
 
 namespace a351::corrector {

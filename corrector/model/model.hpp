@@ -2,8 +2,8 @@
 /// @file
 /// The interface of all models of the instrument, and their list.
 ///
-/// A new model is a Model in a file of its own, with a function in this header and a line in
-/// models().  Values that it alone gives are a new type of CorrectedRow::own or ModelFit::own.
+/// A new model is a Model in a file of its own, with a function in this header or its own, and a
+/// line in models().  Values that it alone gives are a new type of CorrectedRow::own or ModelFit::own.
 ///
 /// Programs call correct_survey(), which chooses the rows, fits and scores.  Use this interface to
 /// treat all models alike:

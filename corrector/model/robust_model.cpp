@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "corrector/model/applied_fit.hpp"
+#include "corrector/model/model.hpp"
 #include "corrector/model/robust_fit.hpp"
 #include "corrector/model/row_doubts.hpp"
 
@@ -22,7 +23,8 @@ FitResult fit_robust_rows(const SurveyProblem& problem, const RowChoice& choice)
     const LinearModel& terms = terms_of(problem);
     const ModelPriors& priors = problem.options.priors;
     auto applied = apply_model(terms, problem, choice, priors);
-    if (auto* const refusal = std::get_if<Refusal>(&applied)) return std::move(*refusal);
+    if (auto* const refusal = std::get_if<Refusal>(&applied))
+        return Refusal{fmt::format("terms {}: {}", terms.name, refusal->trouble), refusal->allowed};
     const std::vector<SurveyRow> used = chosen_rows(problem.rows, choice.in_use);
     const auto robust = fit_robust_model(terms, used, problem.origin(), priors);
     if (!robust)

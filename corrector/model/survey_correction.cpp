@@ -45,9 +45,6 @@ Chosen choose_and_fit(const SurveyProblem& problem, const RowChoice& rows) {
     const SurveyOptions& options = problem.options;
     if (options.model != kAutomatic) {
         chosen.model = find_model(options.model);
-        if (chosen.model == nullptr)
-            throw InputError(fmt::format("model = {}: unknown; allowed: {}", options.model,
-                                         text::joined(model_names())));
         chosen.fit = chosen.model->fit(problem, rows);
         return chosen;
     }
@@ -78,6 +75,9 @@ void add_left_out(SurveyCorrection& result, const std::vector<LeftOut>& occupati
 
 SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const SurveyOptions& options,
                                 const DayRecord* day) {
+    if (options.model != kAutomatic && find_model(options.model) == nullptr)
+        throw InputError(fmt::format("model = {}: unknown; allowed: {}", options.model,
+                                     text::joined(model_names())));
     if (rows.empty()) throw InputError("no occupations; allowed: at least two with a reference");
     SurveyOptions applied = options;
     if (applied.base.empty()) applied.base = rows.front().site;

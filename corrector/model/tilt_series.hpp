@@ -34,8 +34,7 @@ struct TiltSeries {
 /// and b the biases.  This is repeated three times with the biases found before, so that no
 /// small-angle approximation remains.  b_z is the mean reading minus gravity of the site; without a
 /// known gravity standard gravity (980665 mGal) is taken, whose error is even in the tilt and does
-/// not matter.  Flagged and excluded set-ups are not used, except that the mean reading contains
-/// them.
+/// not matter.  Flagged and excluded set-ups are not used.
 ///
 /// The covariance contains the scatter of set-ups, flicker and the effect of the temperature.  With
 /// a scatter of 1.2 mGal and four set-ups at 2 degrees, the standard error is 17 mGal/g within 40 %

@@ -227,23 +227,26 @@ std::vector<StationValue> station_values(const std::vector<CorrectedRow>& rows, 
     return stations;
 }
 
+std::optional<std::string> refusal_of(const SurveyProblem& problem, const RowChoice& choice) {
+    auto refusal = day_refusal(problem.rows, choice.in_use, problem.day,
+                               helps_to_correct_day(problem.options.calibration));
+    if (!refusal && std::ranges::any_of(problem.options.priors.values,
+                                        [](const auto& prior) { return prior.has_value(); }))
+        refusal = "uses its own priors, `prior` would be ignored";
+    return refusal;
+}
+
 std::optional<ModelScore> score_day(const SurveyProblem& problem, const RowChoice& choice) {
-    if (count_of(choice.in_use) < kFewestRows) return std::nullopt;
+    if (refusal_of(problem, choice)) return std::nullopt;
     return score_of(
         problem.rows, choice.in_use,
         fit_with_and_without(problem, choice, day_priors_of(problem.options.calibration)));
 }
 
 FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
+    if (const auto refusal = refusal_of(problem, choice)) return Refusal{*refusal, "another model"};
     const std::vector<SurveyRow>& rows = problem.rows;
     const SurveyOptions& options = problem.options;
-    auto refusal =
-        day_refusal(rows, choice.in_use, problem.day, helps_to_correct_day(options.calibration));
-    if (!refusal && std::ranges::any_of(options.priors.values,
-                                        [](const auto& prior) { return prior.has_value(); }))
-        refusal = "uses its own priors, `prior` would be ignored";
-    if (refusal) return Refusal{*refusal, "another model"};
-
     const DayRecord& day = *problem.day;
     const DayFits fits = fit_with_and_without(problem, choice, day_priors_of(options.calibration));
     ModelFit result;

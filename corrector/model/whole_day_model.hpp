@@ -3,7 +3,7 @@
 /// The whole-day model (corrector/whole_day) as a model of a survey.
 ///
 /// Use it for surveys with records; `auto` takes it whenever it can.  With averages only, use a
-/// linear model.  The formula is in day_model.hpp, where t, t0 and T0 are explained.
+/// linear model.  The formula is in day_model.hpp.
 
 #include <optional>
 #include <string>
@@ -54,8 +54,7 @@ namespace a351::corrector {
 ///
 /// It refuses as day_refusal(), and if the options have priors, which it would ignore.
 ///
-/// score() does not check the record: call it only for a day that day_refusal() accepts.  It is
-/// nullopt for fewer than six rows in use, also with a calibration.
+/// score() is nullopt where it refuses.
 ///
 /// Cost: one search for the most likely noise and lags for each held station, on all cores, and one
 /// for all rows; twice as much with a calibration.

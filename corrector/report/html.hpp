@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "corrector/figure/drawing.hpp"
-#include "corrector/result/column.hpp"
+#include "corrector/result/table.hpp"
 #include "protocol/text/write_together.hpp"
 
 namespace a351::corrector {

@@ -86,7 +86,7 @@ std::string stations_table(const std::vector<JointDay>& days,
                                        (value->is_flagged_only ? " *" : ""));
         }
     }
-    return html_table(table);
+    return html_table(table.alignment, table.headings, table.rows);
 }
 
 std::string scatter_sentence(const std::vector<SurveyCorrection>& results) {

@@ -39,7 +39,7 @@ namespace a351::corrector {
 
 /// Returns warnings, settings, and inputs with their checksums.
 /// @param settings  object; a value that is not a string is shown as JSON.  The key `warnings` is
-///                  passed over, and the program with its version is added.
+///                  skipped, and the program with its version is added.
 /// @param inputs    shown with role, name, size in bytes and CRC-32 in hexadecimal digits.
 /// @param warnings  one item each; "None." if there are none.
 [[nodiscard]] std::string provenance_html(const nlohmann::ordered_json& settings,

@@ -28,6 +28,7 @@
 #include <variant>
 #include <vector>
 
+#include "corrector/result/table.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 
@@ -95,16 +96,6 @@ struct Column {
     Shown shown = {};
 };
 
-/// A table for people, with texts that are ready to be shown.
-///
-/// Invariant: `alignment`, `headings` and every row have the same length.  Whoever adds a column by
-/// hand must extend all three.
-struct Table {
-    std::string alignment;                       ///< One letter per column, as in Shown.
-    std::vector<std::string> headings;           ///< One per column.
-    std::vector<std::vector<std::string>> rows;  ///< One text per column each.
-};
-
 /// Returns a cell as CSV: numbers with six decimals, true and false as 1 and 0, instants in RFC
 /// 3339 to the millisecond, empty without a value.
 ///
@@ -148,7 +139,7 @@ template <class Row>
 }
 
 /// Returns the columns with these keys, in the order of the keys.  Keys that the table lacks are
-/// passed over, so that one list of keys serves tables with optional columns.  A key that is given
+/// skipped, so that one list of keys serves tables with optional columns.  A key that is given
 /// twice gives its column twice.
 template <class Row>
 [[nodiscard]] std::vector<Column<Row>> with_keys(const std::vector<Column<Row>>& columns,
@@ -196,12 +187,6 @@ template <class Row>
     for (const Row& row : rows) table.rows.push_back(shown_row(columns, row));
     return table;
 }
-
-/// Returns a table as lines of text, the headings first.
-///
-/// The first column is aligned left and the others right.  `alignment` has no effect here; it is
-/// for HTML.  Letters outside ASCII shift the columns after them (text::aligned()).
-[[nodiscard]] std::string aligned_text(const Table& table);
 
 /// Returns an object with a member for each column, also for cells without a value.  The members
 /// keep the order of the columns.

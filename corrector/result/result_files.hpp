@@ -31,7 +31,7 @@ namespace a351::corrector {
 /// that of the applied model on the rows of its fit.
 [[nodiscard]] std::string models_csv(const SurveyCorrection& result);
 
-/// Returns the content of result.json: UTF-8, indented by two blanks, with a line end behind.
+/// Returns the content of result.json: UTF-8, indented by two blanks, with a line end.
 ///
 /// Numbers that are not finite become null.  Bytes of a name that are not UTF-8 become U+FFFD.
 /// There is no time of the run in it, so that a repetition can be compared byte by byte.

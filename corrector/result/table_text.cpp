@@ -153,9 +153,10 @@ Table models_table(const SurveyCorrection& result) {
 
 std::string survey_text(const SurveyCorrection& result) {
     std::string text = occupations_text(result) + '\n' + aligned_text(stations_table(result)) +
-                       '\n' + aligned_text(models_table(result)) + '\n' + summary_text(result) +
-                       coefficients_text(result) + network_text(result) + weights_text(result) +
-                       doubts_text(result);
+                       '\n' + aligned_text(models_table(result)) +
+                       "LOO: leave-one-out. LOSO: leave-one-station-out.\n\n" +
+                       summary_text(result) + coefficients_text(result) + network_text(result) +
+                       weights_text(result) + doubts_text(result);
     for (const std::string& remark : result.remarks) text += remark + '\n';
     return text;
 }

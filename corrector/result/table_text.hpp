@@ -60,7 +60,7 @@ struct ScoreRow {
 /// Returns aligned tables of occupations, stations and models.  Each root mean square is marked as
 /// in sample or cross-validated (result_files_test.cpp).
 ///
-/// Behind the tables are a summary of the applied model, its coefficients, the network's test, the
+/// A summary of the applied model follows the tables, then its coefficients, the network's test, the
 /// weights of the robust fit, the doubtful rows and the remarks.  Parts that the model does not
 /// have are absent.  Each line ends with LF.
 /// @param result  at least one row; order as for in_order_of_time().

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -52,8 +51,8 @@ std::string named(const auto& occupation) {
 
 Occupations::Occupations(Recorder& recorder, std::vector<text::Site> sites,
                          const std::vector<record::Event>& events, const OccupationOptions& options)
-    : recorder_(recorder), options_(options), sites_(std::move(sites)) {
-    for (const record::Event& event : events) follow(event);
+    : recorder_(recorder), options_(options), sites_(std::move(sites)), replay_(events) {
+    for (const record::Event& event : events) note_aside(event);
 }
 
 Occupations::Placed Occupations::place(std::optional<UtcTime> at) {
@@ -208,12 +207,13 @@ Outcome Occupations::commit(record::Event event, std::string message) {
     } catch (const std::system_error& error) {
         return {Outcome::Kind::failed, std::string("not saved: ") + error.what()};
     }
-    follow(event);
+    replay_.take(event);
+    note_aside(event);
     return {Outcome::Kind::done, std::move(message)};
 }
 
-void Occupations::follow(const record::Event& event) {
-    replay_.take(event);
+/// Notes what does not concern occupations.
+void Occupations::note_aside(const record::Event& event) {
     last_event_ = event.utc;
     if (event.type != "target") return;
     if (const auto target = target_of(event)) target_ = target;

@@ -90,7 +90,7 @@ private:
     [[nodiscard]] std::optional<std::string> trouble_with_site(std::string_view site) const;
     [[nodiscard]] record::Event about_now(std::string type);
     Outcome commit(record::Event event, std::string message);
-    void follow(const record::Event& event);
+    void note_aside(const record::Event& event);
 
     Recorder& recorder_;
     OccupationOptions options_;

@@ -15,13 +15,13 @@ struct Slope {
     double error_mgal_per_h = 0.0;  ///< Standard error.
 };
 
-/// The slope b of the reading without the oven's cycle, at one place: a, b, c, d are fitted by least
-/// squares to the means of the last 40 whole minutes (or `history_min`, if that is more),
+/// The slope b of the reading without the oven's cycle, at one place: a, b, c, d are fitted by
+/// least squares to the means of the last 40 whole minutes (or `history_min`, if that is more),
 ///
 ///     a + b t + c cos(w t) + d sin(w t),   w = 2 pi / cycle_s
 ///
-/// The reading is in mGal, t in h, b in mGal/h.  The standard error of b assumes correlated residuals:
-/// first-order autoregressive.  A minute with too few values is skipped.
+/// The reading is in mGal, t in h, b in mGal/h.  The standard error of b assumes correlated
+/// residuals: first-order autoregressive.  A minute with too few values is skipped.
 class ReadingSlope {
 public:
     explicit ReadingSlope(const VerdictOptions& options) : options_(options) {}

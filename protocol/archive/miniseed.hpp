@@ -99,7 +99,7 @@ struct DecodedRecord {
 ///
 /// Most offsets are refused by a look at the header, so the cost is O(bytes) also for damaged
 /// files.
-/// @param channel  channel code; records of other channels are passed over.
+/// @param channel  channel code; records of other channels are skipped.
 /// @param at  where to begin; afterwards the end of the record, or of the bytes if there is none.
 [[nodiscard]] std::optional<DecodedRecord> next_record(std::span<const std::byte> bytes,
                                                        const std::string& channel, std::size_t& at);

@@ -1,6 +1,7 @@
 #include "protocol/events/occupations.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace a351::record {
@@ -24,6 +25,11 @@ void add_note(std::string& notes, const Event& event) {
 }  // namespace
 
 void OccupationReplay::take(const Event& event) {
+    apply(event);
+    renumber();
+}
+
+void OccupationReplay::apply(const Event& event) {
     if (event.type == "start") start(event);
     if (event.type == "rename") rename(event);
     if (event.type == "discard") discard();
@@ -32,7 +38,6 @@ void OccupationReplay::take(const Event& event) {
         if (event.type == "note" || event.type == "stop") add_note(running_->note, event);
         if (event.type == "stop") end_running(event.utc, true);
     }
-    renumber();
 }
 
 void OccupationReplay::start(const Event& event) {

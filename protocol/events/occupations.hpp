@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// The rules that make occupations of events.  Daemon and corrector use this one replay, so that
-/// field and evening agree.
+/// The rules that make occupations of events.  Daemon and corrector use this one replay, so the
+/// page and the later correction show the same occupations.
 ///
 /// An occupation is a stay at a benchmark; a set-up is the part of it in which the sensor was not
 /// lifted.  The log keeps every event; only the replay says which of them still count.
@@ -13,7 +13,6 @@
 /// Nothing here reads a file or a clock.  Equal events give equal occupations.
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -81,7 +80,8 @@ public:
     OccupationReplay() = default;
     /// @param events  in the order in which they were logged.
     explicit OccupationReplay(const std::vector<Event>& events) {
-        for (const Event& event : events) take(event);
+        for (const Event& event : events) apply(event);
+        renumber();
     }
 
     /// Applies the next event in the order of the log.  A missing detail counts as empty text.
@@ -100,6 +100,7 @@ public:
     }
 
 private:
+    void apply(const Event& event);
     void start(const Event& event);
     void end_running(UtcTime end, bool is_stopped);
     void rename(const Event& event);

@@ -62,6 +62,7 @@ std::vector<double> ThermalEffect::of(const TimeSeries<DegC>& series, double zer
     const std::vector<double> behind_fast = lagged(series, fast_lag_s),
                               behind_slow = lagged(series, slow_lag_s);
     std::vector<double> effect(t.size());
+    // The fast rate is written out, because the order of rounding decides the last bits of results.
     for (std::size_t i = 0; i < t.size(); ++i)
         effect[i] = level * (t[i] - zero_degc) + slow * (behind_slow[i] - zero_degc) +
                     fast * kSecondsPerHour * (t[i] - behind_fast[i]) / fast_lag_s;

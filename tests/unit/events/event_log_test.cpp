@@ -6,6 +6,7 @@
 #include "tests/support/file_bytes.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/events/made_up_events.hpp"
+#include "tests/unit/files/forwarding_files.hpp"
 
 namespace a351::record {
 
@@ -91,6 +92,19 @@ TEST_CASE("a line torn at any byte is reported and does not damage the next one"
         REQUIRE(log.damage.size() == (is_torn ? 1 : 0));
         if (is_torn) CHECK(log.damage[0].line == 2);
     }
+}
+
+TEST_CASE("each event syncs the directory, because an earlier program may have been killed before",
+          "[record][event_log]") {
+    struct CountingFiles : test::ForwardingFiles {
+        void sync_directory(const std::filesystem::path&) override { ++syncs; }
+        int syncs = 0;
+    };
+    const test::TemporaryDirectory directory;
+    CountingFiles files;
+    append_event(files, directory.path(), start("09:00", "No.1"));
+    append_event(files, directory.path(), stop("09:10"));
+    CHECK(files.syncs == 2);
 }
 
 }  // namespace a351::record

@@ -110,7 +110,7 @@ TEST_CASE("a flagged set-up is not used", "[survey][tilt_series]") {
     OccupationRows read = series(kThereAndBack);
     read.rows[3].is_flagged = true;
     for (DayBin& bin : read.day->bins)
-        if (bin.set_up == 3) bin.reading = bin.reading + MilliGal(500.0);
+        if (bin.set_up == 3) bin.reading = bin.reading + MilliGal(1e5);
     const TiltSeries found = measure_axis_bias(read, "tilt");
     CHECK(found.set_ups == 11);
     CHECK(found.bias.values(1) == Approx(kBiases_mgal(1)).margin(2.0));

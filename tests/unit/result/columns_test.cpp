@@ -63,6 +63,20 @@ TEST_CASE(
     CHECK(csv_text(cell(UtcTime{})) == "1970-01-01T00:00:00.000Z");
 }
 
+TEST_CASE("values of one model are in its columns, which are empty for others",
+          "[result][columns]") {
+    SurveyCorrection result = one_row();
+    result.rows.front().own = PaperRow{MilliGal(979859.533), MilliGal(0.677)};
+    const auto of_paper = json_object(occupation_columns(result), result.rows.front());
+    CHECK(of_paper["corrected1_mgal"] == 979859.533);
+    CHECK(of_paper["residual1_mgal"] == 0.677);
+    CHECK(of_paper["weight"].is_null());
+    result.rows.front().own = RobustRow{0.25};
+    const auto of_robust = json_object(occupation_columns(result), result.rows.front());
+    CHECK(of_robust["corrected1_mgal"].is_null());
+    CHECK(of_robust["weight"] == 0.25);
+}
+
 TEST_CASE("a table for people has headings, decimals, and only columns with a value",
           "[result][columns]") {
     struct Row {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include "tests/support/catch.hpp"
 
 #include "protocol/core/utc_time.hpp"
@@ -51,9 +52,16 @@ TEST_CASE("the effect of a sine has the amplitude and phase of the complex respo
 }
 
 TEST_CASE("priors of a day are the typical unit, those of a record leave it open", "[unit]") {
-    CHECK(day_prior(ThermalTerm::level).mean == kTypicalUnit.level_mgal_per_degc);
-    CHECK(day_prior(ThermalTerm::level).deviation == -kTypicalUnit.level_mgal_per_degc);
-    CHECK(std::exp(day_prior(ThermalTerm::slow_lag).mean) == Approx(kTypicalUnit.slow_lag_s));
+    for (const auto& [term, mean, deviation] :
+         {std::tuple{ThermalTerm::level, -12.0, 12.0},
+          {ThermalTerm::slow, -20.0, 20.0},
+          {ThermalTerm::fast, 11.3, 11.3},
+          {ThermalTerm::fast_lag, std::log(43.0), std::log(1.5)},
+          {ThermalTerm::slow_lag, std::log(2700.0), std::log(1.5)}}) {
+        CAPTURE(static_cast<int>(term));
+        CHECK(day_prior(term).mean == mean);
+        CHECK(day_prior(term).deviation == deviation);
+    }
     for (const auto term : {ThermalTerm::level, ThermalTerm::slow, ThermalTerm::fast,
                             ThermalTerm::fast_lag, ThermalTerm::slow_lag}) {
         CAPTURE(static_cast<int>(term));
