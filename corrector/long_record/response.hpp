@@ -29,7 +29,7 @@ struct Limits {
 
 /// The response in one band, or of one mode.
 ///
-/// Of a refused point only the period, its limits and the rms of the temperature should be used.
+/// If a point is refused, only its period, its limits and the rms of the temperature have a meaning.
 /// `refusal` and `needed` are both empty or both not (response_test.cpp).
 struct ResponsePoint {
     double period_s = 0.0;  ///< Period of the mean frequency of the temperature's power.

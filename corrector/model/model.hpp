@@ -115,7 +115,7 @@ inline constexpr std::string_view kPaper = "paper", kWholeDay = "day";
 /// The MM estimate (robust_fit.hpp) of the linear model SurveyOptions::robust_terms.
 ///
 /// A row's studentised residual is the residual divided by s sqrt(1 - h), or by s sqrt(1 + h)
-/// outside the fit, with the robust s.  A row with h >= 1 has none.  It refuses rows that do not
+/// outside the fit, with the robust s.  A row of the fit with h >= 1 has none.  It refuses rows that do not
 /// determine the coefficients.
 ///
 /// The statistical doubts come from least squares of the same terms, doubt_by_linear_fit().  The

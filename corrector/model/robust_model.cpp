@@ -44,11 +44,9 @@ FitResult fit_robust_rows(const SurveyProblem& problem, const RowChoice& choice)
     for (CorrectedRow& row : result.rows) {
         // The robust scale hardly depends on a single row, so it is used as it is.
         row.studentised_residual.reset();
-        if (row.residual && row.leverage.value() < 1.0) {
-            const double share =
-                row.is_used ? 1.0 - row.leverage.value() : 1.0 + row.leverage.value();
+        const double share = row.is_used ? 1.0 - row.leverage.value() : 1.0 + row.leverage.value();
+        if (row.residual && share > 0.0)
             row.studentised_residual = row.residual->value() / (robust->s * std::sqrt(share));
-        }
         if (row.is_used) row.own = RobustRow{robust->weights(at++)};
     }
     result.stations = average_stations(result, choice.accepted, fit, result.score.s_mgal);

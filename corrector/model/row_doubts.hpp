@@ -33,8 +33,9 @@ using Refit = std::function<std::optional<StudentisedRows>(const std::vector<Sur
 
 /// Sets doubt_statistical by a search for one bad row after another.
 ///
-/// As long as the largest |t| in use is above studentised_limit() with dof - 1, the row with this
-/// |t| is removed and the rest is fitted again.  Then rows that were not in use from the start are
+/// The row in use with the largest |t| is removed if its |t| is above studentised_limit() with
+/// dof - 1, and the rest is fitted again, until no such row is left.
+/// Then rows that were not in use from the start are
 /// tested against the last fit, with dof.  The search ends early if a fit is undetermined or has
 /// fewer than two degrees of freedom; the doubts found until then remain.  Two bad rows of equal
 /// size may hide each other; the robust fit does not have this weakness.

@@ -48,7 +48,7 @@ struct Status {
     timing::LeapSecond leap = timing::LeapSecond::none;  ///< Leap second announced by the host.
     std::optional<timing::MeasuredRate> measured_rate;
     std::optional<double> declared_rate_hz;  ///< Rate set in the configuration.
-    std::string rate_advice;                 ///< What to do about declared_rate_hz; empty: nothing.
+    std::string rate_advice;                 ///< Advice on setting declared_rate_hz; empty if none.
 
     std::string port;
     std::string link_state;  ///< searching, handshake, sampling, waiting, stopped.

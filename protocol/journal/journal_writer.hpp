@@ -7,7 +7,7 @@
 ///     JournalWriter writer(files, directory);
 ///     writer.begin_segment(header);             // Once per session.
 ///     writer.append(chunk, clock);              // Many times.
-///     writer.sync();                            // As often as data may be lost.
+///     writer.sync();                            // A crash loses what follows the last one.
 ///
 /// A chunk is safe after the sync() that follows it.  All errors of the disk are exceptions, and
 /// every call may simply be repeated after one.

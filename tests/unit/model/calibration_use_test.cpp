@@ -9,7 +9,7 @@
 
 #include "corrector/result/result_files.hpp"
 #include "protocol/core/input_error.hpp"
-#include "tests/unit/whole_day/made_up_day.hpp"
+#include "tests/unit/model/rows_of_day.hpp"
 
 using namespace a351;
 using namespace a351::corrector;
@@ -18,20 +18,15 @@ namespace {
 
 const MadeUpDay kDay{.placement_mgal = 1.2, .white_mgal = 0.2};
 
-std::vector<SurveyRow> rows_of(const DayRecord& day) {
-    std::vector<SurveyRow> rows;
-    for (std::size_t s = 0; s < MadeUpDay::kSetUps; ++s) {
-        SurveyRow row;
-        row.site = "S" + std::to_string(s % 11);
-        row.occupation = s < 11 ? 1 : 2;
-        row.time = day.bins[s * MadeUpDay::kBins + MadeUpDay::kBins / 2].time;
-        row.temperature = DegC(42.5 + 0.1 * static_cast<double>(s * s % 7));
-        row.reference = MilliGal(MadeUpDay::gravity_mgal(s));
+/// Returns the rows of the day with the means of x, and readings for a linear model.
+std::vector<SurveyRow> tilted_rows_of(const DayRecord& day) {
+    std::vector<SurveyRow> rows = rows_of(day);
+    for (std::size_t s = 0; s < rows.size(); ++s) {
+        SurveyRow& row = rows[s];
         const double x_g = day.bins[s * MadeUpDay::kBins].x.value();
         row.record.emplace().x.mean = StandardGravity(x_g);
         row.acceleration = *row.reference + MilliGal(1838.0 + kDay.x * x_g) -
                            MilliGal(30.0 * (row.temperature.value() - 42.6));
-        rows.push_back(row);
     }
     return rows;
 }
@@ -88,7 +83,7 @@ TEST_CASE("a thermal response is used with twice its errors, axis biases with th
 TEST_CASE("a day agrees with the calibration of its unit and contradicts that of another unit",
           "[survey][calibration]") {
     const DayRecord day = kDay.record();
-    const auto rows = rows_of(day);
+    const auto rows = tilted_rows_of(day);
     Calibration known = calibration();
     known.thermal = thermal(kDay);
     const auto own = correct_with_calibration(rows, with(known, "auto"), &day);
@@ -124,7 +119,7 @@ TEST_CASE("a day agrees with the calibration of its unit and contradicts that of
 TEST_CASE("a wrong calibration is contradicted however small its stated errors are",
           "[survey][calibration]") {
     const DayRecord day = kDay.record();
-    const auto rows = rows_of(day);
+    const auto rows = tilted_rows_of(day);
     for (const double variance : {221.0, 110.0, 1.0, 0.01}) {
         CAPTURE(variance);
         Calibration known = calibration(kDay.x + 5000.0);  // 10 mGal where the tilt is 0.1 deg
@@ -142,7 +137,7 @@ TEST_CASE("a calibration is not tested if the day has no information about it",
     for (DayBin& bin : day.bins) bin.x = StandardGravity(0.0);
     Calibration known = calibration();
     known.thermal = thermal(kDay);
-    const auto result = correct_with_calibration(rows_of(day), with(known, "day"), &day);
+    const auto result = correct_with_calibration(tilted_rows_of(day), with(known, "day"), &day);
     CHECK_FALSE(result.calibration->axis_bias);
     CHECK(calibration_json(result)["axis_bias"]["contradicted"].is_null());
     CHECK(calibration_json(result)["thermal"]["contradicted"] == false);
@@ -153,7 +148,7 @@ TEST_CASE("a calibration is not tested if the day has no information about it",
 TEST_CASE("with a calibration one datum is enough for the whole-day model",
           "[survey][calibration]") {
     const DayRecord day = kDay.record();
-    auto rows = rows_of(day);
+    auto rows = tilted_rows_of(day);
     for (SurveyRow& row : rows)
         if (row.site != "S0") row.reference.reset();
     SurveyOptions options = with(calibration(), "auto");
@@ -174,7 +169,7 @@ TEST_CASE("with a calibration one datum is enough for the whole-day model",
 }
 
 TEST_CASE("other models use readings that are corrected for tilt", "[survey][calibration]") {
-    const auto rows = rows_of(kDay.record());
+    const auto rows = tilted_rows_of(kDay.record());
     const auto result = correct_with_calibration(rows, with(calibration(), "t"), nullptr);
     CHECK(result.score.rms_mgal.value() < 1e-6);
     CHECK(correct_survey(rows, with(calibration(), "t")).score.rms_mgal.value() > 0.5);
@@ -198,7 +193,7 @@ TEST_CASE("other models use readings that are corrected for tilt", "[survey][cal
 
 TEST_CASE("a row without the mean of an axis is refused if a bias must be subtracted",
           "[survey][calibration]") {
-    auto rows = rows_of(kDay.record());
+    auto rows = tilted_rows_of(kDay.record());
     rows[3].record.reset();
     CHECK_THROWS_WITH(correct_with_calibration(rows, with(calibration(), "t"), nullptr),
                       "calibration: S3 (1) has no mean_x_g; allowed: rows from records");
@@ -210,7 +205,7 @@ TEST_CASE("a row without the mean of an axis is refused if a bias must be subtra
 
 TEST_CASE("models.csv shows how each score uses the calibration", "[survey][calibration]") {
     const DayRecord day = kDay.record();
-    const auto rows = rows_of(day);
+    const auto rows = tilted_rows_of(day);
     const auto uses = [&](const SurveyCorrection& result) {
         std::map<std::string, std::string> of_model;
         std::istringstream lines(models_csv(result));
@@ -232,7 +227,7 @@ TEST_CASE("models.csv shows how each score uses the calibration", "[survey][cali
 
 TEST_CASE("fitted and calibrated axis biases together give one tilt correction",
           "[survey][calibration]") {
-    auto rows = rows_of(kDay.record());
+    auto rows = tilted_rows_of(kDay.record());
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const double y_g = 0.001 * static_cast<double>(i * i % 5);
         rows[i].rate_degc_per_h = 0.01 * static_cast<double>(i * i % 3);

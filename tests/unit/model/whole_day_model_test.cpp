@@ -3,28 +3,12 @@
 #include "tests/support/catch.hpp"
 
 #include "corrector/model/survey_correction.hpp"
-#include "tests/unit/whole_day/made_up_day.hpp"
+#include "tests/unit/model/rows_of_day.hpp"
 
 using namespace a351;
 using namespace a351::corrector;
 
 namespace {
-
-/// Returns the rows of the made-up day. Set-ups 11 to 15 are at the stations of 0 to 4.
-std::vector<SurveyRow> rows_of(const DayRecord& day) {
-    std::vector<SurveyRow> rows;
-    for (std::size_t s = 0; s < MadeUpDay::kSetUps; ++s) {
-        SurveyRow row;
-        row.site = "S" + std::to_string(s % 11);
-        row.occupation = s < 11 ? 1 : 2;
-        row.time = day.bins[s * MadeUpDay::kBins + MadeUpDay::kBins / 2].time;
-        row.acceleration = day.bins[s * MadeUpDay::kBins].reading;
-        row.temperature = DegC(42.5 + 0.1 * static_cast<double>(s * s % 7));
-        row.reference = MilliGal(MadeUpDay::gravity_mgal(s));
-        rows.push_back(row);
-    }
-    return rows;
-}
 
 SurveyOptions with_model(const std::string& model) {
     SurveyOptions options;
